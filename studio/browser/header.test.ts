@@ -8,6 +8,7 @@ import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
 const SELECTION = join(import.meta.dirname, "../../examples/selection.json");
+const SLOW = join(import.meta.dirname, "python", "slow.py");
 const WIDTHS = [1280, 900, 640, 390];
 let studio: Studio;
 let observer: Observer;
@@ -70,7 +71,7 @@ test("no control of the header overlaps another one at any width, paused or runn
 test("while it compiles the page shows the step, the phase and the time", async () => {
   const selection = JSON.parse(readFileSync(SELECTION, "utf8")) as object;
   const { page, stop, observe } = await startStudio({
-    files: { "slow.py": SLOW, "coarse.json": JSON.stringify({ ...selection, dt: 4 }) },
+    files: { "slow.py": readFileSync(SLOW, "utf8"), "coarse.json": JSON.stringify({ ...selection, dt: 4 }) },
     imports: ["slow"],
   });
   onTestFinished(stop);
@@ -95,19 +96,3 @@ test("while it compiles the page shows the step, the phase and the time", async 
   await second.ask({ type: "open_file", path: "coarse.json" });
   await second.until(() => (second.clock?.compiling?.expected ?? 0) > 3);
 });
-
-/** A module that makes planning slow, and lets every program be compiled. */
-const SLOW = `
-import os
-import time
-import deodar.session.session as s
-
-os.environ["DEODAR_CACHE"] = "off"
-before = s.Session.__init__
-
-def slow(self, *args, **kwargs):
-    time.sleep(4)
-    before(self, *args, **kwargs)
-
-s.Session.__init__ = slow
-`;

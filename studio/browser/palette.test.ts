@@ -1,20 +1,11 @@
-import { execFileSync } from "node:child_process";
-
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
 import { box, button, file, openEmpty, panel, showEverything } from "./hands";
 import type { Observer } from "./observer";
-import { python } from "./server";
+import { runScript } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
-
-/** Prints the titles of the registered kinds; worlds are no part of a document. */
-const TITLES = `
-import json
-from deodar.kinds.description import descriptions
-print(json.dumps([kind.title for kind in descriptions() if kind.room != "worlds"]))
-`;
 
 let studio: Studio;
 let observer: Observer;
@@ -166,7 +157,7 @@ test("the list of elements is a panel: a line is dragged to the canvas, or click
 
 test("the palette lists every registered kind, each with a sketch", async () => {
   const { page } = studio;
-  const registered = JSON.parse(execFileSync(python(), ["-c", TITLES], { encoding: "utf8" })) as string[];
+  const registered = JSON.parse(runScript("kind_titles")) as string[];
   await page.keyboard.press("/");
   await option("Gaussian stimulus").waitFor();
   const lines = await palette()

@@ -17,7 +17,7 @@ export default async function setup(): Promise<(() => void) | undefined> {
 
   const folder = mkdtempSync(join(tmpdir(), "deodar-forking-"));
   const path = join(folder, "socket");
-  const child = spawn(python(), [join(import.meta.dirname, "forking.py"), path], {
+  const child = spawn(python(), [join(import.meta.dirname, "python", "forking.py"), path], {
     stdio: ["pipe", "inherit", "inherit"],
     env: { ...process.env, PYTHONUNBUFFERED: "1" },
   });

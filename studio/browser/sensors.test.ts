@@ -1,4 +1,3 @@
-import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -7,7 +6,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { obstacles } from "./axe";
 import { button, drop, openExample, png } from "./hands";
 import type { Observer } from "./observer";
-import { python } from "./server";
+import { runScript } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
 
 let studio: Studio;
@@ -55,26 +54,9 @@ test("a picture below the folder can be chosen in the header, with a preview", a
   expect(observer.time).toBeGreaterThanOrEqual(before);
 });
 
-// A video that is green, and a record of a run whose sensor saw blue.
-const MADE = `
-import cv2
-import numpy as np
-import deodar as dd
-from deodar.recording import files
-
-writer = cv2.VideoWriter("green.avi", cv2.VideoWriter_fourcc(*"MJPG"), 10.0, (40, 40))
-for _ in range(20):
-    writer.write(np.full((40, 40, 3), (0, 255, 0), np.uint8))
-writer.release()
-blue = dd.Picture(np.full((40, 40, 3), (0, 0, 255), np.uint8))
-model = dd.load("saliency.json")
-run = dd.simulate(model, 40_000, record=["eye.output"], every=1000, world=blue, progress=False)
-files.save_record(run, "seen.zarr")
-`;
-
 test("a video and a record of another run are chosen in the header as what the sensor reads", async () => {
   const { page, folder } = studio;
-  execFileSync(python(), ["-c", MADE], { cwd: folder, stdio: "pipe" });
+  runScript("sensor_files", folder);
   const dialog = page.getByRole("dialog");
   const use = async (now: string, kind: string, file: string) => {
     await button(page, `World: ${now}; choose another one`).click();

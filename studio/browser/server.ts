@@ -1,5 +1,5 @@
 /** `deodar studio` in folders of its own, as a user starts it. */
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { connect } from "node:net";
 import { join } from "node:path";
@@ -38,6 +38,12 @@ export function python(): string {
       "No .venv with deodar was found. Type `make test`, or set DEODAR_PYTHON to a Python that has deodar.",
     );
   return found;
+}
+
+/** Run `browser/python/NAME.py` in a folder, and return what it prints. */
+export function runScript(name: string, folder?: string): string {
+  const script = join(import.meta.dirname, "python", `${name}.py`);
+  return execFileSync(python(), [script], { cwd: folder, encoding: "utf8", stdio: "pipe" });
 }
 
 interface Child {

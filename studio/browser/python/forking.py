@@ -13,8 +13,8 @@ import signal
 import socket
 import sys
 
-import deodar_studio.commands.studio
-import deodar_studio.web.serve  # noqa: F401
+import deodar_studio.commands.studio  # pyright: ignore[reportUnusedImport]
+import deodar_studio.web.serve  # noqa: F401  # pyright: ignore[reportUnusedImport]
 from deodar.cli import main
 
 
