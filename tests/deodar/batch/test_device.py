@@ -16,6 +16,7 @@ from deodar.compiler import cache, device
 from deodar.errors import DeviceError
 from deodar.recording.record import about
 from deodar.recording.repeat import repeat
+from tests import host_devices
 
 
 def model() -> dd.Model:
@@ -50,7 +51,7 @@ print("good")
 
 def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     """In a process whose CPU counts as two devices; the second run loads the programs from the disk."""
-    monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=2")
+    monkeypatch.setenv("XLA_FLAGS", host_devices.flags(2))
     for _ in range(2):
         done = subprocess.run([sys.executable, "-c", SECOND], capture_output=True, text=True, timeout=600)
         assert done.stdout == "good\n", done.stderr
@@ -121,7 +122,7 @@ print("good")
 
 def test_copies_are_divided_among_devices_without_traffic(monkeypatch: pytest.MonkeyPatch) -> None:
     """On 8 devices of the CPU a copy has the bits that it has in a batch of the size of one part."""
-    monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=8")
+    monkeypatch.setenv("XLA_FLAGS", host_devices.flags(8))
     done = subprocess.run([sys.executable, "-c", DIVIDED], capture_output=True, text=True, timeout=600)
     assert done.stdout == "good\n", done.stderr
 
@@ -153,7 +154,7 @@ print("good")
 
 
 def test_a_divided_run_is_resumed_and_repeated(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=4")
+    monkeypatch.setenv("XLA_FLAGS", host_devices.flags(4))
     command = [sys.executable, "-c", INTERRUPTED, str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.stdout == "good\n", done.stderr
@@ -203,7 +204,7 @@ print("good")
 
 def test_values_outside_of_programs_are_computed_on_the_cpu(monkeypatch: pytest.MonkeyPatch) -> None:
     """Also where JAX would compute elsewhere by default, as it does with a graphics processor."""
-    monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=2")
+    monkeypatch.setenv("XLA_FLAGS", host_devices.flags(2))
     done = subprocess.run([sys.executable, "-c", ELSEWHERE], capture_output=True, text=True, timeout=600)
     assert done.stdout == "good\n", done.stderr
 

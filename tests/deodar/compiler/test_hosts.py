@@ -24,11 +24,11 @@ from deodar.compiler import host_link, hosts
 from deodar.compiler.host_link import HostLinks, meet
 from deodar.errors import HostsError, ParameterError, UnknownName
 from deodar.recording.record import about
+from tests import host_devices
 
 LIMIT = 300.0
 """Seconds after which a process of a test is ended."""
 
-FLAG = "--xla_force_host_platform_device_count="
 
 VALUES = """
 import sys, numpy as np, deodar as dd
@@ -200,7 +200,7 @@ def started(
     script: str, host: int, devices: int, *arguments: str, **environment: str
 ) -> subprocess.Popen[str]:
     """Start a script as one host."""
-    environment = {**os.environ, "XLA_FLAGS": f"{FLAG}{devices}", "NPROC": "1", **environment}
+    environment = {**os.environ, "XLA_FLAGS": host_devices.flags(devices), "NPROC": "1", **environment}
     command = [sys.executable, "-c", script, str(host), *arguments]
     return subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment

@@ -13,8 +13,7 @@ from deodar.compiler.plan import plan
 from deodar.compiler.shard import planned
 from deodar.compiler.traffic import collectives
 from deodar.errors import DeviceError
-
-FLAG = "--xla_force_host_platform_device_count=8"
+from tests import host_devices
 
 
 def volume(samples: int = 32, **given: object) -> dd.Model:
@@ -204,7 +203,7 @@ print("good")
 def test_a_field_over_eight_devices_is_that_of_one(
     script: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("XLA_FLAGS", FLAG)
+    monkeypatch.setenv("XLA_FLAGS", host_devices.flags(8))
     command = [sys.executable, "-c", script, str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.stdout == "good\n", done.stderr
