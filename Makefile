@@ -6,53 +6,46 @@ ifeq ($(OS),Windows_NT)
   BIN := .venv/Scripts
 endif
 
-# files over two processes, in the order that tests/conftest.py gives them
-SPREAD := -n 2 --dist loadfile --no-loadscope-reorder
-
-# what `make whole` runs and `make test` leaves out: tests that cost much time
-LONG := yes
-ifeq ($(LONG),no)
-  SHORT := and not long
-endif
-
-.PHONY: demo test test-core whole quick optimised browser fast lint types studio page docs generate bench native lowest lock audit clean
+.PHONY: demo test whole rest verdict others test-core fast smoke browser lint types page studio docs generate bench native lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
 
+# the verdict that one waits for: the longest first, what waits for a browser beside it
 test: .venv/installed-test
-	$(MAKE) LONG=no whole
+	$(MAKE) -j 3 types verdict lint page smoke
 
-# everything
-whole: .venv/installed-test
-	$(MAKE) -j 2 lint types page
-	VITEST_MAX_WORKERS=1 $(MAKE) -j 2 quick browser
-	$(MAKE) optimised
+# everything, nothing twice
+whole:
+	$(MAKE) test
+	$(MAKE) rest
 
-# tests whose programs are compiled in a quicker way than deodar does, and those that need optimised programs; those
-# of the engine with the packages beside it hidden
-REST := tests --ignore tests/deodar
+rest: .venv/installed-test
+	VITEST_MAX_WORKERS=1 $(MAKE) -j 2 others browser
 
-quick: .venv/installed-test
-	$(BIN)/python tools/engine_alone.py $(SPREAD) --durations 20 -m "not default_program $(SHORT)"
-	$(BIN)/python -m pytest $(SPREAD) --durations 20 -m "not default_program $(SHORT)" $(REST)
+# the tests that notice most for their time, chosen by tests/verdict.py
+verdict: .venv/installed-test
+	$(BIN)/python tools/suite.py verdict
 
-optimised: .venv/installed-test
-	$(BIN)/python tools/engine_alone.py $(SPREAD) --durations 10 -m "default_program $(SHORT)" --default-programs
-	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m "default_program $(SHORT)" --default-programs $(REST)
+# all others
+others: .venv/installed-test
+	$(BIN)/python tools/suite.py rest --durations 20 --require-durations
 
-# for those who work on the engine: its tests alone, without those that take long
+# for those who work on the engine: its part of the verdict
 test-core: .venv/installed-test
-	$(BIN)/python tools/engine_alone.py $(SPREAD) -m "not default_program and not long" tests/deodar tests/contracts
+	$(BIN)/python tools/suite.py core
 
-# the page in Chromium, and in Firefox and WebKit where they are installed: tests that wait for half of their
-# time, so `make test` runs them beside others; one file at a time there, because pytest uses two cores too
+# the page in Chromium: every view once; then the other files, and the page in Firefox and WebKit where they are
+# installed. These tests wait for half of their time, so they run beside others, one file at a time there
+smoke: studio
+	$(BIN)/python studio/build.py smoke
+
 browser: studio
-	$(BIN)/python studio/build.py $(if $(SHORT),short,browser) firefox webkit
+	$(BIN)/python studio/build.py browser firefox webkit
 
 # a verdict in about a minute
 fast: .venv/installed-test
-	$(BIN)/python -m pytest $(SPREAD) -m fast
+	$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder -m fast
 
 # Python by ruff and by the limits of tools/measure.py, the page by prettier and biome
 lint: .venv/installed-test

@@ -5,8 +5,8 @@ python studio/build.py check      the types
 python studio/build.py lint       the formatting of the files (prettier), and the linter (biome)
 python studio/build.py format     format the files, lines of at most 110 columns (prettier)
 python studio/build.py test       the tests of the page's logic
-python studio/build.py browser    the tests in a real browser, before a running studio
-python studio/build.py short      the same without the files that take long
+python studio/build.py smoke      every view of the page once, in a real browser before a running studio
+python studio/build.py browser    the other tests in a real browser
 python studio/build.py firefox    the page in an installed Firefox, before a running studio; else a line
 python studio/build.py webkit     the same in an installed WebKit (the MiniBrowser of WebKitGTK)
 python studio/build.py bench      what the page promises about time, measured in a real browser and printed
@@ -46,6 +46,7 @@ WITHOUT_PAGE = (
 PRETTIER = "node_modules/prettier/bin/prettier.cjs"
 BIOME = "node_modules/@biomejs/biome/bin/biome"
 VITEST = "node_modules/vitest/vitest.mjs"
+SMOKE = "browser/smoke.test.ts"
 
 # The commands of each word: a script for node, and its arguments.
 TOOLS: dict[str, list[list[str]]] = {
@@ -53,8 +54,8 @@ TOOLS: dict[str, list[list[str]]] = {
     "lint": [[PRETTIER, "--check", "."], [BIOME, "lint", "--error-on-warnings", "."]],
     "format": [[PRETTIER, "--write", "."]],
     "test": [[VITEST, "run"]],
-    "browser": [[VITEST, "run", "--config", "vitest.browser.ts"]],
-    "short": [[VITEST, "run", "--config", "vitest.short.ts"]],
+    "smoke": [[VITEST, "run", "--config", "vitest.browser.ts", SMOKE]],
+    "browser": [[VITEST, "run", "--config", "vitest.browser.ts", "--exclude", SMOKE]],
     "firefox": [[VITEST, "run", "--config", "vitest.engines.ts", "firefox.engine"]],
     "webkit": [[VITEST, "run", "--config", "vitest.engines.ts", "webkit.engine"]],
     "bench": [[VITEST, "run", "--config", "vitest.bench.ts"]],
@@ -62,7 +63,7 @@ TOOLS: dict[str, list[list[str]]] = {
 }
 
 # Words whose tests depend on how fast the machine is: see `again`.
-TWICE = {"browser", "short", "firefox", "webkit"}
+TWICE = {"browser", "smoke", "firefox", "webkit"}
 
 
 @dataclass(frozen=True)

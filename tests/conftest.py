@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from tests import durations
+from tests import durations, verdict
 
 # small matrices: more threads of BLAS would only wait for each other beside other tests
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -65,8 +65,8 @@ DEFAULT_PROGRAM = (
     "tests/deodar/session/test_resolution.py",
 )
 """Tests that judge the bits of programs or compare them with stored ones, and tests that run so long that
-optimised steps save more time than their compilation takes: `make optimised` runs them with
-`--default-programs`.
+optimised steps save more time than their compilation takes: `tools/suite.py` runs them in calls of their own,
+with `--default-programs`.
 """
 
 
@@ -85,6 +85,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help=f"measure CPU seconds and write them to {durations.FILE}",
     )
+    group.addoption(
+        "--require-durations",
+        action="store_true",
+        help=f"fail if a function without a row takes more than {durations.UNMEASURED:g} s of CPU time",
+    )
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -98,8 +103,10 @@ def pytest_configure(config: pytest.Config) -> None:
     flags = os.environ.get("XLA_FLAGS", "").split()
     if not config.getoption("--default-programs"):
         os.environ["XLA_FLAGS"] = " ".join(dict.fromkeys((*flags, *QUICK_PROGRAMS)))
-    if config.getoption("--write-durations"):
-        config.pluginmanager.register(durations.Recorder(), "durations-recorder")
+    config.pluginmanager.register(durations.Meter())
+    if not hasattr(config, "workerinput"):
+        keep, required = (config.getoption(f"--{name}-durations") for name in ("write", "require"))
+        config.pluginmanager.register(durations.Durations(keep, required))
 
 
 @pytest.hookimpl(wrapper=True)
@@ -130,25 +137,16 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark tests; in a process of xdist the longest files come first, so that all processes end together."""
-    seconds = durations.seconds()
-    long = durations.long_cases((item.nodeid for item in items), seconds)
+    rows = durations.read()
+    fast = durations.fast((item.nodeid for item in items), rows)
+    chosen = verdict.chosen(rows, verdict.read(verdict.KILLS), verdict.read(verdict.FLOOR))
     for item in items:
-        if item.nodeid in long:
-            item.add_marker(pytest.mark.long)
         if item.nodeid.startswith(DEFAULT_PROGRAM):
             item.add_marker(pytest.mark.default_program)
-        elif durations.function(item.nodeid) not in seconds:
+        elif item.nodeid in fast:
             item.add_marker(pytest.mark.fast)
+        if (name := durations.function(item.nodeid)) in chosen or name not in rows:
+            item.add_marker(pytest.mark.verdict)
     if hasattr(config, "workerinput"):
-        files = durations.files(seconds)
+        files = durations.files(rows)
         items.sort(key=lambda item: -files[item.nodeid.split("::")[0]])
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    """After the fast tests, name the files whose slow tests have no row among the durations."""
-    if config.option.markexpr == "fast" and (
-        files := durations.unlisted(terminalreporter.stats.get("passed", ()))
-    ):
-        terminalreporter.write_line(
-            f"Slow tests count as fast. Type: pytest --write-durations {' '.join(files)}", yellow=True
-        )

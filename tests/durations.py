@@ -1,36 +1,42 @@
-"""CPU seconds of the slow tests, from which the markers `fast` and `long` follow.
+"""CPU seconds of every test function, from which the order of files and the markers `fast` and `verdict`
+follow.
 
-`pytest --write-durations` measures the tests that it runs, in one process, and replaces their rows in
-`durations.csv`; rows of other tests are kept. The seconds of a function are those of all its cases,
-with the processes that they start and the fixtures of a module that it uses. A test without a row is fast.
+`pytest --write-durations` measures the tests that it runs, also over several processes, and replaces their
+rows in `durations.csv`; rows of other tests stay. The seconds of a function are those of all its cases, with
+the processes that they start. What a fixture of a module takes has a row of its own, FILE::FIXTURE, and the
+functions that need it name it.
 """
 
 from __future__ import annotations
 
 import csv
-import os
-from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from os import times
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 FILE = Path(__file__).with_name("durations.csv")
-LIMIT = 0.2
-"""CPU seconds of all cases of a function above which it is slow."""
 
-CLOCK = 2.0
-"""Seconds by the clock of all cases of a function above which it is slow, also on a busy machine."""
+FAST = 0.2
+"""Most CPU seconds of a fast function, with the fixtures that it needs."""
 
-SHARE = 0.6
-"""Most CPU seconds of a function outside of the marker `long`."""
+UNMEASURED = 1.0
+"""Most CPU seconds of a function that may lack a row."""
 
-ALWAYS = (
-    "tests/deodar/experiments/test_cluster.py::test_a_killed_caller_leaves_no_process_and_is_resumed",
-    "tests/deodar/experiments/test_cluster.py::test_rows_are_the_same_while_workers_are_killed",
-)
-"""Functions that never have the marker `long`: what they test has no shorter form, and failed before."""
+SHARED = 0.05
+"""Least CPU seconds of a fixture that is listed."""
+
+
+@dataclass(frozen=True)
+class Duration:
+    """CPU seconds of a function without the fixtures that others use too, and these fixtures."""
+
+    seconds: float
+    fixtures: frozenset[str] = frozenset()
 
 
 def function(nodeid: str) -> str:
@@ -38,103 +44,162 @@ def function(nodeid: str) -> str:
     return nodeid.split("[", 1)[0]
 
 
-def seconds(file: Path = FILE) -> dict[str, float]:
-    """Return the CPU seconds of each test function known to be slow."""
+def read(file: Path = FILE) -> dict[str, Duration]:
+    """Return the duration of each function and of each fixture."""
     with file.open(encoding="utf-8", newline="") as text:
-        return {row["test"]: float(row["seconds"]) for row in csv.DictReader(text)}
+        return {
+            row["test"]: Duration(float(row["seconds"]), frozenset(row["fixtures"].split()))
+            for row in csv.DictReader(text)
+        }
 
 
-def files(rows: dict[str, float]) -> Counter[str]:
-    """Return the CPU seconds of the slow test functions of each file."""
-    out: Counter[str] = Counter()
-    for test, s in rows.items():
-        out[test.split("::")[0]] += s
-    return out
-
-
-def long_cases(cases: Iterable[str], rows: dict[str, float]) -> set[str]:
-    """Return the cases that have the marker `long`.
-
-    Of a function with more than `SHARE` CPU seconds as many cases lack it as take `SHARE` together, at
-    regular distances; none where a single case takes longer. Functions of `ALWAYS` are left out.
-    """
-    of: dict[str, list[str]] = {}
-    for case in cases:
-        of.setdefault(function(case), []).append(case)
-    out: set[str] = set()
-    for name, members in of.items():
-        if name in ALWAYS:
-            continue
-        share = SHARE / max(rows.get(name, 0.0), SHARE)
-        out |= {case for i, case in enumerate(members) if int((i + 1) * share) == int(i * share)}
-    return out
-
-
-def unlisted(reports: Iterable[pytest.TestReport]) -> list[str]:
-    """Return the files of test functions that counted as fast and took longer than `CLOCK`."""
-    taken: Counter[str] = Counter()
-    for report in reports:
-        taken[function(report.nodeid)] += report.duration
-    return sorted({test.split("::")[0] for test, s in taken.items() if s > CLOCK})
-
-
-def exists(test: str) -> bool:
-    """Return whether the file of a test function still defines it."""
-    path, _, name = test.partition("::")
-    file = FILE.parents[1] / path
-    return file.exists() and f"def {name.split('::')[-1]}(" in file.read_text(encoding="utf-8")
-
-
-def write(measured: dict[str, float], file: Path = FILE) -> None:
-    """Replace the rows of the functions that were measured; rows of missing functions are dropped."""
-    kept = {test: s for test, s in seconds(file).items() if exists(test) and test not in measured}
-    rows = kept | {test: s for test, s in measured.items() if s > LIMIT}
+def write(rows: Mapping[str, Duration], file: Path = FILE) -> None:
+    """Add rows to a file or replace them there; rows of functions and fixtures that are gone are left out."""
+    rows = {name: row for name, row in read(file).items() if exists(name)} | dict(rows)
+    used = {fixture for row in rows.values() for fixture in row.fixtures}
     with file.open("w", encoding="utf-8", newline="") as text:
         out = csv.writer(text, lineterminator="\n")
-        out.writerow(("test", "seconds"))
-        out.writerows((test, f"{rows[test]:.1f}") for test in sorted(rows))
+        out.writerow(("test", "seconds", "fixtures"))
+        for name in sorted(rows):
+            if is_function(name) or name in used:
+                out.writerow((name, f"{rows[name].seconds:.2f}", " ".join(sorted(rows[name].fixtures))))
 
 
-class Recorder:
-    """Measure the CPU seconds of this process and of those that ended in it, test by test.
+def is_function(name: str) -> bool:
+    """Return whether a row is that of a function, not of a fixture."""
+    return name.rpartition("::")[2].startswith("test")
 
-    What a fixture of a module takes counts for every function that uses it: without the others, each would
-    have to pay it.
+
+def exists(name: str) -> bool:
+    """Return whether the file of a function or fixture still defines it, or a fixture of all tests has it."""
+    path, _, last = name.partition("::")
+    file = FILE.parents[1] / path
+    return file.exists() and (
+        not is_function(name) or f"def {last.split('::')[-1]}(" in file.read_text(encoding="utf-8")
+    )
+
+
+def total(name: str, rows: Mapping[str, Duration]) -> float:
+    """Return the CPU seconds of a function alone: with every fixture that it needs; 0 without a row."""
+    row = rows.get(name, Duration(0.0))
+    return row.seconds + sum(rows[fixture].seconds for fixture in row.fixtures if fixture in rows)
+
+
+def files(rows: Mapping[str, Duration]) -> Counter[str]:
+    """Return the CPU seconds of each file."""
+    out: Counter[str] = Counter()
+    for name, row in rows.items():
+        out[name.split("::")[0]] += row.seconds
+    return out
+
+
+def units(rows: Mapping[str, Duration]) -> list[frozenset[str]]:
+    """Return the functions in groups that share fixtures, with these fixtures: a group costs their sum."""
+    of: dict[str, set[str]] = defaultdict(set)
+    for name, row in rows.items():
+        group = {name}.union(row.fixtures, *(of[member] for member in (name, *row.fixtures)))
+        for member in group:
+            of[member] = group
+    return [frozenset(group) for group in {id(group): group for group in of.values()}.values()]
+
+
+class Meter:
+    """Measure CPU seconds of this process and of those that ended in it, and attach them to reports.
+
+    The report of the end of a case has `cpu`, the seconds of the case; that of a fixture of a module or of
+    the session is taken out of the case, and listed in `shared` by the first case that needs it.
     """
 
     def __init__(self) -> None:
-        self.seconds: Counter[str] = Counter()
-        self._shared: dict[tuple[str, str], float] = {}
-        self._paid: set[tuple[str, tuple[str, str]]] = set()
-        self._inside = 0.0
+        self._began = self._inside = 0.0
+        self._made: dict[str, float] = {}
+        self._names: dict[int, str] = {}
 
-    @pytest.hookimpl(wrapper=True, tryfirst=True)
-    def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
-        before, self._inside = sum(os.times()[:4]), 0.0
-        result = yield
-        name = function(item.nodeid)
-        self.seconds[name] += sum(os.times()[:4]) - before - self._inside
-        for fixture in getattr(item, "fixturenames", ()):
-            key = (item.nodeid.split("::")[0], fixture)
-            if key in self._shared and (name, key) not in self._paid:
-                self._paid.add((name, key))
-                self.seconds[name] += self._shared[key]
-        return result  # type: ignore[return-value]
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_logstart(self) -> None:
+        self._began, self._inside, self._made = _clock(), 0.0, {}
 
     @pytest.hookimpl(wrapper=True)
     def pytest_fixture_setup(
         self, fixturedef: pytest.FixtureDef[Any], request: pytest.FixtureRequest
     ) -> Iterator[None]:
-        if fixturedef.scope not in ("module", "class"):
+        if fixturedef.scope == "function":
             return (yield)  # type: ignore[return-value]
-        before, outer = sum(os.times()[:4]), self._inside
+        before, outer = _clock(), self._inside
         result = yield
-        taken = sum(os.times()[:4]) - before
-        key = (request.node.nodeid.split("::")[0], fixturedef.argname)
-        # a fixture that another one needs is among the names of the test, and counts by itself
-        self._shared[key] = self._shared.get(key, 0.0) + taken - (self._inside - outer)
+        taken = _clock() - before
+        # a fixture that another one needs counts by itself
+        name = f"{request.node.nodeid.split('::')[0] or 'tests/conftest.py'}::{fixturedef.argname}"
+        self._names[id(fixturedef)] = name
+        self._made[name] = self._made.get(name, 0.0) + taken - (self._inside - outer)
         self._inside = outer + taken
         return result  # type: ignore[return-value]
 
-    def pytest_sessionfinish(self) -> None:
-        write(dict(self.seconds))
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_teardown(self, item: pytest.Item) -> Iterator[None]:
+        yield
+        defined = getattr(item, "_fixtureinfo", None)
+        needed = {} if defined is None else defined.name2fixturedefs
+        names = {self._names[id(d)] for found in needed.values() for d in found if id(d) in self._names}
+        item.user_properties.append(("needs", sorted(names)))
+        item.user_properties.append(("shared", self._made))
+        item.user_properties.append(("cpu", _clock() - self._began - self._inside))
+
+
+class Durations:
+    """Collect what a `Meter` attached to reports, here or in other processes."""
+
+    def __init__(self, keep: bool, required: bool) -> None:
+        self.keep, self.required = keep, required
+        self.seconds: Counter[str] = Counter()
+        self.shared: dict[str, Counter[str]] = defaultdict(Counter)
+        """Seconds of each fixture in each process, which makes its own."""
+        self.needs: dict[str, set[str]] = defaultdict(set)
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.when != "teardown":
+            return
+        name, told = function(report.nodeid), dict(report.user_properties)
+        self.seconds[name] += float(told.get("cpu", 0.0))  # type: ignore[arg-type]
+        for fixture, seconds in told.get("shared", {}).items():  # type: ignore[attr-defined]
+            self.shared[fixture][getattr(report, "worker_id", "")] += seconds
+        self.needs[name].update(told.get("needs", ()))  # type: ignore[arg-type]
+
+    def rows(self) -> dict[str, Duration]:
+        """Return the rows of the functions that ran, and of their fixtures."""
+        shared = {name: max(processes.values()) for name, processes in self.shared.items()}
+        out = {name: Duration(seconds) for name, seconds in shared.items() if seconds >= SHARED}
+        return out | {
+            name: Duration(seconds, frozenset(self.needs[name] & out.keys()))
+            for name, seconds in self.seconds.items()
+        }
+
+    def unlisted(self, rows: Mapping[str, Duration]) -> list[str]:
+        """Return the functions without a row that took long."""
+        return sorted(name for name, s in self.seconds.items() if name not in rows and s > UNMEASURED)
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_sessionfinish(self, session: pytest.Session) -> Iterator[None]:
+        yield
+        if self.keep:
+            write(self.rows())
+        elif self.required and self.unlisted(read()) and session.exitstatus == 0:
+            session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+        if not self.keep and (names := self.unlisted(read())):
+            paths = " ".join(sorted({name.split("::")[0] for name in names}))
+            terminalreporter.write_line(
+                f"No row in {FILE.name} has {', '.join(names)}, which took more than {UNMEASURED:g} s of CPU "
+                f"time. Type: pytest --write-durations {paths}",
+                red=True,
+            )
+
+
+def fast(cases: Iterable[str], rows: Mapping[str, Duration]) -> set[str]:
+    """Return the cases of fast functions; a function without a row counts as fast."""
+    return {case for case in cases if total(function(case), rows) <= FAST}
+
+
+def _clock() -> float:
+    return sum(times()[:4])

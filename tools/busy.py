@@ -88,7 +88,7 @@ def main() -> None:
         began = time.monotonic()
         status = passed = failed = 0
         with busy(args.busy):
-            for call in [(*suite.PYTEST, *args.tests)] if args.tests else suite.CALLS:
+            for call in [(*suite.PYTEST, *args.tests)] if args.tests else suite.calls("whole"):
                 tests = subprocess.Popen([sys.executable, *call], cwd=ROOT, stdout=subprocess.PIPE, text=True)
                 assert tests.stdout is not None
                 report = ""

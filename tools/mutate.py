@@ -4,6 +4,8 @@
     python tools/mutate.py run [--count 200]         judge what HEAD draws: rows in evidence/mutants.csv
     python tools/mutate.py run --again               judge the survivors again, with the present tests
     python tools/mutate.py show                      print the share that is killed, and every survivor
+    python tools/mutate.py floor [FILE ...]          find for each source file the cheapest test that notices
+                                                     when its public functions raise: tests/floor.csv
 
 A place is drawn from all comparisons, arithmetic, constants, conditions, returned values, statements and
 calls below `src`. A mutant is killed when a test that covers it fails, and passes without the change. One
@@ -18,8 +20,10 @@ from __future__ import annotations
 
 import argparse
 import ast
+import builtins
 import csv
 import dataclasses as dc
+import importlib.machinery
 import io
 import json
 import os
@@ -30,18 +34,23 @@ import subprocess
 import sys
 import tarfile
 import tempfile
-import threading
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from importlib.machinery import ModuleSpec
 from pathlib import Path
-from types import CodeType, FrameType
+from types import CodeType
+from typing import Any
 
 ROOT = Path(__file__).parents[1]
 KEPT = ROOT / ".pytest_cache" / "mutants"
 ROWS = ROOT / "evidence" / "mutants.csv"
+FLOOR = ROOT / "tests" / "floor.csv"
 EQUIVALENT = ROOT / "evidence" / "equivalent_mutants.csv"
 
 COUNT = 200
+CANDIDATES = 8
+"""Most test functions that are tried for the floor of a file, the cheapest first."""
+
 TESTS = 150
 """Most tests that are run for one mutant: those of the shortest time first."""
 
@@ -51,6 +60,9 @@ NOT_FOUND = 4
 PATIENCE = 10.0, 60.0
 """A mutant times out after this multiple of the time of its tests, plus a number of seconds."""
 
+
+NOTE = "__note_call__"
+"""Name among the built-in ones by which functions note that they are called."""
 
 Key = tuple[str, str, str]
 """What identifies a mutant of a commit: place, source before, source after."""
@@ -209,37 +221,81 @@ Calls = dict[str, tuple[float, set[str]]]
 class Recorder:
     """A plugin of pytest that notes, for each test that passes, the functions of the package that it calls.
 
-    Calls are what is traced, not lines: a callback for each line would make the suite several times as long.
+    Functions say it themselves: each begins with a statement that `NotedCalls` inserts when their module is
+    imported. `sys.settrace` would make the suite twice as long.
     """
 
     def __init__(self, root: Path, out: io.TextIOBase) -> None:
-        self.root, self.out = str(root) + os.sep, out
-        self.seen: set[CodeType] = set()
+        self.out = out
         self.failed = False
-
-    def trace(self, frame: FrameType, event: str, argument: object) -> None:
-        self.seen.add(frame.f_code)
+        self.calls = NotedCalls(root)
+        sys.meta_path.insert(0, self.calls)
 
     def pytest_runtest_logstart(self) -> None:
-        self.seen, self.failed, self.began = set(), False, time.process_time()
-        threading.settrace(self.trace)
-        sys.settrace(self.trace)
+        self.calls.seen.clear()
+        self.failed, self.began = False, time.process_time()
 
     def pytest_runtest_logreport(self, report: object) -> None:
         self.failed |= getattr(report, "failed", False)
 
     def pytest_runtest_logfinish(self, nodeid: str) -> None:
-        sys.settrace(None)
-        threading.settrace(None)  # type: ignore[arg-type]
-        calls = sorted(
-            f"{code.co_filename.removeprefix(self.root)}:{code.co_firstlineno}"
-            for code in self.seen
-            if code.co_filename.startswith(self.root + "src")
-        )
+        calls = sorted(self.calls.seen)
         if calls and not self.failed and "\n" not in nodeid:
             seconds = round(time.process_time() - self.began, 3)
             self.out.write(json.dumps([nodeid, seconds, calls]) + "\n")
             self.out.flush()
+
+
+class NotedCalls(importlib.machinery.PathFinder):
+    """A finder of modules below `src` whose functions note that they are called.
+
+    Attributes:
+        seen: the functions that were called, as `FILE:FIRST LINE`.
+    """
+
+    def __init__(self, root: Path) -> None:
+        self.root = str(root) + os.sep
+        self.seen: set[str] = set()
+        setattr(builtins, NOTE, self.seen.add)
+
+    def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> ModuleSpec | None:  # type: ignore[override]
+        spec = super().find_spec(fullname, path, target)
+        origin = spec.origin if spec else None
+        if spec and origin and origin.endswith(".py") and origin.startswith(self.root + "src"):
+            spec.loader = NotingLoader(fullname, origin, origin.removeprefix(self.root))
+        return spec
+
+
+class NotingLoader(importlib.machinery.SourceFileLoader):
+    """Compiles a module whose functions note their calls; byte code is neither read nor written."""
+
+    def __init__(self, name: str, path: str, file: str) -> None:
+        super().__init__(name, path)
+        self.file = file
+
+    def get_code(self, fullname: str) -> CodeType:
+        return compile(
+            noting(self.file, self.get_source(fullname) or ""), self.path, "exec", dont_inherit=True
+        )
+
+
+def noting(file: str, text: str) -> ast.Module:
+    """Return the syntax tree of a file whose functions begin with a note of their call."""
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            [call] = ast.parse(f"{NOTE}({f'{file}:{first_line(node)}'!r})").body
+            place = node.body[0]
+            for part in ast.walk(call):
+                ast.copy_location(part, place)
+            # a docstring stays first
+            node.body.insert(1 if ast.get_docstring(node, clean=False) is not None else 0, call)
+    return tree
+
+
+def first_line(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
+    """Return the line where a function begins, with its decorators."""
+    return min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
 
 
 def note(root: Path, out: Path, arguments: Sequence[str]) -> int:
@@ -284,8 +340,7 @@ def covering(mutant: Mutant, text: str, found: Calls) -> list[str]:
     tests: list[str] = []
     if around:
         inner = max(around, key=lambda node: node.lineno)
-        first = min([inner.lineno, *(d.lineno for d in inner.decorator_list)])
-        tests = [test for test in order if f"{mutant.file}:{first}" in found[test][1]]
+        tests = [test for test in order if f"{mutant.file}:{first_line(inner)}" in found[test][1]]
     if not tests:
         tests = [test for test in order if any(c.startswith(f"{mutant.file}:") for c in found[test][1])]
     return tests or [test for test in order if own not in test][:1]
@@ -311,6 +366,55 @@ class Row:
     @property
     def key(self) -> Key:
         return self.place, self.before, self.after
+
+
+def raising(text: str) -> str | None:
+    """Return a file whose public functions and methods raise; None if it has none."""
+    tree = ast.parse(text)
+    functions = [
+        node
+        for scope in (tree, *(node for node in tree.body if isinstance(node, ast.ClassDef)))
+        for node in scope.body
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and not node.name.startswith("_")
+    ]
+    for function in functions:
+        function.body = ast.parse("raise RuntimeError('a mutant')").body
+    return ast.unparse(ast.fix_missing_locations(tree)) if functions else None
+
+
+def lowest(root: Path, file: str, found: Calls) -> str | None:
+    """Return the cheapest test function that calls a file and fails when its public functions raise."""
+    path = root / file
+    text = path.read_text(encoding="utf-8")
+    changed = raising(text)
+    cases: dict[str, list[str]] = {}
+    for test, (_, called) in found.items():
+        if any(call.startswith(f"{file}:") for call in called):
+            cases.setdefault(test.split("[")[0], []).append(test)
+    cost = {name: sum(found[test][0] for test in members) for name, members in cases.items()}
+    path.write_text(changed or text, encoding="utf-8")
+    try:
+        for name in sorted(cost, key=lambda name: (cost[name], name))[:CANDIDATES] if changed else ():
+            if run(root, [name], PATIENCE[0] * cost[name] + PATIENCE[1])[0] == "killed":
+                return name
+    finally:
+        path.write_text(text, encoding="utf-8")
+        shutil.rmtree(root / ".pytest_cache", ignore_errors=True)
+    return None
+
+
+def write_floor(rows: Mapping[str, str], file: Path = FLOOR) -> None:
+    """Write the test of each source file."""
+    with file.open("w", encoding="utf-8", newline="") as text:
+        out = csv.writer(text, lineterminator="\n")
+        out.writerow(("file", "test"))
+        out.writerows(sorted(rows.items()))
+
+
+def read_floor(file: Path = FLOOR) -> dict[str, str]:
+    """Return the test of each source file."""
+    with file.open(encoding="utf-8", newline="") as text:
+        return {row["file"]: row["test"] for row in csv.DictReader(text)}
 
 
 def environment(root: Path) -> dict[str, str]:
@@ -439,14 +543,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0] if __doc__ else "")
     commands = parser.add_subparsers(dest="command", required=True)
-    for name in ("map", "run", "show"):
+    for name in ("map", "run", "show", "floor"):
         command = commands.add_parser(name)
         command.add_argument("--commit", default="HEAD", help="draw by this commit, and change its files")
         if name == "run":
             command.add_argument("--count", type=int, default=COUNT, help="how many are drawn")
             command.add_argument("--again", action="store_true", help="judge survivors once more")
     given, rest = parser.parse_known_args(arguments)
-    if rest and given.command != "map":
+    if rest and given.command not in ("map", "floor"):
         parser.error(f"unknown: {' '.join(rest)}")
     name = ["git", "rev-parse", given.commit]
     commit = subprocess.run(name, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
@@ -464,6 +568,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
             parser.error(
                 f"no map of {commit[:7]}; type `python tools/mutate.py map --commit {commit[:7]}` first"
             )
+        if given.command == "floor":
+            files = [path.relative_to(root).as_posix() for path in sorted((root / "src").rglob("*.py"))]
+            tests = {file: test for file, test in read_floor().items() if file in files}
+            for file in rest or [file for file in files if file not in tests]:
+                if test := lowest(root, file, found):
+                    write_floor(tests := {**tests, file: test})
+                print(f"{file}  {test or 'no test that is mapped'}", flush=True)
+            return
         rows = [r for r in rows if r.commit == commit]
         done = {r.key for r in rows if r.outcome == "killed" or not given.again}
         for mutant in draw(root, commit, given.count):

@@ -1,6 +1,20 @@
-"""The calls of pytest that run the whole suite, for the commands that time it. `make test` makes the same."""
+"""Run the tests, or a part of them: the engine with the packages beside it hidden, then the others, and both
+once more with programs as deodar compiles them.
+
+    python tools/suite.py verdict [PYTEST OPTIONS]   what `make test` runs
+    python tools/suite.py rest                       what `make whole` runs after it
+    python tools/suite.py whole                      both, each test once
+    python tools/suite.py core                       the engine's part of the verdict, and the contracts
+"""
 
 from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
 
 PYTEST = ("-m", "pytest")
 ENGINE = ("tools/engine_alone.py",)
@@ -9,17 +23,39 @@ ENGINE = ("tools/engine_alone.py",)
 SPREAD = ("-n", "2", "--dist", "loadfile", "--no-loadscope-reorder")
 """Files over two processes, in the order that `tests/conftest.py` gives them."""
 
-REST = ("tests", "--ignore", "tests/deodar")
+OTHERS = ("tests", "--ignore", "tests/deodar")
 """What the engine alone does not test."""
 
-QUICK = ("-m", "not default_program")
-OPTIMISED = ("-m", "default_program", "--default-programs")
+CORE = ("tests/deodar", "tests/contracts")
 
-CALLS = (
-    (*ENGINE, *SPREAD, *QUICK),
-    (*PYTEST, *SPREAD, *QUICK, *REST),
-    (*ENGINE, *SPREAD, *OPTIMISED),
-    (*PYTEST, *SPREAD, *OPTIMISED, *REST),
-)
+PARTS = {"verdict": " and verdict", "rest": " and not verdict", "whole": ""}
+"""The marker of each part, after that of the programs."""
 
 FAST = (*PYTEST, *SPREAD, "-m", "fast")
+
+
+def calls(part: str) -> list[tuple[str, ...]]:
+    """Return the arguments of Python of each call."""
+    if part == "core":
+        return [(*ENGINE, *SPREAD, "-m", f"not default_program{PARTS['verdict']}", *CORE)]
+    quick = ("-m", f"not default_program{PARTS[part]}")
+    optimised = ("-m", f"default_program{PARTS[part]}", "--default-programs")
+    return [
+        (*program, *SPREAD, *programs, *paths)
+        for programs in (quick, optimised)
+        for program, paths in ((ENGINE, ()), (PYTEST, OTHERS))
+    ]
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run all calls of a part; return the status of the first that fails."""
+    if not arguments or arguments[0] not in (*PARTS, "core"):
+        print(__doc__)
+        return 2
+    part, *options = arguments
+    done = [subprocess.run([sys.executable, *call, *options], cwd=ROOT).returncode for call in calls(part)]
+    return next((status for status in done if status), 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -4,6 +4,22 @@ import { join } from "node:path";
 import { panels } from "./bench/documents";
 import { runScript } from "./server";
 
+/** Each kind of plot: an element of `every.json`, and the first line of its table. */
+export const SHOWN: Record<string, [element: string, header: string]> = {
+  course: ["node", "time (ms),activation"],
+  curve: ["far", "long [thinned: 600 values of 1000 samples],output"],
+  heat: ["plane", "x (cm),y (cm),activation"],
+  picture: ["picture", "x (cm),y (cm),output red,output green,output blue"],
+  space_time: ["line", "time (ms),x (cm),activation"],
+  phase: ["node", "time (ms),activation,rate of change (1/ms)"],
+  surface: ["flat", "x (cm),y (cm),output"],
+  volume: ["volume", "x (cm),y (cm),z (cm),activation"],
+  kernel: ["line", "lag in x (cm),weight"],
+  weights: ["map", "x (cm),y (cm),weights"],
+  multiples: ["plane", "x (cm),y (cm),plane,fellow"],
+  polar: ["ring", "angle (deg),activation"],
+};
+
 type Shown = readonly [element: string, kind: string, settings?: object];
 
 /** Write `every.json` and the file of its arrays into a folder. */

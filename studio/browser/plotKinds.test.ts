@@ -5,7 +5,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
 import { PLOTS } from "../src/plots/kinds/plots";
-import { writeArranged, writeEveryPlot } from "./everyPlot";
+import { SHOWN, writeArranged, writeEveryPlot } from "./everyPlot";
 import { colours, downloaded, drawn, panel, reopen, settled } from "./hands";
 import { examplePackage } from "./installed";
 import type { Observer } from "./observer";
@@ -21,22 +21,6 @@ beforeAll(async () => {
 });
 
 afterAll(() => studio.stop());
-
-// Each kind of plot: an element, and the first line of its table.
-const SHOWN: Record<string, [element: string, header: string]> = {
-  course: ["node", "time (ms),activation"],
-  curve: ["far", "long [thinned: 600 values of 1000 samples],output"],
-  heat: ["plane", "x (cm),y (cm),activation"],
-  picture: ["picture", "x (cm),y (cm),output red,output green,output blue"],
-  space_time: ["line", "time (ms),x (cm),activation"],
-  phase: ["node", "time (ms),activation,rate of change (1/ms)"],
-  surface: ["flat", "x (cm),y (cm),output"],
-  volume: ["volume", "x (cm),y (cm),z (cm),activation"],
-  kernel: ["line", "lag in x (cm),weight"],
-  weights: ["map", "x (cm),y (cm),weights"],
-  multiples: ["plane", "x (cm),y (cm),plane,fellow"],
-  polar: ["ring", "angle (deg),activation"],
-};
 
 const plot = (name: string): Locator => studio.page.getByRole("region", { name, exact: true });
 

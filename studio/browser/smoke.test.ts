@@ -1,32 +1,57 @@
-import { expect, onTestFinished, test } from "vitest";
+/** Every view of the studio opens and draws something, in one studio. */
+import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { openExample } from "./hands";
-import { shot, startStudio } from "./studio";
+import { TOOLS } from "../src/panels/tools";
+import { PLOTS } from "../src/plots/kinds/plots";
+import { SHOWN, writeArranged, writeEveryPlot } from "./everyPlot";
+import { choose, openExample, panel, reopen } from "./hands";
+import { examplePackage } from "./installed";
+import { shot, startStudio, type Studio } from "./studio";
 
-test("the page opens and draws something", async () => {
-  const { page, stop } = await startStudio();
-  onTestFinished(stop);
-  expect(await page.title()).toContain("deodar");
-  await page.waitForFunction(() => (document.getElementById("root")?.innerText ?? "").trim() !== "");
+let studio: Studio;
+
+beforeAll(async () => {
+  studio = await startStudio(examplePackage());
+  writeEveryPlot(studio.folder);
+});
+
+afterAll(() => studio.stop());
+
+test("the gallery opens where the language of the browser is none, as under the locale C", async () => {
+  await studio.context.addInitScript(() =>
+    Object.defineProperty(navigator, "language", { value: "C", configurable: true }),
+  );
+  const page = await studio.another();
+  await page.getByRole("heading", { name: "Examples" }).waitFor();
+  await page.close();
+});
+
+test("an example runs, and every panel opens", async () => {
+  const { page } = studio;
+  await openExample(page, "Selection");
+  await page.getByRole("region", { name: "Curves of u" }).locator("canvas").first().waitFor();
+  for (const { title } of Object.values(TOOLS)) {
+    await choose(page, "Open panels and plots", title);
+    await expect.poll(() => panel(page, title).innerText(), { message: title }).not.toBe("");
+  }
   await shot(page, "smoke");
 });
 
-test("the page opens where the language of the browser is none, as under the locale C", async () => {
-  const { context, another, stop } = await startStudio();
-  onTestFinished(stop);
-  await context.addInitScript(() =>
-    Object.defineProperty(navigator, "language", { value: "C", configurable: true }),
-  );
-  const page = await another();
-  await page.getByRole("heading", { name: "Examples" }).waitFor();
-  await openExample(page, "Selection");
-  await page.getByRole("region", { name: "Curves of u" }).locator("canvas").first().waitFor();
-});
-
-test("the browser has WebGL, in software", async () => {
-  const { page, stop } = await startStudio();
-  onTestFinished(stop);
+test("every kind of plot draws", async () => {
+  const { page } = studio;
+  const observer = await studio.observe();
+  const shown = Object.entries(SHOWN).map(([kind, [element]]) => [element, kind] as const);
+  writeArranged(studio.folder, "shown.json", [shown.slice(0, 4), shown.slice(4, 8), shown.slice(8)]);
+  await reopen(page, observer, "shown.json");
+  await observer.ask({ type: "step", n: 2 });
   expect(await page.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null)).toBe(
     true,
   );
+  for (const [element, kind] of shown) {
+    const name = `${PLOTS.get(kind)?.title ?? "Polar plot"} of ${element}`;
+    const plot = page.getByRole("region", { name, exact: true });
+    await plot.locator("canvas, svg").first().waitFor();
+    await expect.poll(() => plot.getByText("Press play").count(), { message: name }).toBe(0);
+  }
+  await shot(page, "smoke-plots");
 });

@@ -1,11 +1,10 @@
-"""The markers `fast` and `long` follow from measured CPU time; programs compile quickly unless tests judge
+"""Order and markers of tests follow from measured CPU time; programs compile quickly unless tests judge
 bits.
 """
 
 from __future__ import annotations
 
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -13,10 +12,21 @@ from pathlib import Path
 import pytest
 
 from tests import conftest, durations
+from tests.durations import Duration
+
+HERE = "tests/house/test_durations.py"
+KEPT, QUICKER, SLOWER = (
+    f"{HERE}::{name}"
+    for name in (
+        "test_every_row_is_that_of_a_test",
+        "test_a_test_without_a_row_is_fast_and_in_the_verdict",
+        "test_every_default_program_exists",
+    )
+)
 
 
-def test_every_slow_test_exists() -> None:
-    gone = [test for test in durations.seconds() if not durations.exists(test)]
+def test_every_row_is_that_of_a_test() -> None:
+    gone = [test for test in durations.read() if not durations.exists(test)]
     assert not gone, (
         f"durations.csv lists tests that are gone; type `pytest --write-durations FILE`: {gone[:5]}"
     )
@@ -24,58 +34,58 @@ def test_every_slow_test_exists() -> None:
 
 def test_a_measured_function_replaces_its_row_and_others_keep_theirs(tmp_path: Path) -> None:
     file = tmp_path / "durations.csv"
-    here = "tests/house/test_durations.py"
-    kept, quicker, slower = (
-        f"{here}::{name}"
-        for name in (
-            "test_every_slow_test_exists",
-            "test_a_test_without_a_row_is_fast",
-            "test_every_default_program_exists",
-        )
+    shared, unused = f"{HERE}::made", f"{HERE}::unused"
+    file.write_text(
+        f"test,seconds,fixtures\n{KEPT},0.20,{shared}\n{QUICKER},5.00,{unused}\n"
+        f"{shared},3.00,\n{unused},4.00,\n{HERE}::test_that_is_gone,7.00,\n"
     )
-    file.write_text(f"test,seconds\n{kept},0.2\n{quicker},5.0\n{here}::test_that_is_gone,7.0\n")
-    durations.write({quicker: 0.1, slower: 2.04}, file)
-    assert durations.seconds(file) == {kept: 0.2, slower: 2.0}, "0.2 may be more, before it was rounded"
+    durations.write({QUICKER: Duration(0.123), SLOWER: Duration(2.04)}, file)
+    assert durations.read(file) == {
+        KEPT: Duration(0.2, frozenset({shared})),
+        QUICKER: Duration(0.12),
+        SLOWER: Duration(2.04),
+        shared: Duration(3.0),
+    }
 
 
-def test_the_cases_of_a_function_count_together() -> None:
+def test_the_cases_of_a_function_and_the_functions_of_a_file_count_together() -> None:
     assert durations.function("tests/a/test_b.py::test_c[x-1]") == "tests/a/test_b.py::test_c"
-    assert durations.files({"a.py::x": 1.0, "a.py::y": 2.0, "b.py::x": 4.0}) == {"a.py": 3.0, "b.py": 4.0}
+    rows = {"a.py::test_x": Duration(1.0), "a.py::made": Duration(2.0), "b.py::test_x": Duration(4.0)}
+    assert durations.files(rows) == {"a.py": 3.0, "b.py": 4.0}
 
 
-def test_a_function_spends_its_share_and_the_other_cases_are_long() -> None:
-    cases = [f"a.py::many[{k}]" for k in range(10)]
-    all_cases = [*cases, "a.py::quick", "a.py::whole", *(f"a.py::heavy[{k}]" for k in range(3))]
-    rows = {"a.py::many": 2 * durations.SHARE, "a.py::whole": durations.SHARE + 1, "a.py::heavy": 90.0}
-    long = durations.long_cases(all_cases, rows)
-    assert set(cases) - long == set(cases[1::2]), "half of the cases, at regular distances"
-    assert "a.py::quick" not in long, "a function without a row"
-    assert long - set(cases) == {"a.py::whole", *(f"a.py::heavy[{k}]" for k in range(3))}
+def test_functions_that_share_a_fixture_are_one_unit() -> None:
+    rows = {
+        "a.py::test_x": Duration(1.0, frozenset({"a.py::one"})),
+        "a.py::test_y": Duration(1.0, frozenset({"a.py::one", "a.py::two"})),
+        "a.py::test_z": Duration(1.0, frozenset({"a.py::two"})),
+        "a.py::test_alone": Duration(1.0),
+        "a.py::one": Duration(5.0),
+        "a.py::two": Duration(5.0),
+    }
+    together = frozenset(rows) - {"a.py::test_alone"}
+    assert set(durations.units(rows)) == {together, frozenset({"a.py::test_alone"})}
+    assert durations.total("a.py::test_y", rows) == 11.0 and durations.total("b.py::test_new", rows) == 0.0
 
 
-def test_some_functions_are_never_long() -> None:
-    assert all(durations.exists(name) for name in durations.ALWAYS)
-    assert durations.long_cases(durations.ALWAYS, dict.fromkeys(durations.ALWAYS, 90.0)) == set()
+def test_a_test_without_a_row_is_fast_and_in_the_verdict() -> None:
+    rows = {"a.py::test_slow": Duration(0.1, frozenset({"a.py::made"})), "a.py::made": Duration(0.15)}
+    cases = ["a.py::test_slow[1]", "a.py::test_new[2]"]
+    assert durations.fast(cases, rows) == {"a.py::test_new[2]"}
 
 
-def test_every_long_file_of_browser_tests_exists() -> None:
-    studio = Path(conftest.__file__).parents[1] / "studio"
-    listed = re.findall(r'^  "(\w+)",$', (studio / "vitest.short.ts").read_text(), re.MULTILINE)
-    assert listed and listed == sorted(listed)
-    assert [name for name in listed if not (studio / "browser" / f"{name}.test.ts").is_file()] == []
+def test_a_function_that_takes_long_without_a_row_is_named() -> None:
+    def report(nodeid: str, cpu: float) -> pytest.TestReport:
+        properties = [("needs", []), ("shared", {}), ("cpu", cpu)]
+        return pytest.TestReport(
+            nodeid, ("", 0, ""), {}, "passed", None, "teardown", (), 0.0, 0, 0, properties
+        )
 
-
-def test_the_files_of_slow_tests_without_a_row_are_named() -> None:
-    def report(nodeid: str, seconds: float) -> pytest.TestReport:
-        return pytest.TestReport(nodeid, ("", 0, ""), {}, "passed", None, "call", duration=seconds)
-
-    cases = [report(f"b.py::x[{k}]", 1.2) for k in range(2)]
-    assert durations.unlisted([report("a.py::x", 1.2), *cases, report("a.py::y", 0.1)]) == ["b.py"]
-
-
-def test_a_test_without_a_row_is_fast(request: pytest.FixtureRequest) -> None:
-    assert request.node.get_closest_marker("fast")
-    assert not request.node.get_closest_marker("default_program")
+    measured = durations.Durations(keep=False, required=True)
+    for nodeid, cpu in (("b.py::test_x[1]", 0.6), ("b.py::test_x[2]", 0.6), ("a.py::test_y", 0.9)):
+        measured.pytest_runtest_logreport(report(nodeid, cpu))
+    assert measured.unlisted({}) == ["b.py::test_x"]
+    assert measured.unlisted({"b.py::test_x": Duration(0.1)}) == []
 
 
 def test_programs_are_compiled_quickly_without_the_option_default_programs(
@@ -101,24 +111,49 @@ def test_processes_keep_byte_code(tmp_path: Path) -> None:
     assert list(tmp_path.rglob("imported.*.pyc"))
 
 
-def test_what_a_fixture_of_a_module_takes_counts_for_every_user(tmp_path: Path) -> None:
-    (tmp_path / "test_shared.py").write_text(
-        "import pytest, time\n"
-        "@pytest.fixture(scope='module')\n"
-        "def made():\n"
-        "    end = time.process_time() + 0.5\n"
-        "    while time.process_time() < end: pass\n"
-        "@pytest.mark.parametrize('k', [1, 2])\n"
-        "def test_first(made, k): pass\n"
-        "def test_second(made): pass\n"
-        "def test_other(): pass\n"
+SHARED = """
+import pytest, time
+def spend(seconds):
+    end = time.process_time() + seconds
+    while time.process_time() < end: pass
+@pytest.fixture(scope="session")
+def base():
+    spend(0.2)
+@pytest.fixture(scope="module")
+def made(base):
+    spend(0.5)
+@pytest.mark.parametrize("k", [1, 2])
+def test_first(made, k):
+    spend(0.1)
+def test_second(base): pass
+def test_other(): pass
+"""
+
+
+@pytest.mark.parametrize("processes", ["0", "2"])
+def test_a_shared_fixture_has_a_row_of_its_own_and_its_users_name_it(tmp_path: Path, processes: str) -> None:
+    (tmp_path / "test_shared.py").write_text(SHARED)
+    (tmp_path / "conftest.py").write_text(
+        "from tests import durations\n"
+        "def pytest_configure(config): config.pluginmanager.register(durations.Meter())\n"
     )
     code = (
         "import pytest; from tests import durations\n"
-        "recorder = durations.Recorder(); durations.write = lambda found: None\n"
-        f"assert pytest.main(['-q', {str(tmp_path)!r}], [recorder]) == 0\n"
-        "print({name.split('::')[1]: round(s, 1) for name, s in recorder.seconds.items()})"
+        "measured = durations.Durations(keep=False, required=True)\n"
+        f"assert pytest.main(['-qq', '-n{processes}', '--rootdir', {str(tmp_path)!r}, {str(tmp_path)!r}], "
+        "[measured]) == 0\n"
+        "print({n.split('::')[1]: (round(r.seconds, 1), sorted(f.split('::')[1] for f in r.fixtures)) "
+        "for n, r in sorted(measured.rows().items())})"
     )
     root = Path(conftest.__file__).parents[1]
-    run = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
-    assert "{'test_first': 0.5, 'test_second': 0.5, 'test_other': 0.0}" in run.stdout
+    where = {**os.environ, "PYTHONPATH": str(root)}
+    run = subprocess.run(
+        [sys.executable, "-c", code], cwd=root, env=where, capture_output=True, text=True, check=True
+    )
+    assert eval(run.stdout.splitlines()[-1]) == {
+        "base": (0.2, []),
+        "made": (0.5, []),
+        "test_first": (0.2, ["base", "made"]),
+        "test_second": (0.0, ["base"]),
+        "test_other": (0.0, []),
+    }

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import re
 import sys
 from pathlib import Path
 
@@ -13,24 +12,6 @@ from tests.house.source import ROOT
 
 sys.path.insert(0, str(ROOT / "tools"))
 import busy
-import suite
-
-
-def test_the_suite_has_the_calls_of_the_makefile() -> None:
-    recipe = (ROOT / "Makefile").read_text(encoding="utf-8")
-    assert f"SPREAD := {' '.join(suite.SPREAD)}\n" in recipe and f"REST := {' '.join(suite.REST)}\n" in recipe
-    quick, optimised, fast = (
-        re.findall(r"\$\(BIN\)/python (.*)", recipe.partition(f"\n{target}: ")[2].partition("\n\n")[0])
-        for target in ("quick", "optimised", "fast")
-    )
-    called = [
-        line.replace("$(SPREAD)", " ".join(suite.SPREAD))
-        .replace("$(REST)", " ".join(suite.REST))
-        .replace('"', "")
-        for line in (*quick, *optimised, *fast)
-    ]
-    bare = [re.sub(r" --durations \d+| \$\(SHORT\)", "", line) for line in called]
-    assert bare == [" ".join(call) for call in (*suite.CALLS, suite.FAST)]
 
 
 @pytest.mark.parametrize(

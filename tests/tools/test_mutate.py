@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -89,6 +90,11 @@ def test_mutants_are_killed_or_survive_by_the_tests_that_cover_them(
         ("src/toy.py:5:12", "survived", ""),
         ("src/toy.py:8:12", "survived", ""),
     ]
+    assert mutate.lowest(tmp_path, "src/toy.py", found) in (
+        "test_toy.py::test_total",
+        "test_toy.py::test_large",
+    )
+    assert mutate.lowest(tmp_path, "src/toy.py", {}) is None
     assert (tmp_path / "src" / "toy.py").read_text() == text
     mutate.write(tmp_path / "rows.csv", rows)
     assert mutate.read(tmp_path / "rows.csv") == rows
@@ -154,3 +160,25 @@ def test_the_test_file_of_the_module_comes_first_and_then_the_quickest() -> None
 def test_a_mutant_that_times_out_survives(tmp_path: Path) -> None:
     (tmp_path / "test_slow.py").write_text("import time\ndef test_slow(): time.sleep(600)\n")
     assert mutate.run(tmp_path, ["test_slow.py::test_slow"], 0.5) == ("timed out", "")
+
+
+def test_public_functions_and_methods_raise_and_private_ones_do_not() -> None:
+    text = (
+        "def f(): return 1\n\ndef _g(): return 2\n\n"
+        "class A:\n    def h(self): return 3\n    def _i(self): return 4\n"
+    )
+    changed = mutate.raising(text)
+    assert changed is not None
+    names: dict[str, Any] = {}
+    exec(changed, names)
+    assert names["_g"]() == 2 and names["A"]()._i() == 4
+    for call in (names["f"], names["A"]().h):
+        with pytest.raises(RuntimeError, match="a mutant"):
+            call()
+    assert mutate.raising("x = 1\ndef _f(): return 1\n") is None
+
+
+def test_the_floor_is_read_as_it_was_written(tmp_path: Path) -> None:
+    rows = {"src/b.py": "tests/test_b.py::test_x", "src/a.py": "tests/test_a.py::test_y"}
+    mutate.write_floor(rows, tmp_path / "floor.csv")
+    assert mutate.read_floor(tmp_path / "floor.csv") == rows
