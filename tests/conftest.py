@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -96,6 +97,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Keep compiled programs in pytest's own folder, and byte code, also for processes that tests start."""
     os.environ.setdefault("DEODAR_CACHE", str(config.rootpath / ".pytest_cache" / "programs"))
+    # a shell without job control makes what it starts with `&` ignore SIGINT, and that what it starts
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     # compiled kernels have tests of their own, in `native/tests`
     os.environ["DEODAR_NATIVE"] = "off"
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)

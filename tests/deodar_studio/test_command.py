@@ -64,6 +64,22 @@ def test_the_studio_prints_its_address_responds_and_ends_with_ctrl_c(tmp_path: P
     assert process.returncode == 0 and told == ""
 
 
+def test_a_studio_in_the_background_of_a_script_ends_with_sigterm_and_says_so(tmp_path: Path) -> None:
+    """A shell without job control makes what it starts with `&` ignore SIGINT."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        process, address = start(tmp_path)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    try:
+        assert b"<title>" in fetch(address)[1]
+    finally:
+        process.terminate()
+        _, told = process.communicate(timeout=600)
+    assert process.returncode == 128 + signal.SIGTERM
+    assert told == "deodar studio: SIGTERM has ended the studio\n"
+
+
 def test_a_file_is_opened_by_a_relative_path_and_through_a_link(tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     shutil.copy(Path(__file__).parents[2] / "examples" / "node.json", tmp_path / "folder")

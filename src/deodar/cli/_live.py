@@ -9,6 +9,7 @@ import sys
 import threading
 from collections.abc import Generator
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING
 
 from deodar import codec
@@ -77,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
         from deodar.session.run_live import run_live
 
         pace = Pace()
-        with _terminated(), _recorded(args, session) as recorder:
+        with interrupted_by_sigterm(), _recorded(args, session) as recorder:
             try:
                 meter = run_live(session, duration, speed, args.longest_step, pace=pace)
             except KeyboardInterrupt:  # the usual end of a live run: the measurements are printed
@@ -106,12 +107,19 @@ def run(args: argparse.Namespace) -> int:
 
 
 @contextlib.contextmanager
-def _terminated() -> Generator[None]:
+def interrupted_by_sigterm() -> Generator[None]:
     """End the run at SIGTERM as at Ctrl-C, so that a robot is put to rest."""
     if threading.current_thread() is not threading.main_thread():  # no other one receives signals
         yield
         return
-    before = signal.signal(signal.SIGTERM, lambda number, frame: signal.raise_signal(signal.SIGINT))
+
+    def end(number: int, frame: FrameType | None) -> None:
+        asked = signal.getsignal(signal.SIGINT)
+        if not callable(asked):  # a script that starts a command with `&` makes it ignore SIGINT
+            raise KeyboardInterrupt
+        asked(signal.SIGINT, frame)
+
+    before = signal.signal(signal.SIGTERM, end)
     try:
         yield
     finally:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import signal
+import sys
 from pathlib import Path
 
 from deodar.cli import _options
@@ -69,8 +71,11 @@ def run(args: argparse.Namespace) -> int:
         print(f"deodar studio: {address}\nStop it with Ctrl-C.", flush=True)
 
     world, token = _options.world(args.world), not args.no_token
-    serve(Service(root, file, args.trust, world, args.host, args.port, token), not args.no_browser, say)
-    return 0
+    service = Service(root, file, args.trust, world, args.host, args.port, token)
+    if not serve(service, not args.no_browser, say):
+        return 0
+    print("deodar studio: SIGTERM has ended the studio", file=sys.stderr)
+    return 128 + signal.SIGTERM  # what a shell reports of a process that SIGTERM has ended
 
 
 def open_document(path: str) -> int:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
+import signal
 import socket
 import sys
 import webbrowser
 from collections.abc import Callable, Generator
+from types import FrameType
 from urllib.parse import urlsplit
 
 import uvicorn
@@ -34,11 +36,14 @@ MOST_MESSAGE = 64 * 2**20
 """Longest message from a page, in bytes: a dropped document, or a picture as base64."""
 
 
-def serve(service: Service, browser: bool, say: Callable[[str], None]) -> None:
-    """Serve until Ctrl-C, and open the page in a browser if `browser` is true.
+def serve(service: Service, browser: bool, say: Callable[[str], None]) -> bool:
+    """Serve until Ctrl-C or SIGTERM, and open the page in a browser if `browser` is true.
 
     `say` is called with the address when the server is ready. An address with a token is passed to the
     browser in a file of this user, which is removed when the studio ends.
+
+    Returns:
+        whether SIGTERM has ended it.
     """
     redirects: list[RedirectFile] = []
 
@@ -62,10 +67,21 @@ def serve(service: Service, browser: bool, say: Callable[[str], None]) -> None:
         for redirect in redirects:
             redirect.remove()
 
+    received: list[int] = []
+
+    def terminated(number: int, frame: FrameType | None) -> None:
+        received.append(number)
+        raise KeyboardInterrupt
+
     server, bound = prepare(service, ready, ended)
-    # Ctrl-C is the normal end, after the server has closed
-    with contextlib.suppress(KeyboardInterrupt), short_turns():
-        server.run(sockets=[bound])
+    # the server passes a signal on after it has closed; Ctrl-C is the normal end
+    before = signal.signal(signal.SIGTERM, terminated)
+    try:
+        with contextlib.suppress(KeyboardInterrupt), short_turns():
+            server.run(sockets=[bound])
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    return bool(received)
 
 
 @contextlib.contextmanager
