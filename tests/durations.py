@@ -66,17 +66,17 @@ def write(rows: Mapping[str, Duration], file: Path = FILE) -> None:
 
 
 def is_function(name: str) -> bool:
-    """Return whether a row is that of a function, not of a fixture."""
-    return name.rpartition("::")[2].startswith("test")
+    """Return whether a row is that of a function or of a state machine, not of a fixture."""
+    return name.rpartition("::")[2].startswith(("test", "runTest"))
 
 
 def exists(name: str) -> bool:
     """Return whether the file of a function or fixture still defines it, or a fixture of all tests has it."""
     path, _, last = name.partition("::")
     file = FILE.parents[1] / path
-    return file.exists() and (
-        not is_function(name) or f"def {last.split('::')[-1]}(" in file.read_text(encoding="utf-8")
-    )
+    machine, _, run = last.rpartition("::")
+    found = f"{machine} = " if run == "runTest" else f"def {run}("
+    return file.exists() and (not is_function(name) or found in file.read_text(encoding="utf-8"))
 
 
 def total(name: str, rows: Mapping[str, Duration]) -> float:

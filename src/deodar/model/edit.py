@@ -119,25 +119,7 @@ def move(doc: Document, ident: str, names: PathNames) -> Document:
 
 def move_group(doc: Document, group: PathNames, to: PathNames) -> Document:
     """Return a document in which a group with its content has another path."""
-    if to[: len(group)] == group and to != group:
-        raise ModelError(f"the group {display(group)!r} cannot be moved into itself")
-    if to == group:
-        return doc
-    _vacant(doc, to)
-    inside = [e for e in doc.entries if e.names[: len(group)] == group]
-    renamed = {e.id: to + e.names[len(group) :] for e in inside}
-    entries = tuple(
-        (
-            dc.replace(e, names=renamed[e.id], element=dc.replace(e.element, name=renamed[e.id][-1]))
-            if e.id in renamed
-            else e
-        )
-        for e in doc.entries
-    )
-    groups = [to + g[len(group) :] if g[: len(group)] == group else g for g in doc.groups]
-    return dc.replace(
-        doc, entries=entries, groups=_with_groups((), [*groups, to]), uses=_uses_at(doc, group, to)
-    )
+    return doc if to == group else relocate(doc, {}, {group: to})
 
 
 def ungroup(doc: Document, group: PathNames) -> Document:
@@ -172,7 +154,7 @@ def relocate(
     kept = {g: new_path(g) for g in doc.groups if g not in dissolved}
     _require_vacant(doc, [(e, paths[e.id]) for e in moved], kept)
     entries = tuple(e if paths[e.id] == e.names else _renamed(e, paths[e.id]) for e in doc.entries)
-    inside = _with_groups(kept.values(), dict.fromkeys(paths[e.id][:-1] for e in moved))
+    inside = _with_groups((), [*kept.values(), *groups.values(), *(paths[e.id][:-1] for e in moved)])
     uses = tuple(dc.replace(u, group=new_path(u.group)) for u in doc.uses if u.group not in dissolved)
     return dc.replace(doc, entries=entries, groups=inside, uses=uses)
 
@@ -696,13 +678,6 @@ def require_ticks(every: Any, where: str) -> None:
         raise ParameterError(
             f"the step is {show(every)} ticks; expected a whole number from 1 to {MOST_TICKS}", where=where
         )
-
-
-def _uses_at(doc: Document, group: PathNames, to: PathNames) -> tuple[Use, ...]:
-    return tuple(
-        dc.replace(u, group=to + u.group[len(group) :]) if u.group[: len(group)] == group else u
-        for u in doc.uses
-    )
 
 
 def _free(base: str, taken: Callable[[str], bool]) -> str:

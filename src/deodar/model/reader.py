@@ -184,12 +184,15 @@ class _Reader:
         return Entry(ident, names, part, every)
 
     def groups(self, doc: Document) -> Document:
+        listed: list[PathNames] = []
         for g in self.rows("groups"):
             if not isinstance(g, str) or not g:
                 self.problem("groups", f"needs paths, not {show(g)}")
                 continue
             doc = self.attempt(f"groups.{g}", doc, lambda d, g=g: edit.group(d, split(g)))
-        return doc
+            listed.append(split(g))
+        # groups keep the order that the file states, not that of the elements in them
+        return dc.replace(doc, groups=_groups([*(g for g in listed if g in doc.groups), *doc.groups]))
 
     def connections(self, doc: Document) -> Document:
         for k, row in enumerate(self.rows("connections")):
