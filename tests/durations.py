@@ -187,7 +187,7 @@ class Durations:
             session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        if not self.keep and (names := self.unlisted(read())):
+        if self.required and (names := self.unlisted(read())):
             paths = " ".join(sorted({name.split("::")[0] for name in names}))
             terminalreporter.write_line(
                 f"No row in {FILE.name} has {', '.join(names)}, which took more than {UNMEASURED:g} s of CPU "
