@@ -47,11 +47,12 @@ browser: studio
 fast: .venv/installed-test
 	$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder -m fast
 
-# Python by ruff and by the limits of tools/measure.py, the page by prettier and biome
+# Python by ruff and by the limits of tools/measure.py and tools/names.py, the page by prettier and biome
 lint: .venv/installed-test
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
 	$(BIN)/python tools/measure.py
+	$(BIN)/python tools/names.py
 	$(BIN)/python studio/build.py lint
 
 types: .venv/installed-test
