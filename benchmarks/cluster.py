@@ -61,7 +61,13 @@ def experiment(trials: int, steps: int) -> Any:
     factors = [dd.Factor("level", [-4.0, -5.0], "u.resting_level")]
     measures = [dd.Measure("end", "u.activation", "max")]
     crosses = [dd.Crosses("decided", "u.activation", 6.0)]
-    return dd.Experiment("decisions", model, steps, trials // 2, crosses, factors=factors, measures=measures)
+    return dd.Experiment(
+        "decisions",
+        model,
+        dd.TrialPlan(steps, events=crosses, measures=measures),
+        trials // 2,
+        factors=factors,
+    )
 
 
 def stored(folder: Path) -> list[str]:
@@ -267,8 +273,8 @@ def many(given: argparse.Namespace, folder: Path) -> bool:
         model.add(dd.Field(f"n{k}", [], tau=20, resting_level=-1, noise=3.0))
     measures = [dd.Measure("end", "n0.activation", "max")]
     seen = [dd.Crosses("decided", "n0.activation")]
-    made = dd.Experiment("nodes", model, 10, given.trials, seen, measures=measures)
-    dd.Experiment("warm", model, 10, 250, seen, measures=measures).run()
+    made = dd.Experiment("nodes", model, dd.TrialPlan(10, events=seen, measures=measures), given.trials)
+    dd.Experiment("warm", model, dd.TrialPlan(10, events=seen, measures=measures), 250).run()
     before, cpu, began = resident(), time.process_time(), time.perf_counter()
     most, first = before, list[float]()
 

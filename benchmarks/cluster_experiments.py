@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import deodar as dd
 from deodar.elements.boost import Boost
@@ -17,13 +16,13 @@ ROOM = {
 }
 
 
-def decision(trials: int, **given: Any) -> dd.Experiment:
+def decision(trials: int) -> dd.Experiment:
     """Noise drives a node over its threshold; two resting levels."""
     model = dd.Model("decision")
     model.add(dd.Field("u", [], tau=20, resting_level=-1, noise=3.0))
     levels = [dd.Factor("level", [-1.0, -2.0], "u.resting_level")]
     seen = [dd.Crosses("decided", "u.activation")]
-    return dd.Experiment("decision", model, 600, trials // 2, seen, factors=levels, **given)
+    return dd.Experiment("decision", model, dd.TrialPlan(600, events=seen), trials // 2, factors=levels)
 
 
 def _two_inputs(samples: int = 101) -> dd.Model:
@@ -43,13 +42,17 @@ def selection(trials: int) -> dd.Experiment:
     """A field selects one of two inputs; conditions with places, measures of one and of many numbers."""
     seen = [dd.Appears(name, "u", near=place, radius=10) for name, place in (("left", 30), ("right", 70))]
     measures = [dd.Measure("where", "u.activation", "place"), dd.Measure("most", "u.activation", "max")]
-    return dd.Experiment("selection", _two_inputs(), 300, trials, seen, measures=measures)
+    return dd.Experiment(
+        "selection", _two_inputs(), dd.TrialPlan(300, events=seen, measures=measures), trials
+    )
 
 
 def double(trials: int) -> dd.Experiment:
     """The same in double precision."""
     seen = [dd.Appears("left", "u", near=30, radius=10)]
-    return dd.Experiment("double", _two_inputs(51), 200, trials, seen, precision="float64")
+    return dd.Experiment(
+        "double", _two_inputs(51), dd.TrialPlan(200, events=seen), trials, precision="float64"
+    )
 
 
 def actions(trials: int) -> dd.Experiment:
@@ -60,7 +63,9 @@ def actions(trials: int) -> dd.Experiment:
         dd.Set(0, "right.amplitude", 0.0, when="seen"),
         dd.Reset(100, when="seen"),
     ]
-    return dd.Experiment("actions", _two_inputs(), 400, trials, seen, changes, every=2)
+    return dd.Experiment(
+        "actions", _two_inputs(), dd.TrialPlan(400, events=seen, actions=changes, every=2), trials
+    )
 
 
 def times(trials: int) -> dd.Experiment:
@@ -68,14 +73,16 @@ def times(trials: int) -> dd.Experiment:
     model = dd.Model("pushed")
     model.add(dd.Field("u", [], tau=20, resting_level=-5, noise=1.0, kernel=[dd.Gaussian(2.0, 1.0)]))
     push = dd.Push([20.0 + 10 * (k % 5) for k in range(trials)], "u", 8.0, 50)
-    return dd.Experiment("times", model, 300, trials, [dd.Crosses("on", "u.activation")], [push])
+    return dd.Experiment(
+        "times", model, dd.TrialPlan(300, events=[dd.Crosses("on", "u.activation")], actions=[push]), trials
+    )
 
 
 def rebuilt(trials: int) -> dd.Experiment:
     """A factor that needs a program of its own for each of its values."""
     sizes = [dd.Factor("width", [4.0, 6.0], "u.kernel.0.sigma")]
     seen = [dd.Appears("seen", "u")]
-    return dd.Experiment("rebuilt", _two_inputs(), 200, trials // 2, seen, factors=sizes)
+    return dd.Experiment("rebuilt", _two_inputs(), dd.TrialPlan(200, events=seen), trials // 2, factors=sizes)
 
 
 def diverging(trials: int) -> dd.Experiment:
@@ -85,7 +92,7 @@ def diverging(trials: int) -> dd.Experiment:
     u["activation"] >> model.add(dd.Gain(0.1, name="loop")) >> u
     levels = [dd.Factor("loop", [0.1, 1e6], "loop.factor")]
     measures = [dd.Measure("last", "u.activation", "max")]
-    return dd.Experiment("diverging", model, 80, trials // 2, factors=levels, measures=measures)
+    return dd.Experiment("diverging", model, dd.TrialPlan(80, measures=measures), trials // 2, factors=levels)
 
 
 def learning(trials: int) -> dd.Experiment:
@@ -98,7 +105,9 @@ def learning(trials: int) -> dd.Experiment:
     again = [dd.Reset(150, keep_learned=True)]
     seen = [dd.Reached("end", 299.0)]
     kept = [dd.Measure("strength", "trace.output", "max", when="end")]
-    return dd.Experiment("learning", model, 300, trials, seen, again, measures=kept)
+    return dd.Experiment(
+        "learning", model, dd.TrialPlan(300, events=seen, measures=kept, actions=again), trials
+    )
 
 
 def robot(trials: int) -> dd.Experiment:
@@ -113,13 +122,15 @@ def robot(trials: int) -> dd.Experiment:
     room = Arena(ROOM, start=(10, 20, 0), goal=(80, 20), unit="cm", noise=dd.ArenaNoise(slip=0.2))
     wall = [dd.Place(5, "block", (60, 20), (5, 5), (1, 0, 0), height=10)]
     seen = [dd.Within("there", 60, "pose.output", "goal.output")]
-    return dd.Experiment("robot", model, 60, trials, seen, wall, world=room)
+    return dd.Experiment("robot", model, dd.TrialPlan(60, events=seen, actions=wall), trials, world=room)
 
 
 def alone(trials: int) -> dd.Experiment:
     """Trials that run one by one, because an action rebuilds the program."""
     widths = [dd.Set(100, "u.kernel.0.sigma", 6.0)]
-    return dd.Experiment("alone", _two_inputs(51), 150, trials, [dd.Appears("seen", "u")], widths)
+    return dd.Experiment(
+        "alone", _two_inputs(51), dd.TrialPlan(150, events=[dd.Appears("seen", "u")], actions=widths), trials
+    )
 
 
 TEN: dict[str, Callable[[int], dd.Experiment]] = {

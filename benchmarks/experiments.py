@@ -51,10 +51,8 @@ def main() -> None:
     experiment = Experiment(
         "selection",
         model,
-        given.steps,
+        dd.TrialPlan(given.steps, events=conditions, measures=[Measure("where", "u.activation", "place")]),
         given.trials,
-        conditions,
-        measures=[Measure("where", "u.activation", "place")],
     )
 
     def watched(every: float) -> Callable[[], object]:

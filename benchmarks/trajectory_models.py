@@ -233,7 +233,11 @@ def _own_function() -> dd.Model:
 def _rows(experiment: dd.Experiment) -> Callable[[str], dict[str, list[Any]]]:
     def numbers(precision: str) -> dict[str, list[Any]]:
         data = dc.replace(experiment, precision=precision).run()
-        names = ["outcome", "duration", *(p.name for p in (*experiment.conditions, *experiment.measures))]
+        names = [
+            "outcome",
+            "duration",
+            *(p.name for p in (*experiment.plan.events, *experiment.plan.measures)),
+        ]
         return {name: [_plain(v) for v in data[name].values.ravel().tolist()] for name in names}
 
     return numbers
@@ -244,7 +248,7 @@ def _plain(value: Any) -> Any:
 
 
 def _experiment(experiment: dd.Experiment) -> Table:
-    return Table(_rows(experiment), ("outcome", "duration", *(c.name for c in experiment.conditions)))
+    return Table(_rows(experiment), ("outcome", "duration", *(c.name for c in experiment.plan.events)))
 
 
 def _choice() -> dd.Experiment:
@@ -271,27 +275,32 @@ def _choice() -> dd.Experiment:
     return dd.Experiment(
         "choice",
         model,
-        200,
+        dd.TrialPlan(
+            200,
+            events=[Appears("detected", "u", threshold=1.0, ends=False), Vanishes("gone", "u")],
+            measures=[
+                Measure("where", "u.activation", "place", "detected"),
+                Measure("end", "u.activation", "mean"),
+            ],
+            actions=[
+                Push(10, "u", 1.0, 5),
+                Set(50, "u.resting_level", -5.5, when="detected"),
+                Ramp(130, "u.resting_level", -8.0, 20),
+            ],
+        ),
         3,
-        seed=1,
-        conditions=[Appears("detected", "u", threshold=1.0, ends=False), Vanishes("gone", "u")],
-        actions=[
-            Push(10, "u", 1.0, 5),
-            Set(50, "u.resting_level", -5.5, when="detected"),
-            Ramp(130, "u.resting_level", -8.0, 20),
-        ],
         factors=[Factor("strength", [6.0, 7.0], "left.amplitude")],
-        measures=[
-            Measure("where", "u.activation", "place", "detected"),
-            Measure("end", "u.activation", "mean"),
-        ],
+        seed=1,
     )
 
 
 def _robot() -> dd.Experiment:
     far = [Crosses("far", "pose", 60, ends=False), Crosses("touched", "touching", 0.5)]
     return dd.Experiment(
-        "robot", straight(), 300, world=room(), conditions=far, actions=[Move(5, "far", (88, 20), when="far")]
+        "robot",
+        straight(),
+        dd.TrialPlan(300, events=far, actions=[Move(5, "far", (88, 20), when="far")]),
+        world=room(),
     )
 
 
@@ -314,6 +323,6 @@ def tables() -> dict[str, Table]:
         "experiment choice": _experiment(_choice()),
         "experiment robot": _experiment(_robot()),
         "experiment decider": _experiment(
-            dd.Experiment("d", decider(), 400, 6, conditions=[Crosses("decided", "u.activation")])
+            dd.Experiment("d", decider(), dd.TrialPlan(400, events=[Crosses("decided", "u.activation")]), 6)
         ),
     }

@@ -50,15 +50,17 @@ def experiment(trials: int = 100) -> dd.Experiment:
     return dd.Experiment(
         "reaction time",
         model,
-        limit=600,
+        dd.TrialPlan(
+            600,
+            events=[dd.Appears("detected", "u")],
+            # half the resting level, because at detection only one sample is above 0
+            measures=[dd.Measure("place", "u.activation", "place", threshold=RESTING / 2)],
+        ),
         trials=trials,
-        conditions=[dd.Appears("detected", "u")],
         factors=[
             dd.Factor("distance", {f"{d} deg": p for d, p in places.items()}),
             dd.Factor("preshape", [0.0, 1.0], "preshape.amplitude"),
         ],
-        # half the resting level, because at detection only one sample is above 0
-        measures=[dd.Measure("place", "u.activation", "place", threshold=RESTING / 2)],
     )
 
 

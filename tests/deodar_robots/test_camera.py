@@ -255,7 +255,7 @@ def test_the_results_of_an_experiment_have_no_login(peer: PeerServer, tmp_path: 
     model = dd.Model("looking", dt=40)
     model.add(dd.Sensor("eye", AXES, "picture"))
     world = f"camera:http://user:{SECRET}@{peer.place}/"
-    dd.Experiment("seen", model, 80.0, world=world).run(tmp_path / "results")
+    dd.Experiment("seen", model, dd.TrialPlan(80.0), world=world).run(tmp_path / "results")
     written = b"".join(file.read_bytes() for file in tmp_path.rglob("*") if file.is_file())
     assert f"http://***@{peer.place}/".encode() in written and SECRET.encode() not in written
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import dataclasses as dc
 import json
 import threading
 from collections.abc import AsyncIterator, Awaitable, Callable
@@ -29,6 +28,7 @@ from deodar_studio.pages import hub
 from deodar_studio.project.confirmation import ConfirmationRequired
 from deodar_studio.requests import dispatch
 from deodar_studio.web.connection import PageConnection
+from tests.deodar.experiments.calls import changed
 from tests.deodar_studio.page import WAIT, Page, play, studio
 
 
@@ -55,20 +55,22 @@ def two_targets() -> dd.Experiment:
     return dd.Experiment(
         "two targets",
         model,
-        limit=600,
+        dd.TrialPlan(
+            600,
+            events=[dd.Appears("detected", "u")],
+            measures=[dd.Measure("place", "u.activation", "place", threshold=-2.5)],
+        ),
         trials=25,
-        conditions=[dd.Appears("detected", "u")],
         factors=[
             dd.Factor("distance", {"near": near, "far": far}),
             dd.Factor("preshape", [0.0, 1.0], "preshape.amplitude"),
         ],
-        measures=[dd.Measure("place", "u.activation", "place", threshold=-2.5)],
     )
 
 
 def few(trials: int = 3, **given: Any) -> dd.Experiment:
     """The same with few trials, which end soon."""
-    return dc.replace(two_targets(), trials=trials, limit=150, **given)
+    return changed(two_targets(), trials=trials, limit=150, **given)
 
 
 @pytest.fixture
@@ -227,7 +229,7 @@ def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
 
 
 def test_a_row_whose_record_is_in_a_store_is_repeated(folder: Path) -> None:
-    few(1, record=["u"], every=5.0).run(
+    few(1, watch=["u"], every=5.0).run(
         folder / "results", on=dd.Resources(workers=1), records=folder / "store"
     )
     row = json.loads((folder / "results" / "trials.jsonl").read_text().splitlines()[2])

@@ -46,7 +46,8 @@ for name in ("record.zarr", "record.nc"):
     assert dd.open_record(name)["u.activation"].equals(data["u.activation"])
 
 found = dd.regimes(model, "u")
-rows = dd.Experiment("alone", model, limit=100, trials=2, conditions=[dd.Appears("seen", "u")]).run("rows")
+plan = dd.TrialPlan(100, events=[dd.Appears("seen", "u")])
+rows = dd.Experiment("alone", model, plan, trials=2).run("rows")
 peaks = dd.peaks(session.read("u"), [x])
 print(model, data, found, rows, peaks)
 print(json.dumps({"outcomes": rows["outcome"].values.tolist(), "peaks": len(peaks)}))

@@ -72,12 +72,21 @@ def objects(folder: Path) -> None:
         model.add(Boost(f"go {wheel}", amplitude=500.0)) >> model.add(Motor(wheel, motor=wheel))
     box = {"thing": "box", "center": (0.4, 0.3)}  # the name of `object` in versions 1 and 2
     experiment = Experiment(
-        "objects", model, 100, trials=2, world="arena:blocks", every=5,
-        conditions=[Crosses("touched", "touching", level=0.5, ends=False)],
-        actions=[
-            Place(10, size=(0.04, 0.2), **box), Move(60, thing="box", center=(0.4, 0.7)), Remove(80, "box"),
-        ],
-    )  # fmt: skip
+        "objects",
+        model,
+        dd.TrialPlan(
+            100,
+            events=[Crosses("touched", "touching", level=0.5, ends=False)],
+            actions=[
+                Place(10, size=(0.04, 0.2), **box),
+                Move(60, thing="box", center=(0.4, 0.7)),
+                Remove(80, "box"),
+            ],
+            every=5,
+        ),
+        trials=2,
+        world="arena:blocks",
+    )
     experiment.save(folder / "experiment.json")
 
     def stop(standing: object) -> None:
@@ -107,11 +116,20 @@ def main(version: str, folder: Path) -> None:
     if version == "1":
         files.save(record, folder / "record.zarr")
     experiment = Experiment(
-        "choice", model, 80, trials=4, seed=2, precision="float64", record=["n.activation"], every=5,
-        conditions=[Appears("detected", "u", threshold=1.0)],
+        "choice",
+        model,
+        dd.TrialPlan(
+            80,
+            watch=["n.activation"],
+            events=[Appears("detected", "u", threshold=1.0)],
+            measures=[Measure("end", "u.activation", "mean")],
+            every=5,
+        ),
+        trials=4,
         factors=[Factor("strength", [6.0, 7.0], "input.amplitude")],
-        measures=[Measure("end", "u.activation", "mean")],
-    )  # fmt: skip
+        seed=2,
+        precision="float64",
+    )
     experiment.save(folder / "experiment.json")
 
     def stop(standing: object) -> None:

@@ -160,7 +160,7 @@ def test_an_experiment_of_version_2_is_read_and_resumed(tmp_path: Path) -> None:
     data = json.loads((old / "experiment.json").read_text())
     assert data["experiment"] == 2 and [action["thing"] for action in data["actions"]] == ["box"] * 3
     experiment = dd.Experiment.load(old / "experiment.json")
-    assert experiment.check() == [] and [action.object for action in experiment.actions] == ["box"] * 3
+    assert experiment.check() == [] and [action.object for action in experiment.plan.actions] == ["box"] * 3
     folder = begun_here(old / "stopped", tmp_path / "stopped")
     assert dd.load_results(folder).sizes["trial"] == 1
     rows = (folder / "trials.jsonl").read_text().split("\n")[:2]

@@ -53,7 +53,7 @@ def test_an_experiment_names_package_and_version_of_its_measures_and_opens_again
     experiment = dd.Experiment.from_data(_data())
     experiment.save(tmp_path / "e.json")
     assert json.loads((tmp_path / "e.json").read_text())["packages"] == {"Spread": "deodar-spread 1.2"}
-    assert dd.Experiment.load(tmp_path / "e.json").measures == experiment.measures
+    assert dd.Experiment.load(tmp_path / "e.json").plan.measures == experiment.plan.measures
     assert dd.Experiment.schema()["properties"]["packages"]["type"] == "object"
 
 
@@ -101,7 +101,7 @@ def test_doctor_examines_the_model_of_an_experiment(
 def test_an_experiment_that_does_not_open_names_the_other_version(install: Install) -> None:
     _install(install, "2.0")
     data = _data(packages={"Spread": "deodar-spread 1.2"})
-    assert [m.name for m in dd.Experiment.from_data(data).measures] == ["u"]
+    assert [m.name for m in dd.Experiment.from_data(data).plan.measures] == ["u"]
     data["measures"] = {"u": {"kind": "Spread", "of": "u.output", "wide": 3}}
     with pytest.raises(DocumentError) as caught:
         dd.Experiment.from_data(data)

@@ -50,36 +50,36 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
             )
             return False
 
-    doc = model.document
+    doc, plan = model.document, experiment.plan
     if not attempt("model", model.require) or not attempt("world", lambda: used(doc, world)):
         raise ParameterError(problems)
     _times(experiment, doc.step, doc.t0, attempt)
-    if attempt("dt", lambda: require_step(doc, doc.step if experiment.dt is None else experiment.dt)):
+    if attempt("dt", lambda: require_step(doc, doc.step if plan.dt is None else plan.dt)):
         _factors(experiment, model, attempt)
-    attempt("conditions", lambda: require(experiment.conditions, experiment.measures))
-    looks = [(f"conditions.{c.name}", v) for c in experiment.conditions for v in c.views]
-    for where, view in [*looks, *((f"measures.{m.name}", m.view) for m in experiment.measures)]:
+    attempt("conditions", lambda: require(plan.events, plan.measures))
+    looks = [(f"conditions.{c.name}", v) for c in plan.events for v in c.views]
+    for where, view in [*looks, *((f"measures.{m.name}", m.view) for m in plan.measures)]:
         attempt(where, lambda view=view: _view(view, model, world))
-    for condition in experiment.conditions:
+    for condition in plan.events:
         if isinstance(condition, (Within, Leaves)):
             attempt(f"conditions.{condition.name}", lambda c=condition: _radius(c, doc, world))
-    names = [c.name for c in experiment.conditions]
-    for k, action in enumerate(experiment.actions):
+    names = [c.name for c in plan.events]
+    for k, action in enumerate(plan.actions):
         attempt(f"actions.{k}", lambda action=action: targets(action, doc))
         if action.world_method:
             attempt(f"actions.{k}", lambda action=action: changed(action, world))
         if action.when and action.when not in names:
             what = f"there is no condition {action.when!r}"
             problems.append(Problem(f"actions.{k}.when", what, did_you_mean(action.when, names)))
-        if isinstance(action, Record) and not experiment.record:
+        if isinstance(action, Record) and not plan.watch:
             problems.append(
                 Problem(
                     f"actions.{k}",
                     "starts or stops recording, but nothing is recorded",
-                    "Name ports under record",
+                    "Name ports: watch=[...] of the plan (record in a file)",
                 )
             )
-    for path in experiment.record:
+    for path in plan.watch:
         attempt("record", lambda path=path: find.shown(doc, path))
     if problems:
         raise ParameterError(problems)
@@ -88,7 +88,8 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
 def _times(
     experiment: Design, step: float, t0: float, attempt: Callable[[str, Callable[[], object]], bool]
 ) -> None:
-    dt, limit = step if experiment.dt is None else experiment.dt, experiment.limit
+    plan, limit = experiment.plan, experiment.plan.limit
+    dt = step if plan.dt is None else plan.dt
 
     def within(at: float, what: str) -> None:
         if at - t0 > limit:
@@ -97,10 +98,9 @@ def _times(
                 fix="Use a longer limit",
             )
 
-    attempt("limit", lambda: whole(limit, dt, "the limit"))
-    if experiment.every is not None:
-        attempt("every", lambda: _positive(whole(experiment.every or 0.0, dt, "every")))
-    for k, action in enumerate(experiment.actions):
+    attempt("limit", lambda: plan.steps(dt))
+    attempt("every", lambda: plan.gap(dt))
+    for k, action in enumerate(plan.actions):
         for at in action.times:
             moment = at if action.when else at - t0
             if not attempt(f"actions.{k}", lambda moment=moment: whole(moment, dt, "the time of an action")):
@@ -112,19 +112,14 @@ def _times(
         )
         if not action.when:
             attempt(f"actions.{k}", lambda action=action: within(max(action.times), "is never done"))
-    for c in experiment.conditions:
+    for c in plan.events:
         if isinstance(c, Reached):
             attempt(f"conditions.{c.name}", lambda c=c: within(c.at, "can never hold"))
 
 
-def _positive(steps: int) -> None:
-    if steps == 0:
-        raise ParameterError("is 0; expected at least one step")
-
-
 def _factors(experiment: Design, model: Model, attempt: Callable[[str, Callable[[], object]], bool]) -> None:
     doc, taken = model.document, dict[str, str]()
-    step = doc.step if experiment.dt is None else experiment.dt
+    step = doc.step if experiment.plan.dt is None else experiment.plan.dt
 
     def level(path: str, value: Any) -> None:
         find.target(doc, path)

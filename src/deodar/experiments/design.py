@@ -1,6 +1,4 @@
-"""The design of an experiment as data: model, trials, conditions, actions, factors and measures, and its
-file.
-"""
+"""The design of an experiment as data: its model, the plan of its trials and their factors, and its file."""
 
 from __future__ import annotations
 
@@ -12,13 +10,14 @@ from typing import Annotated, Any, Self, cast
 
 from deodar import codec, plugins
 from deodar.codec import Json, JsonObject
-from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, did_you_mean
-from deodar.experiments.actions import ACTIONS, Action
-from deodar.experiments.events import EVENTS, Event
+from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, UnknownName, did_you_mean
+from deodar.experiments.actions import ACTIONS
+from deodar.experiments.events import EVENTS
 from deodar.experiments.experiment_migrations import migrate
 from deodar.experiments.factor import DESIGNS, Factor, assign
-from deodar.experiments.measures import MEASURES, BaseMeasure
+from deodar.experiments.measures import MEASURES
 from deodar.experiments.plain import from_data, schema, to_data
+from deodar.experiments.trial import TrialPlan
 from deodar.model import output
 from deodar.model.model import Model, load, save
 from deodar.parameters import Part, Recompile, show
@@ -32,6 +31,20 @@ KINDS: Mapping[str, Mapping[str, type[Part]]] = {
     "measures": MEASURES,
 }
 """The kinds of parts that are valid under each key of a file."""
+
+OF_PLAN = {
+    "limit": "limit",
+    "every": "every",
+    "record": "watch",
+    "dt": "dt",
+    "conditions": "events",
+    "actions": "actions",
+    "measures": "measures",
+}
+"""For each key of a file that is a parameter of the plan, the name of the parameter."""
+
+SETTINGS = ("limit", "trials", "design", "seed", "every", "record", "world", "dt", "precision")
+"""The keys of a file that are neither names nor parts, in the order in which they are shown and written."""
 
 USUAL = {"factors": "Factor", "measures": "Measure"}
 """The default kind under each key, which a file need not state."""
@@ -47,40 +60,33 @@ class Design(Part):
     Attributes:
         name: name of the experiment.
         model: the model, or the path of its document.
-        limit: document time after which a trial times out.
+        plan: what is done and observed in each trial; each trial keeps a record of the ports to watch.
         trials: number of trials for each combination of levels; for a random design in total.
-        conditions: the events to detect; events with `ends` end a trial, and give its outcome.
-        actions: the actions on each trial, with their times.
         factors: parameters in which trials differ, and their levels.
-        measures: the measures of each trial.
         design: `crossed`, `shuffled` (the same in an order drawn from the seed) or `random` (levels drawn for
             each trial).
         seed: seed of all noise, and of the random order or levels.
-        every: sampling interval, also of records, in document time; none: each step.
-        record: paths of ports that are recorded in every trial; the path of a field alone means its
-            activation.
         world: the world of the model's sensors and motors: a world, or KIND:ARGUMENT as on the command line.
-        dt: Euler step; none: the document's own.
         precision: float32 or float64.
     """
 
     name: str
     model: object
-    limit: Annotated[float, Recompile("time", role="duration", lower=0.0)]
+    plan: TrialPlan
     trials: Annotated[int, Recompile(lower=1)] = 1
-    conditions: Sequence[Event] = ()
-    actions: Sequence[Action] = ()
     factors: Sequence[Factor] = ()
-    measures: Sequence[BaseMeasure] = ()
     design: Annotated[str, Recompile(choices=DESIGNS)] = dc.field(default="crossed", kw_only=True)
     seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1)] = dc.field(default=0, kw_only=True)
-    every: Annotated[float | None, Recompile("time", role="duration")] = dc.field(default=None, kw_only=True)
-    record: Annotated[Sequence[str], Recompile(names="port")] = dc.field(default=(), kw_only=True)
     world: object = dc.field(default=None, kw_only=True)
-    dt: Annotated[float | None, Recompile("time", role="duration")] = dc.field(default=None, kw_only=True)
     precision: Annotated[str, Recompile(choices=("float32", "float64"))] = dc.field(
         default="float32", kw_only=True
     )
+
+    def __new__(cls, *args: Any, **kwargs: Any) -> Self:
+        if key := next((key for key in kwargs if key in OF_PLAN), ""):
+            fix = f"Write: dd.Experiment(name, model, dd.TrialPlan({OF_PLAN[key]}=...))"
+            raise UnknownName(f"Experiment has no parameter {key!r}: it belongs to the plan", fix=fix)
+        return cast("Self", super().__new__(cls, *args, **kwargs))
 
     def __post_init__(self) -> None:
         if self.world is None:  # the type of this parameter is open, so that None is accepted too
@@ -92,9 +98,7 @@ class Design(Part):
             yield "model", f"needs a model or the path of its document, not {show(self.model)}"
         if not isinstance(self.world, (World, str)):
             yield "world", f"needs a world, or text such as arena:blocks, not {show(self.world)}"
-        if self.dt is not None and self.dt <= 0:
-            yield "dt", f"is {show(self.dt)}; expected a number above 0"
-        names = [p.name for p in (*self.conditions, *self.factors, *self.measures)]
+        names = [p.name for p in (*self.plan.events, *self.factors, *self.plan.measures)]
         for name in dict.fromkeys(names):
             if not name or name in OWN or names.count(name) > 1:
                 what = "is a column of every table" if name else "is not a name"
@@ -115,9 +119,11 @@ class Design(Part):
         out: JsonObject = {"experiment": VERSION, "name": self.name}
         out |= {"model": str(self.model)} if isinstance(self.model, (str, Path)) else {}
         out |= {"world": self.world} if isinstance(self.world, str) and self.world else {}
-        out |= to_data(self, False, ("name", "model", "world", *KINDS))
+        settings = to_data(self, False, ("name", "model", "world", "plan", "factors"))
+        of_plan = to_data(self.plan, False, ("events", "measures", "actions"))
+        out |= by_key(settings, of_plan)
         for key in KINDS:
-            parts = cast("Sequence[Any]", getattr(self, key))
+            parts: Sequence[Any] = getattr(self.plan, OF_PLAN[key]) if key in OF_PLAN else self.factors
             plain = [to_data(part, type(part).__name__ != USUAL.get(key)) for part in parts]
             if plain:
                 out[key] = (
@@ -125,7 +131,7 @@ class Design(Part):
                     if key == "actions"
                     else {part.name: data for part, data in zip(parts, plain, strict=True)}
                 )
-        packages = {type(part).__name__: MEASURES.package(type(part)) for part in self.measures}
+        packages = {type(part).__name__: MEASURES.package(type(part)) for part in self.plan.measures}
         packages = {kind: package for kind, package in sorted(packages.items()) if package}
         return {**out, "packages": packages} if packages else out
 
@@ -166,11 +172,21 @@ class Design(Part):
             problems.append(
                 Problem("model", "is missing", 'Name the file of the model: "model": "model.json"')
             )
-        found: Any = (
-            from_data(given, "", {"Experiment": cls}, {}, problems, "Experiment") if not problems else None
-        )
+        known = ["name", "model", *SETTINGS, *KINDS]
+        for key in [key for key in given if key not in known]:
+            del given[key]
+            problems.append(Problem(key, "Experiment has no such parameter", did_you_mean(key, known)))
+        of_plan = {name: given.pop(key) for key, name in OF_PLAN.items() if key in given}
+        plan = from_data(of_plan, "", {"Experiment": TrialPlan}, {}, problems, "Experiment")
+        # an experiment with another plan states its other problems
+        more = {"plan": plan or TrialPlan(1.0)}
+        found: Any = from_data(given, "", {"Experiment": cls}, more, problems, "Experiment")
         if problems:
-            raise DocumentError([dc.replace(p, where=p.where.strip(".")) for p in problems])
+            keys = {name: key for key, name in OF_PLAN.items()}
+            places = [p.where.strip(".") for p in problems]
+            raise DocumentError(
+                [dc.replace(p, where=keys.get(at, at)) for p, at in zip(problems, places, strict=True)]
+            )
         return found
 
     def save(self, path: str | Path, force: bool = False) -> None:
@@ -224,9 +240,8 @@ class Design(Part):
     @staticmethod
     def schema() -> dict[str, Any]:
         """Return the JSON Schema of a file."""
-        own: dict[str, Any] = schema({"Experiment": Design}, named=False)["oneOf"][0]["properties"]
-        own = {key: value for key, value in own.items() if key not in (*KINDS, "kind")}
-        own |= {
+        both = [schema({"": cls}, named=False)["oneOf"][0]["properties"] for cls in (Design, TrialPlan)]
+        own = by_key(*both) | {
             "experiment": {"enum": list(range(1, VERSION + 1))},
             "name": {"type": "string"},
             "model": {"type": "string"},
@@ -251,6 +266,12 @@ class Design(Part):
             "required": ["experiment", "name", "model", "limit"],
             "additionalProperties": False,
         }
+
+
+def by_key(own: Mapping[str, Any], of_plan: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what belongs to parameters of an experiment and of its plan, by the keys of a file."""
+    both = {**own, **{key: of_plan[name] for key, name in OF_PLAN.items() if name in of_plan}}
+    return {key: both[key] for key in SETTINGS if key in both}
 
 
 EXAMPLE = "example:"

@@ -77,7 +77,9 @@ def from_data(
     try:
         return cls(**given, **{key: value for key, value in values.items() if key != "kind"})
     except (ParameterError, UnknownName) as error:
-        problems += [Problem(f"{where}{p.where.removeprefix(name)}", p.what, p.fix) for p in error.problems]
+        problems += [
+            Problem(f"{where}{p.where.removeprefix(cls.__name__)}", p.what, p.fix) for p in error.problems
+        ]
         return None
 
 

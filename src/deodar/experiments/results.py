@@ -136,7 +136,7 @@ def _require_records(setup: Setup, out: str | Path | None, workers: bool) -> Non
     if not setup.recorded:
         raise ParameterError(
             "a store of records is named, but the trials record nothing",
-            fix="Name ports in record=[...] of the experiment, or leave records out",
+            fix="Name ports in watch=[...] of the plan (record in a file), or leave records out",
         )
     if out is None:
         raise ParameterError(

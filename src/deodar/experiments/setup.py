@@ -19,7 +19,7 @@ from deodar.experiments.levels import set_values, swept
 from deodar.experiments.observations import DIVERGED, TIME
 from deodar.experiments.record_target import RECORD, PieceRecords, RecordTarget
 from deodar.experiments.rows import KEY, Row
-from deodar.experiments.trial import Trial, TrialPlan
+from deodar.experiments.trial import Trial
 from deodar.experiments.trials import Trials
 from deodar.experiments.writing import trial_records, write_record, write_records
 from deodar.model import edit, find
@@ -85,38 +85,38 @@ class Setup:
     @property
     def recorded(self) -> bool:
         """Whether trials have records or snapshots."""
-        return bool(self.experiment.record) or any(isinstance(a, Snapshot) for a in self.experiment.actions)
+        return bool(self.experiment.plan.watch) or self.experiment.plan.has(Snapshot)
 
     @property
     def dt(self) -> float:
         """Euler step."""
-        return float(self.experiment.dt or self.model.document.step)
+        return float(self.experiment.plan.dt or self.model.document.step)
 
     @property
     def steps(self) -> int:
         """Number of steps of a trial that times out."""
-        return round(self.experiment.limit / self.dt)
+        return round(self.experiment.plan.limit / self.dt)
 
     def shortened(self, steps: int) -> Setup:
         """Return the same setup with another limit, in steps, to measure the time of a step."""
-        return Setup(dc.replace(self.experiment, limit=steps * self.dt), self.model, self.world)
+        plan = dc.replace(self.experiment.plan, limit=steps * self.dt)
+        return Setup(dc.replace(self.experiment, plan=plan), self.model, self.world)
 
     @cached_property
     def batched(self) -> bool:
         """Whether trials run together in one program: their world is computed in the program, and actions
         change numbers of the program and objects of the world.
         """
-        e, doc = self.experiment, self.model.document
+        plan, doc = self.experiment.plan, self.model.document
         known = () if self.world is None else self.world.sensors
-        looked = [*(v.of for c in e.conditions for v in c.views), *(m.view.of for m in e.measures)]
-        if any(name in known for name in looked):
+        if any(view.of in known for view in plan.views):
             return False
         if self.world is not None and embodied(doc, self.world) is None:
             return False
         own = isinstance(self.world, PureWorld) and type(self.world).for_trial is not PureWorld.for_trial
-        if any(a.world_method for a in e.actions) and not own:
+        if any(a.world_method for a in plan.actions) and not own:
             return False
-        return all(self._sweeps(path, given) for path, given in set_values(e.actions).items())
+        return all(self._sweeps(path, given) for path, given in set_values(plan.actions).items())
 
     def _sweeps(self, path: str, given: Sequence[Any]) -> bool:
         """Return whether trials of one batch may differ in a parameter with these values, besides the values
@@ -175,11 +175,11 @@ class Setup:
         """
         out: list[Row] = []
         stored = PieceRecords(records, trials) if isinstance(records, RecordTarget) else None
-        for k, result, model in self._results(trials, () if records is None else self.experiment.record):
+        for k, result, model in self._results(trials, () if records is None else self.experiment.plan.watch):
             row = self._row(k, result)
             if records is not None:
                 about = self._about(row) | ({DIVERGED: row[DIVERGED]} if DIVERGED in row else {})
-                found = trial_records(model.document, self.experiment.record, result, about)
+                found = trial_records(model.document, self.experiment.plan.watch, result, about)
                 if isinstance(records, Path):
                     write_records(records, row[KEY], found)
                 elif stored is not None:
@@ -191,7 +191,7 @@ class Setup:
     def _row(self, trial: int, result: Trial) -> Row:
         e = self.experiment
         levels = {f.name: f.labels[n] for f, n in zip(e.factors, self.cells[trial], strict=True)}
-        awaited = [c.name for c in e.conditions if c.ends and result.events[c.name] is None]
+        awaited = [c.name for c in e.plan.events if c.ends and result.events[c.name] is None]
         row: Row = {KEY: f"{trial:06}", "trial": trial, "levels": levels, "outcome": result.outcome}
         row |= {"awaited": ", ".join(awaited) if result.outcome == TIME else "", "duration": result.duration}
         row |= {} if result.error is None else {"duration": None, DIVERGED: result.error.problems[0].what}
@@ -244,7 +244,7 @@ class Setup:
         key = tuple(watch), tuple((path, id(value)) for path, value in changes.items())
         if key not in self._kept:
             model = self._with(changes)
-            plan = TrialPlan(e.limit, watch, e.conditions, e.measures, e.actions, e.every, e.dt)
+            plan = dc.replace(e.plan, watch=watch)
             self._kept = {key: (Trials(model, plan, self.world, e.precision, self.batched), model)}
         return self._kept[key]
 
@@ -264,10 +264,11 @@ class Setup:
     @property
     def record_bytes(self) -> float:
         """Size in bytes of the records of a trial that lasts until the limit."""
-        e, by = self.experiment, {node.id: node for node in self._nodes}
-        found = [find.shown(self.model.document, name) for name in e.record]
+        plan, by = self.experiment.plan, {node.id: node for node in self._nodes}
+        found = [find.shown(self.model.document, name) for name in plan.watch]
         cells = sum(math.prod(shape(by[entry.id].axes(port))) for entry, port in found)
-        return cells * (e.limit / (e.every or self.dt) + 1) * (8 if e.precision == "float64" else 4)
+        size = 8 if self.experiment.precision == "float64" else 4
+        return cells * (plan.limit / (plan.every or self.dt) + 1) * size
 
     def _most(self) -> int:
         """Return the largest number of trials in one batch."""

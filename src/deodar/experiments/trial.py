@@ -2,44 +2,70 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 
-from deodar.errors import NotFinite
+from deodar.errors import NotFinite, TimeError
 from deodar.experiments.actions import Action
 from deodar.experiments.events import Event
 from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.observable import Observable
 from deodar.experiments.observations import TIME as TIME
 from deodar.experiments.running_trial import Kept
+from deodar.parameters import Part, Recompile, show
+from deodar.session.run import whole
 
 Value = float | list[float] | None
 
 
 @dataclass(frozen=True)
-class TrialPlan:
+class TrialPlan(Part):
     """What is done and observed in each of several trials.
 
     Attributes:
         limit: document time after which a trial times out.
-        watch: paths of ports whose values are returned, and names of sensors of a world on the host; the path
-            of a field alone means its activation.
+        watch: paths of ports whose values are kept; the path of a field alone means its activation. Beside a
+            world on the host also names of its sensors.
         events: the events to detect; events with `ends` end a trial.
         measures: the measures of each trial.
         actions: the actions, at their times or after their events.
-        every: sampling interval in document time; none: dt. The first sample is at the start.
+        every: sampling interval in document time; none: each step. The first sample is at the start.
         dt: Euler step; none: the document's own.
     """
 
-    limit: float
-    watch: Sequence[str] = ()
+    limit: Annotated[float, Recompile("time", role="duration", lower=0.0)]
+    watch: Annotated[Sequence[str], Recompile(names="port")] = ()
     events: Sequence[Event] = ()
     measures: Sequence[BaseMeasure] = ()
     actions: Sequence[Action] = ()
-    every: float | None = None
-    dt: float | None = None
+    every: Annotated[float | None, Recompile("time", role="duration")] = None
+    dt: Annotated[float | None, Recompile("time", role="duration")] = None
+
+    def validate(self) -> Iterator[tuple[str, str]]:
+        if self.dt is not None and self.dt <= 0:
+            yield "dt", f"is {show(self.dt)}; expected a number above 0"
+
+    def steps(self, dt: float) -> int:
+        """Return the number of steps of a trial that times out.
+
+        Raises:
+            TimeError: the limit is no multiple of the step.
+        """
+        return whole(self.limit, dt, "the limit")
+
+    def gap(self, dt: float) -> int:
+        """Return the number of steps between two samples.
+
+        Raises:
+            TimeError: the sampling interval is 0, or no multiple of the step.
+        """
+        gap = 1 if self.every is None else whole(self.every, dt, "every")
+        if gap == 0:
+            raise TimeError("every is 0; expected at least one step")
+        return gap
 
     @property
     def views(self) -> list[Observable]:

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable, Generator, Mapping, Sequence
 
 from deodar.compiler.dynamics import Dynamics
-from deodar.errors import ParameterError, RunWarning, TimeError, WorldError
+from deodar.errors import ParameterError, RunWarning, WorldError
 from deodar.experiments.actions import Action, End, Record, Reset, with_pushes
 from deodar.experiments.actions import require as require_actions
 from deodar.experiments.field_reader import with_readers
@@ -22,7 +22,7 @@ from deodar.model.model import Model
 from deodar.model.resolve import resolve
 from deodar.session import agreement, memory
 from deodar.session.exchange import embodied
-from deodar.session.run import require_step, whole
+from deodar.session.run import require_step
 from deodar.session.session import require_model, require_seed
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
@@ -78,11 +78,7 @@ class Trials:
         doc = staged.document
         self.dt = float(doc.step if plan.dt is None else plan.dt)
         require_step(doc, self.dt)
-        steps = whole(plan.limit, self.dt, "the limit")
-        gap = 1 if plan.every is None else whole(plan.every, self.dt, "every")
-        if gap == 0:
-            raise TimeError("every is 0; expected at least one step")
-        self._stops = Stops(gap, steps, LOOKS if together else 1)
+        self._stops = Stops(plan.gap(self.dt), plan.steps(self.dt), LOOKS if together else 1)
         body = embodied(doc, world) if together else None
         if together and world is not None and body is None:
             raise WorldError(

@@ -12,6 +12,7 @@ from deodar.experiments.actions import Action, Move, Place, Remove, Set
 from deodar.experiments.events import All, Crosses, Event
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.measures import Measure
+from deodar.experiments.trial import TrialPlan
 from deodar.model import output
 from deodar_papers.serial_order.arenas import BLOCK, HEIGHT, SearchArena
 from deodar_papers.serial_order.colours import rgb
@@ -70,22 +71,27 @@ def experiment(name: str, world: str) -> Experiment:
     return Experiment(
         f"serial order: {name}",
         model,
-        limit=begins + 1000.0 * LONGEST,
+        TrialPlan(
+            begins + 1000.0 * LONGEST,
+            events=events,
+            measures=[
+                Measure(f"colour {k}", "hue of action.output", when=f"wants {k}")
+                for k in range(1, length + 1)
+            ],
+            actions=[
+                *(action for showing in lesson for action in _shown(c.arena(0), showing)),
+                Set(begins, "mode", 1.0),
+                *(
+                    Place(
+                        begins, f"block {k}", block.center, (BLOCK, BLOCK), rgb(block.letter), height=HEIGHT
+                    )
+                    for k, block in enumerate(c.arena(0).blocks)
+                ),
+                *_events(c, second, begins),
+            ],
+            every=COARSE,
+        ),
         trials=TRIALS,
-        conditions=events,
-        actions=[
-            *(action for showing in lesson for action in _shown(c.arena(0), showing)),
-            Set(begins, "mode", 1.0),
-            *(
-                Place(begins, f"block {k}", block.center, (BLOCK, BLOCK), rgb(block.letter), height=HEIGHT)
-                for k, block in enumerate(c.arena(0).blocks)
-            ),
-            *_events(c, second, begins),
-        ],
-        measures=[
-            Measure(f"colour {k}", "hue of action.output", when=f"wants {k}") for k in range(1, length + 1)
-        ],
-        every=COARSE,
         world=world,
     )
 

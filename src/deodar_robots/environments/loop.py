@@ -111,19 +111,26 @@ def loop(
     if isinstance(of, Experiment):
         if world is not None:
             raise ParameterError("the experiment has a world already", fix="Leave world out")
-        refused = [name for name in ("actions", "factors", "measures", "record") if getattr(of, name)]
+        plan = of.plan
+        given = {
+            "actions": plan.actions,
+            "factors": of.factors,
+            "measures": plan.measures,
+            "watch": plan.watch,
+        }
+        refused = [name for name, values in given.items() if values]
         if refused:
             raise ParameterError(
                 f"an environment has no {' and no '.join(refused)}",
                 where=of.name,
-                fix="Use an experiment with model, world, conditions, limit and every",
+                fix="Use an experiment with model and world, and a plan with limit, events and every",
             )
         setup = of.setup()
         model, world, dt = setup.model, setup.world, setup.dt
-        ends = (*of.conditions, *ends)
+        ends = (*plan.events, *ends)
         seed, precision, trials = of.seed, of.precision, of.trials if of.trials > 1 else 0
-        period = _period(model, world) if of.every is None else of.every
-        limit = math.ceil(whole(of.limit, dt, "the limit") / max(1, whole(period, dt, "every")))
+        period = _period(model, world) if plan.every is None else plan.every
+        limit = math.ceil(plan.steps(dt) / max(1, whole(period, dt, "every")))
     else:
         model, dt = require_model(of), float(of.document.step)
         model.require()
@@ -167,7 +174,7 @@ def _require_period(model: Model, world: World | None, steps: int, dt: float) ->
         if steps % every:
             raise ParameterError(
                 f"the period of the environment is {steps * dt:g}, and {name} has a step of {every * dt:g}",
-                fix=f"Use a multiple of {every * dt:g}: dd.Experiment(..., every={every * dt:g})",
+                fix=f"Use a multiple of {every * dt:g}: dd.TrialPlan(..., every={every * dt:g})",
             )
 
 

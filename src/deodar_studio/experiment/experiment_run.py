@@ -304,7 +304,7 @@ class ExperimentRun:
         """
         e, doc = self.setup.experiment, self.setup.model.document
         nodes = {node.id: node for node in resolve(doc)[0]}
-        frames = self.setup.steps if e.every is None else e.limit / e.every
+        frames = self.setup.steps if e.plan.every is None else e.plan.limit / e.plan.every
         size: dict[str, float] = {}
         for entry in doc.entries:
             outputs = find.outputs(entry)
@@ -312,7 +312,7 @@ class ExperimentRun:
             if port and entry.id in nodes:
                 cells = math.prod(shape(nodes[entry.id].axes(port)))
                 size[f"{entry.path}.{port}"] = cells * (frames + 1) * (8 if e.precision == "float64" else 4)
-        out, total = list(e.record), 0.0
+        out, total = list(e.plan.watch), 0.0
         for path in sorted(size, key=lambda path: size[path]):
             total += size[path]
             if total <= MOST_RECORDED and path not in out:

@@ -8,7 +8,8 @@ from typing import Any
 import msgspec
 
 from deodar.errors import Problem as Wrong
-from deodar.experiments.design import KINDS, USUAL, Design
+from deodar.experiments.design import KINDS, USUAL, Design, by_key
+from deodar.experiments.trial import TrialPlan
 from deodar.importers import stored_report
 from deodar.kinds.description import describe, descriptions
 from deodar.model import document_files
@@ -47,10 +48,12 @@ def experiment_forms() -> ExperimentForms:
     def forms(family: Mapping[str, type[Part]]) -> list[Kind]:
         return [msgspec.convert(describe(cls, {}), Kind, from_attributes=True) for cls in family.values()]
 
-    [design] = forms({"": Design})
-    kept = [form for form in design.parameters if form.name not in ("model", *KINDS)]
+    own, plan = (
+        {form.name: form for form in kind.parameters} for kind in forms({"": Design, "plan": TrialPlan})
+    )
+    settings = by_key(own, plan).items()
     return ExperimentForms(
-        design=kept,
+        design=[msgspec.structs.replace(form, name=key) for key, form in settings],
         conditions=forms(KINDS["conditions"]),
         actions=forms(KINDS["actions"]),
         measures=forms(KINDS["measures"]),

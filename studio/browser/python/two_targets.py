@@ -12,15 +12,14 @@ for name in ("left", "right"):
 model.add(dd.GaussianStimulus("preshape", [x], sigma=5, amplitude=1)) >> u
 near = {"left.center": 46, "right.center": 54, "preshape.center": 46}
 far = {"left.center": 35, "right.center": 65, "preshape.center": 35}
+place = dd.Measure("place", "u.activation", "place", threshold=-2.5)
 dd.Experiment(
     "two targets",
     model,
-    limit=600,
+    dd.TrialPlan(600, events=[dd.Appears("detected", "u")], measures=[place]),
     trials=25,
-    conditions=[dd.Appears("detected", "u")],
     factors=[
         dd.Factor("distance", {"near": near, "far": far}),
         dd.Factor("preshape", [0.0, 1.0], "preshape.amplitude"),
     ],
-    measures=[dd.Measure("place", "u.activation", "place", threshold=-2.5)],
 ).save("two-targets.json")

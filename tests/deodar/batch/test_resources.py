@@ -44,7 +44,10 @@ def test_what_is_no_resource_is_refused_where_it_is_written(wrong: dict[str, obj
 CALLS: dict[str, tuple[Callable[[], object], str]] = {
     "session": (lambda: dd.Session(model(), on=dd.Resources(workers=2)), "workers"),
     "session, progress": (lambda: dd.Session(model(), on=dd.Resources(progress=True)), "progress"),
-    "experiment": (lambda: dd.Experiment("e", model(), 5, 1).run(on=dd.Resources(device="gpu")), "device"),
+    "experiment": (
+        lambda: dd.Experiment("e", model(), dd.TrialPlan(5), 1).run(on=dd.Resources(device="gpu")),
+        "device",
+    ),
     "regimes": (lambda: dd.regimes(model(), "u", on=dd.Resources(workers=2)), "workers"),
     "map": (lambda: dd.regime_map(model(), {}, on=dd.Resources(cluster="local:2")), "cluster"),
     "tune": (lambda: dd.tune(model(), [], [], on=dd.Resources(devices=2)), "devices"),

@@ -20,6 +20,7 @@ from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.results import load_results
+from deodar.experiments.trial import TrialPlan
 from tests.deodar.experiments.robots import decider
 
 
@@ -31,9 +32,13 @@ def file(tmp_path, monkeypatch):
         Crosses("decided", "u.activation"),
         Crosses("low", "u.activation", -3.0, "below", ends=False),
     ]
-    Experiment("when", decider(), 400, 8, conditions, factors=[Factor("noise", [2.0, 4.0], "u.noise")]).save(
-        "when.json"
-    )
+    Experiment(
+        "when",
+        decider(),
+        TrialPlan(400, events=conditions),
+        8,
+        factors=[Factor("noise", [2.0, 4.0], "u.noise")],
+    ).save("when.json")
     return tmp_path / "when.json"
 
 

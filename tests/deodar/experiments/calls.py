@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Sequence
 from typing import Any
 
@@ -35,6 +36,12 @@ def run_together(
 ) -> list[Trial]:
     """Run trials in one batch; `tolerant`: also if all diverge."""
     return _run(model, limit, True, tolerant, numbers, given | {"watch": watch, "events": events})
+
+
+def changed(experiment: dd.Experiment, **others: Any) -> dd.Experiment:
+    """Return an experiment with other parameters, its own and those of its plan."""
+    of_plan = {name: others.pop(name) for name in ("limit", *PLAN) if name in others}
+    return dc.replace(experiment, plan=dc.replace(experiment.plan, **of_plan), **others)
 
 
 def _run(

@@ -11,6 +11,7 @@ from deodar.experiments import setup
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
+from deodar.experiments.trial import TrialPlan
 from deodar.model.model import Model
 
 LIMIT = 60.0
@@ -23,7 +24,11 @@ def experiment(trials=24, limit=1500.0):
     model.add(Field("u", [], tau=20, resting_level=-1, noise=3.0))
     factors = [Factor("level", [-1.0, -2.0], "u.resting_level")]
     return Experiment(
-        "decisions", model, limit, trials // 2, [Crosses("decided", "u.activation")], (), factors
+        "decisions",
+        model,
+        TrialPlan(limit, events=[Crosses("decided", "u.activation")]),
+        trials // 2,
+        factors=factors,
     )
 
 

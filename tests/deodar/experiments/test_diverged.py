@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import json
 import math
 import warnings
@@ -25,7 +24,7 @@ from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
 from deodar.recording import files
 from deodar.session.run import Run
-from tests.deodar.experiments.calls import run_alone, run_together
+from tests.deodar.experiments.calls import changed, run_alone, run_together
 
 LATE = Crosses("late", "v.activation", 1.0)
 RISEN = Crosses("risen", "u.activation", 1.02, ends=False)
@@ -51,11 +50,11 @@ def model(factor: float = 0.1) -> dd.Model:
 
 def experiment(factors: Sequence[float], trials: int = 3, **others: object) -> Experiment:
     given = {
-        "conditions": [LATE, RISEN],
+        "events": [LATE, RISEN],
         "factors": [Factor("factor", list(factors), "g.factor")],
         "measures": MEASURES,
     }
-    return Experiment("runaway", model(), 80, trials, **given | others)  # type: ignore[arg-type]
+    return changed(Experiment("runaway", model(), dd.TrialPlan(80), trials), **given | others)
 
 
 def finished(made: Experiment, *args: object, says: str = "3 of 9 trials diverged", **others: object):
@@ -107,7 +106,7 @@ def test_trials_run_one_by_one_give_the_same_rows() -> None:
 def test_a_sampled_coupling_that_diverges_gives_equal_rows_in_trials_and_batches() -> None:
     made = experiment([0.1, 1e6], 1, measures=[Measure("gain", "g.output", "max")])
     one, many = (
-        finished(dc.replace(made, actions=actions), says="1 of 2 trials diverged") for actions in (APART, [])
+        finished(changed(made, actions=actions), says="1 of 2 trials diverged") for actions in (APART, [])
     )
     assert (
         one["diverged"].values.tolist()
@@ -184,7 +183,7 @@ def test_rows_are_equal_with_workers_after_an_interruption_and_from_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
-    made = experiment([0.1, 1e6, 0.3], record=["u.activation"])
+    made = experiment([0.1, 1e6, 0.3], watch=["u.activation"])
     data = finished(made, tmp_path / "whole")
 
     def stop(standing: object) -> None:
@@ -231,5 +230,5 @@ def test_the_command_prints_the_number_of_diverged_trials(
 
 def test_diverged_is_a_reserved_column() -> None:
     with pytest.raises(dd.errors.ParameterError, match="'diverged' is a column of every table"):
-        experiment([0.1], conditions=[Crosses("diverged", "v.activation")])
+        experiment([0.1], events=[Crosses("diverged", "v.activation")])
     assert math.isnan(float(finished(experiment([1e6], 1), says="1 of 1")["duration"][0]))

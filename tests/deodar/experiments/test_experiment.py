@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import DocumentError, OutputExists, ParameterError, RunWarning
+from deodar.errors import DocumentError, OutputExists, ParameterError, RunWarning, UnknownName
 from deodar.experiments import experiment as module
 from deodar.experiments.actions import End, Move, Place, Push, Ramp, Record, Remove, Reset, Set, Snapshot
 from deodar.experiments.events import All, AnyOf, Appears, Crosses, Leaves, Reached, Vanishes, Within
@@ -22,7 +22,7 @@ from deodar.experiments.factor import Factor, assign
 from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
 from deodar.recording import files
-from tests.deodar.experiments.calls import run_alone
+from tests.deodar.experiments.calls import changed, run_alone
 from tests.deodar.experiments.robots import decider, room, straight
 
 
@@ -46,8 +46,7 @@ def line():
 def choice(**changes):
     """Return an experiment with this field."""
     given = {
-        "trials": 4,
-        "conditions": [
+        "events": [
             Appears("detected", "u", threshold=1.0, ends=False),
             Appears("left up", "u", near=30, radius=8, ends=False),
             Vanishes("gone", "u"),
@@ -61,7 +60,8 @@ def choice(**changes):
             Measure("end", "u.activation", "mean"),
         ],
     }
-    return Experiment("choice", line(), 150, precision="float64", **(given | changes))
+    plain = Experiment("choice", line(), dd.TrialPlan(150), 4, precision="float64")
+    return changed(plain, **(given | changes))
 
 
 def test_a_saved_experiment_is_equal_when_loaded(tmp_path):
@@ -72,7 +72,7 @@ def test_a_saved_experiment_is_equal_when_loaded(tmp_path):
             Snapshot(30, "middle", ["u.activation"]),
             Reset(70, keep_learned=True),
         ],
-        record=["u.activation"],
+        watch=["u.activation"],
         every=5,
         seed=3,
         design="shuffled",
@@ -103,7 +103,7 @@ def test_a_batch_gives_the_rows_of_single_trials():
     together = experiment.run()
     assert experiment.setup().batched and len(experiment.setup().pieces()) == 1
     # the action changes nothing, but prevents a batch
-    alone = dc.replace(experiment, actions=[Set(149, "u.quadrature", "point")])
+    alone = changed(experiment, actions=[Set(149, "u.quadrature", "point")])
     assert not alone.setup().batched
     single = alone.run()
     for name in ("outcome", "strength", "place"):
@@ -152,7 +152,7 @@ def test_combined_conditions_are_detected_and_the_missing_one_is_named():
         *both,
         Reached("late", 40, ends=False),
     ]
-    data = choice(conditions=conditions, factors=[], measures=[]).run()
+    data = choice(events=conditions, factors=[], measures=[]).run()
     assert set(data["outcome"].values) == {"time"} and set(data["awaited"].values) == {"both"}
     np.testing.assert_array_equal(data["either"], np.fmin(data["left up"], data["right up"]))
     assert (data["late"] == 40).all() and np.isnan(data["both"]).all()
@@ -207,19 +207,19 @@ def test_a_stopped_experiment_whose_model_is_of_an_older_version_is_resumed(tmp_
 
 def test_the_path_of_a_field_alone_means_its_activation():
     parts = {
-        "conditions": [Crosses("up", "u", ends=False)],
+        "events": [Crosses("up", "u", ends=False)],
         "measures": [Measure("end", "u")],
         "actions": [Snapshot(10, "then", ["u"])],
     }
-    short, full = (choice(record=[path], factors=[], trials=1, **parts) for path in ("u", "u.activation"))
+    short, full = (choice(watch=[path], factors=[], trials=1, **parts) for path in ("u", "u.activation"))
     assert [
-        v.place(short.model.document)[1] for v in (short.conditions[0].views[0], short.measures[0].view)
+        v.place(short.model.document)[1] for v in (short.plan.events[0].views[0], short.plan.measures[0].view)
     ] == ["activation"] * 2
     assert full.setup().rows([0]) == short.setup().rows([0])
 
 
 def test_records_of_a_field_alone_hold_its_activation(tmp_path):
-    choice(actions=[Snapshot(10, "then", ["u"])], record=["u"], factors=[], measures=[], trials=1).run(
+    choice(actions=[Snapshot(10, "then", ["u"])], watch=["u"], factors=[], measures=[], trials=1).run(
         tmp_path / "out"
     )
     for name in ("000000.nc", "000000-then.nc"):
@@ -244,14 +244,14 @@ def version_1(folder, experiment):
 
 def test_a_file_of_version_1_means_the_output_by_the_path_of_a_field_alone(tmp_path):
     found = Experiment.load(version_1(tmp_path, choice()))
-    assert found.record == ("u.output",) and [m.of for m in found.measures] == [
+    assert found.plan.watch == ("u.output",) and [m.of for m in found.plan.measures] == [
         "u.output",
         "left",
         "u.activation",
         "pose",
     ]
-    assert found.conditions[0].of == "u.output" and found.conditions[1].of == ("up",)
-    assert found.actions[0].of == ("u.output", "u.input")
+    assert found.plan.events[0].of == "u.output" and found.plan.events[1].of == ("up",)
+    assert found.plan.actions[0].of == ("u.output", "u.input")
 
 
 @pytest.mark.parametrize("version", [1, 2])
@@ -263,11 +263,11 @@ def test_a_file_of_an_older_version_calls_the_object_of_an_action_thing(tmp_path
     for action in data["actions"]:
         action["thing"] = action.pop("object")
     (tmp_path / "e.json").write_text(json.dumps(data | {"experiment": version}))
-    assert Experiment.load(tmp_path / "e.json").actions == tuple(actions)
+    assert Experiment.load(tmp_path / "e.json").plan.actions == tuple(actions)
     # also without the model, which converts the paths of version 1
-    assert Experiment.from_data(data | {"experiment": version, "model": "missing.json"}).actions == tuple(
-        actions
-    )
+    assert Experiment.from_data(
+        data | {"experiment": version, "model": "missing.json"}
+    ).plan.actions == tuple(actions)
     (tmp_path / "e.json").write_text(json.dumps(data))
     with pytest.raises(DocumentError, match=r"actions\.0\.thing: Place has no such parameter"):
         Experiment.load(tmp_path / "e.json")
@@ -291,7 +291,7 @@ def test_actions_switch_records_on_and_off_and_store_snapshots(tmp_path):
         Record(10, on=False, when="detected"),
         Snapshot(0, "then", ["u.activation"], when="detected"),
     ]
-    data = choice(actions=actions, record=["u.activation"], every=5, factors=[], trials=1).run(
+    data = choice(actions=actions, watch=["u.activation"], every=5, factors=[], trials=1).run(
         tmp_path / "out"
     )
     assert data.sizes["trial"] == 1
@@ -344,18 +344,20 @@ def test_objects_of_a_world_are_moved_after_an_event():
     moved = Experiment(
         "robot",
         straight(),
-        300,
+        dd.TrialPlan(
+            300,
+            events=[Crosses("far", "pose", 60, ends=False), Crosses("touched", "touching", 0.5)],
+            actions=[Move(5, "far", (88, 20), when="far")],
+        ),
         world=room(),
-        conditions=[Crosses("far", "pose", 60, ends=False), Crosses("touched", "touching", 0.5)],
-        actions=[Move(5, "far", (88, 20), when="far")],
     )
     data = moved.run()
     assert not moved.setup().batched and data["outcome"].values.tolist() == ["touched"]
-    assert float(data["touched"][0]) < float(dc.replace(moved, actions=[]).run()["touched"][0])
+    assert float(data["touched"][0]) < float(changed(moved, actions=[]).run()["touched"][0])
 
 
 def test_workers_give_the_same_table(tmp_path, monkeypatch):
-    experiment = Experiment("d", decider(), 400, 6, conditions=[Crosses("decided", "u.activation")])
+    experiment = Experiment("d", decider(), dd.TrialPlan(400, events=[Crosses("decided", "u.activation")]), 6)
     here = experiment.run()
     assert (
         experiment.run(tmp_path / "out", on=dd.Resources(workers=1)).drop_attrs().identical(here.drop_attrs())
@@ -363,7 +365,7 @@ def test_workers_give_the_same_table(tmp_path, monkeypatch):
 
 
 def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
-    experiment = Experiment("d", decider(), 50, 4)
+    experiment = Experiment("d", decider(), dd.TrialPlan(50), 4)
     monkeypatch.setattr(module, "LONG_STEPS", 200)
     with pytest.warns(
         RunWarning,
@@ -380,11 +382,11 @@ def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
 @pytest.mark.parametrize(
     ("changes", "where", "what"),
     [
-        ({"conditions": [Appears("a", "v")]}, "conditions.a", "nothing is called 'v'"),
-        ({"conditions": [Appears("a", "u", near=300, radius=2)]}, "conditions.a", "no sample lies within 2"),
-        ({"conditions": [All("a", ["b"])]}, "a", "no event 'b'"),
-        ({"conditions": [All("a", ["b"]), All("b", ["a"])]}, "a", "depends on itself"),
-        ({"conditions": [Reached("a", 500)]}, "conditions.a", "can never hold"),
+        ({"events": [Appears("a", "v")]}, "conditions.a", "nothing is called 'v'"),
+        ({"events": [Appears("a", "u", near=300, radius=2)]}, "conditions.a", "no sample lies within 2"),
+        ({"events": [All("a", ["b"])]}, "a", "no event 'b'"),
+        ({"events": [All("a", ["b"]), All("b", ["a"])]}, "a", "depends on itself"),
+        ({"events": [Reached("a", 500)]}, "conditions.a", "can never hold"),
         ({"measures": [Measure("m", "u.activation", when="nothing")]}, "m", "no event 'nothing'"),
         ({"actions": [Set(5, "u.tua", 3)]}, "actions.0", "has no parameter 'tua'"),
         ({"actions": [Set(5, "u.tau", 3, when="found")]}, "actions.0.when", "no condition 'found'"),
@@ -394,15 +396,15 @@ def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
         ({"factors": [Factor("f", [1.0], "left.amplitud")]}, "factors.f", "has no parameter 'amplitud'"),
         ({"factors": [Factor("f", [-1.0], "u.tau")]}, "factors.f", "lower bound"),
         ({"factors": [Factor(n, [5.0], "u.tau") for n in "fg"]}, "factors.g", "which the factor f sets too"),
-        ({"record": ["w.output"]}, "record", "nothing is called 'w.output'"),
+        ({"watch": ["w.output"]}, "record", "nothing is called 'w.output'"),
         ({"world": "arena:nowhere.json"}, "", "nowhere.json"),
         ({"every": 0.5}, "every", "not a multiple"),
-        ({"world": "arena:blocks", "conditions": [Within("a", 7.0)]}, "conditions.a", "so it always holds"),
-        ({"world": "arena:blocks", "conditions": [Leaves("a", 7.0)]}, "conditions.a", "so it never holds"),
+        ({"world": "arena:blocks", "events": [Within("a", 7.0)]}, "conditions.a", "so it always holds"),
+        ({"world": "arena:blocks", "events": [Leaves("a", 7.0)]}, "conditions.a", "so it never holds"),
     ],
 )  # fmt: skip
 def test_invalid_experiments_are_refused_before_any_trial_runs(tmp_path, changes, where, what):
-    experiment = choice(**({"conditions": [], "factors": [], "measures": []} | changes))
+    experiment = choice(**({"events": [], "factors": [], "measures": []} | changes))
     with pytest.raises(dd.errors.DeodarError) as refused:
         experiment.run(tmp_path / "out")
     assert what in str(refused.value) and where in str(refused.value)
@@ -444,17 +446,37 @@ def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
         Experiment.load(file)
 
 
+def test_what_belongs_to_the_plan_is_refused_with_its_place():
+    for given, place in (("conditions", "events"), ("record", "watch"), ("limit", "limit")):
+        with pytest.raises(UnknownName, match=rf"no parameter '{given}'.*dd\.TrialPlan\(.*{place}"):
+            Experiment("e", "m.json", dd.TrialPlan(1), **{given: 5})
+    with pytest.raises(ParameterError, match=r"plan: needs a TrialPlan, not 400"):
+        Experiment("e", "m.json", 400)
+
+
+def test_problems_of_the_plan_of_a_file_have_its_keys():
+    data = {"experiment": 3, "name": "e", "model": "m.json", "limit": -1, "record": 5, "dt": 0, "trials": 0}
+    with pytest.raises(DocumentError) as refused:
+        Experiment.from_data(data | {"conditons": {}})
+    assert [p.where for p in refused.value.problems] == ["conditons", "limit", "record", "trials"]
+    assert "Did you mean 'conditions'" in str(refused.value)
+    with pytest.raises(DocumentError, match=r"dt: is 0.0; expected a number above 0"):
+        Experiment.from_data(data | {"limit": 1, "record": ["u"], "trials": 1})
+
+
 def test_duplicate_names_of_columns_are_refused():
     with pytest.raises(ParameterError, match="'outcome' is a column of every table"):
-        choice(conditions=[Appears("outcome", "u")], measures=[])
+        choice(events=[Appears("outcome", "u")], measures=[])
     with pytest.raises(ParameterError, match="'a' is the name of two columns"):
-        choice(conditions=[Appears("a", "u")], measures=[Measure("a", "u")])
+        choice(events=[Appears("a", "u")], measures=[Measure("a", "u")])
 
 
 def test_a_whole_number_of_an_open_parameter_is_written_in_one_way():
     def written(*levels):
         actions, factors = [Set(1, "u.tau", levels[0])], [Factor("f", levels, "u.tau")]
-        return json.dumps(Experiment("e", "m.json", 1, actions=actions, factors=factors).to_data())
+        return json.dumps(
+            Experiment("e", "m.json", dd.TrialPlan(1, actions=actions), factors=factors).to_data()
+        )
 
     assert written(1.0, 2.5) == written(1, 2.5)
     assert '"levels": [1, 2.5]' in written(1.0, 2.5) and '"value": 1}' in written(1.0, 2.5)

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import math
 
 import jax
@@ -18,8 +17,10 @@ from deodar.experiments.actions import Set
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.measures import Measure
 from deodar.experiments.observable import Observable, mask
+from deodar.experiments.trial import TrialPlan
 from deodar.numerics.peak import position
 from deodar.numerics.sigmoids.step import Step
+from tests.deodar.experiments.calls import changed
 
 LINE, RING, TURN = (
     dd.Axis("x", -10, 30, 41),
@@ -107,8 +108,8 @@ def experiment(**changes):
     model = dd.Model("between samples")
     u = model.add(dd.Field("u", [LINE, RING], tau=10, resting_level=-5, noise=0.5))
     model.add(dd.GaussianStimulus("s", [LINE, RING], center=(9.3, 178.0), sigma=(3, 30), amplitude=12)) >> u
-    given = {"measures": [Measure("place", "u.activation", "place")], "trials": 3, "precision": "float64"}
-    return Experiment("place", model, 60, **(given | changes))
+    plan = TrialPlan(60, measures=[Measure("place", "u.activation", "place")])
+    return changed(Experiment("place", model, plan, 3, precision="float64"), **changes)
 
 
 def test_a_batch_and_single_trials_measure_equal_positions_across_the_ends():
@@ -136,7 +137,7 @@ def test_the_threshold_of_an_output_has_to_be_given():
     assert not experiment(measures=[Measure("place", "u.output", "place", threshold=0.5)]).check()
     heaviside = experiment()
     heaviside.model.set({"u.sigmoid": Step()})
-    assert not dc.replace(heaviside, measures=[Measure("place", "u.output", "place")]).check()
+    assert not changed(heaviside, measures=[Measure("place", "u.output", "place")]).check()
 
 
 def test_a_threshold_is_accepted_only_for_the_position_of_a_peak():

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import time
 
 from deodar.experiments import planning
 from deodar.experiments.planning import WorkPlan, plan
 from tests.deodar.experiments import clustered
+from tests.deodar.experiments.calls import changed
 
 
 def test_time_shrinks_until_every_piece_has_a_worker(monkeypatch):
@@ -44,5 +44,5 @@ def test_one_piece_is_measured(monkeypatch):
 
 
 def test_records_are_counted(monkeypatch):
-    made = dc.replace(clustered.experiment(4, 300.0), record=["u.activation"], every=10)
+    made = changed(clustered.experiment(4, 300.0), watch=["u.activation"], every=10)
     assert plan(made.setup(), 20).record == 31 * 4

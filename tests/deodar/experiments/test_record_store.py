@@ -31,6 +31,7 @@ from deodar.recording.record_store import FolderStore
 from deodar.recording.store_address import StoreAddress
 from deodar.resources import Resources
 from tests.deodar.experiments import clustered
+from tests.deodar.experiments.calls import changed
 from tests.deodar.recording.failing_store import FailingFileSystem, register
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -42,8 +43,8 @@ ADDRESS = "failing://user:top%20secret@bucket/store"
 
 def made(**changes):
     """Return an experiment with records of different lengths and a snapshot."""
-    kept = {"record": ["u.activation"], "every": 10.0, "actions": [Snapshot(50, "at / 50", ["u"])]}
-    return dc.replace(clustered.experiment(TRIALS, 400.0), **(kept | changes))
+    kept = {"watch": ["u.activation"], "every": 10.0, "actions": [Snapshot(50, "at / 50", ["u"])]}
+    return changed(clustered.experiment(TRIALS, 400.0), **(kept | changes))
 
 
 @pytest.fixture(autouse=True)
@@ -154,7 +155,7 @@ def test_snapshots_are_in_the_object_of_their_trial(files, whole):
 
 
 def test_an_experiment_of_snapshots_alone_has_no_record(tmp_path):
-    made(record=[]).run(tmp_path / "out", records=tmp_path / "store")
+    made(watch=[]).run(tmp_path / "out", records=tmp_path / "store")
     with (
         open_records(tmp_path / "store") as records,
         pytest.raises(RecordError, match="trial 2 has only snapshots"),
@@ -235,6 +236,7 @@ import os, signal, sys
 import pytest
 from deodar.experiments.rows import Rows
 from tests.deodar.experiments import clustered
+from tests.deodar.experiments.calls import changed
 from tests.deodar.experiments.test_record_store import made
 
 real = Rows.append
@@ -467,8 +469,8 @@ def test_a_store_of_another_experiment_or_of_something_else_is_refused(tmp_path,
 
 
 def test_a_store_for_nothing_is_refused(tmp_path):
-    with pytest.raises(ParameterError, match=r"the trials record nothing. Name ports in record="):
-        made(record=[], actions=[]).run(tmp_path / "out", records=tmp_path / "store")
+    with pytest.raises(ParameterError, match=r"the trials record nothing. Name ports in watch="):
+        made(watch=[], actions=[]).run(tmp_path / "out", records=tmp_path / "store")
     with pytest.raises(ParameterError, match=r"needs a folder of rows, which name the records. Name it too"):
         made().run(records=tmp_path / "store")
     with pytest.raises(ParameterError, match=r"is not the address of a store.*such as s3://BUCKET/NAME"):

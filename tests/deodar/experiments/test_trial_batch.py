@@ -125,7 +125,9 @@ def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_
     model.add(dd.Field("v", [dd.Axis("x", 0, 500, 501)], tau=10, global_inhibition=0.1, noise=1.0))
     measures = [Measure("strongest", "v.activation", "max"), Measure("mean", "v.activation", "mean")]
     # with many steps left, so that a narrower batch saves time
-    experiment = Experiment("decide", model, 1e6, 8, [DECIDED], measures=measures, every=5)
+    experiment = Experiment(
+        "decide", model, dd.TrialPlan(1e6, events=[DECIDED], measures=measures, every=5), 8
+    )
     whole = experiment.run(tmp_path / "whole")
     assert sizes(model) == [1, 2, 4] and len(set(whole["duration"].values.tolist())) > 4
 

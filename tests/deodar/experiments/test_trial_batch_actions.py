@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import warnings
 from collections.abc import Sequence
 from typing import Any
@@ -28,7 +27,7 @@ from deodar.experiments.actions import (
 from deodar.experiments.events import Appears, Crosses, Event, Reached
 from deodar.experiments.measures import Measure
 from deodar.experiments.trial import Trial
-from tests.deodar.experiments.calls import run_alone, run_together
+from tests.deodar.experiments.calls import changed, run_alone, run_together
 from tests.deodar.experiments.robots import ROOM, straight
 
 PROGRAMS: dict[Any, Any] = {}
@@ -197,14 +196,14 @@ def test_a_trial_that_diverges_by_an_action_leaves_the_others() -> None:
 
 def test_an_action_with_a_time_for_each_trial_is_part_of_the_file_and_needs_enough_times() -> None:
     several = [Set([10, 20, 30], "u.resting_level", 1.0), Push([5, 6, 7], "u", 1.0, 5)]
-    experiment = dd.Experiment("schedules", noisy(), 60, 3, actions=several)
+    experiment = dd.Experiment("schedules", noisy(), dd.TrialPlan(60, actions=several), 3)
     plain = experiment.to_data()
     assert plain["actions"][0]["at"] == [10, 20, 30]
-    assert dd.Experiment.from_data({**plain, "model": "m.json"}).actions == experiment.actions
+    assert dd.Experiment.from_data({**plain, "model": "m.json"}).plan.actions == experiment.plan.actions
     assert not experiment.check() and experiment.setup().batched
-    (problem,) = dc.replace(experiment, trials=4, actions=several[:1]).check()
+    (problem,) = changed(experiment, trials=4, actions=several[:1]).check()
     assert (problem.where, problem.what) == ("actions.0: Set.at", "there are 3 times, and trial 3 is run")
-    (problem,) = dc.replace(experiment, actions=[Set([10, 61, 3], "u.tau", 10.0)]).check()
+    (problem,) = changed(experiment, actions=[Set([10, 61, 3], "u.tau", 10.0)]).check()
     assert problem.what.startswith("is never done: it is due at 61")
     for run in (
         lambda: run_together(noisy(), 60, [3], actions=several),
@@ -342,12 +341,14 @@ def test_an_experiment_with_actions_runs_in_one_batch() -> None:
     experiment = dd.Experiment(
         "robots",
         robot(),
-        60,
+        dd.TrialPlan(
+            60,
+            events=[FAR, TOUCHED],
+            measures=[Measure("where", "pose.output", "max")],
+            actions=[Place(10, "box", (30, 28), (4, 4), when="far"), Set(40, "go right.amplitude", 0.0)],
+        ),
         2,
-        conditions=[FAR, TOUCHED],
-        actions=[Place(10, "box", (30, 28), (4, 4), when="far"), Set(40, "go right.amplitude", 0.0)],
         factors=[speed],
-        measures=[Measure("where", "pose.output", "max")],
         world=rooms(),
         precision="float64",
     )
@@ -357,8 +358,8 @@ def test_an_experiment_with_actions_runs_in_one_batch() -> None:
     for k in range(4):
         model = robot()
         model.set("go left.amplitude", float(data["speed"][k]))
-        given = {"world": rooms(), "events": [FAR, TOUCHED], "actions": experiment.actions}
-        one = run_alone(model, 60, trial=k, measures=experiment.measures, precision="float64", **given)  # type: ignore[arg-type]
+        given = {"world": rooms(), "events": [FAR, TOUCHED], "actions": experiment.plan.actions}
+        one = run_alone(model, 60, trial=k, measures=experiment.plan.measures, precision="float64", **given)  # type: ignore[arg-type]
         assert float(data["where"][k]) == pytest.approx(one.measures["where"], abs=1e-10)
 
 

@@ -243,12 +243,16 @@ def test_a_height_needs_a_world_whose_objects_have_one():
         run_alone(decider(), 10, Shelf(), actions=[tall])
     with pytest.raises(ParameterError, match=r"Place\.height: is 0; expected a number above 0"):
         Place(3, "plate", (0, 0), (1, 1), height=0.0)
-    written = dd.Experiment("tall", decider(), 10, actions=[tall], world=room()).to_data()["actions"]
+    written = dd.Experiment("tall", decider(), dd.TrialPlan(10, actions=[tall]), world=room()).to_data()[
+        "actions"
+    ]
     assert written[0]["height"] == 7.0
 
 
 def test_an_experiment_refuses_an_action_that_its_world_cannot_do():
-    (problem,) = dd.Experiment("none", decider(), 10, actions=[Move(3, "cup", (0, 0))], world=Shelf()).check()
+    (problem,) = dd.Experiment(
+        "none", decider(), dd.TrialPlan(10, actions=[Move(3, "cup", (0, 0))]), world=Shelf()
+    ).check()
     assert (problem.where, problem.what) == (
         "actions.0",
         "the action Move calls World.move, which the world Shelf does not have",

@@ -62,7 +62,7 @@ def timed(copies: int | None = None, noise: float = 0.0, limit: float = 100.0) -
     model.add(dd.Boost("given", amplitude=1.0)) >> node
     model.add(dd.Boost("cue", amplitude=5.0, windows=[(30, 60)])) >> node
     experiment = dd.Experiment(
-        "timed", model, limit=limit, every=10.0, conditions=[dd.Crosses("high", "u", level=6.0)]
+        "timed", model, dd.TrialPlan(limit, events=[dd.Crosses("high", "u", level=6.0)], every=10.0)
     )
     return dd.as_env(experiment, {"given.amplitude": (-8.0, 8.0)}, ["u"], "u", copies=copies)
 
@@ -180,7 +180,7 @@ def test_later_episodes_without_noise_have_the_bits_of_the_first(precision: str)
     u >> dd.DelayLine(delay=20.0, name="late") >> v
     peak = dd.Appears("peak", "u", near=25.0, radius=5.0)
     experiment = dd.Experiment(
-        "racing", model, limit=120.0, every=20.0, precision=precision, conditions=[peak]
+        "racing", model, dd.TrialPlan(120.0, events=[peak], every=20.0), precision=precision
     )
     env = dd.as_env(experiment, {"s.amplitude": (0, 10), "u.resting_level": (-8, -2)}, ["u", "v"], copies=2)
     assert env.observation_space["u"].dtype == precision
@@ -227,7 +227,7 @@ def test_every_episode_of_a_copy_has_the_noise_of_a_run_of_its_trial(steps: int,
     if steps == 2:
         u >> model.add(dd.Field("slow", [x], tau=40.0, noise=1.0), ticks=2)
     experiment = dd.Experiment(
-        "noisy", model, limit=5.0 * 3 * steps, every=5.0 * steps, precision=precision, seed=5
+        "noisy", model, dd.TrialPlan(5.0 * 3 * steps, every=5.0 * steps), seed=5, precision=precision
     )
     env = dd.as_env(experiment, {"given.amplitude": (-8.0, 8.0)}, ["u"], copies=3)
     alone = dd.as_env(experiment, {"given.amplitude": (-8.0, 8.0)}, ["u"])
@@ -245,7 +245,7 @@ def test_episodes_repeat_the_trials_of_an_experiment():
     model = driving()
     starts = [(20, 30, 0.0), (25, 30, 1.0), (20, 35, 2.0)]
     world = dd.Arena("blocks", unit="cm", start=starts)
-    experiment = dd.Experiment("three", model, limit=6400.0, trials=3, world=world, every=64.0)
+    experiment = dd.Experiment("three", model, dd.TrialPlan(6400.0, every=64.0), trials=3, world=world)
     env = dd.as_env(experiment, WHEELS, ["pose"])
     np.testing.assert_allclose([env.reset()[0] for _ in range(4)], [*starts, starts[0]], rtol=1e-6)
     vector = dd.as_env(experiment, WHEELS, ["pose"], copies=4)
@@ -325,12 +325,12 @@ def test_what_cannot_be_an_environment_is_refused(options: dict[str, Any], messa
 
 
 def test_experiments_that_are_no_environment_are_refused():
-    def experiment(**options: Any) -> dd.Experiment:
-        return dd.Experiment("driving", driving(), **{"limit": 640.0, "world": arena(), **options})
+    def experiment(**given: Any) -> dd.Experiment:
+        return dd.Experiment("driving", driving(), dd.TrialPlan(640.0, **given), world=arena())
 
-    with pytest.raises(ParameterError, match="driving: an environment has no actions and no record"):
+    with pytest.raises(ParameterError, match="driving: an environment has no actions and no watch"):
         dd.as_env(
-            experiment(actions=[dd.Push(64.0, "seen", amount=1.0, lasting=16.0)], record=["pose"]),
+            experiment(actions=[dd.Push(64.0, "seen", amount=1.0, lasting=16.0)], watch=["pose"]),
             WHEELS,
             ["pose"],
         )

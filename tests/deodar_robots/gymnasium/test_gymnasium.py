@@ -100,7 +100,11 @@ def test_trials_of_an_experiment_run_one_by_one_and_a_batch_is_refused():
     top = dd.Crosses("top", "done.output", level=0.5)
     world = dd.Gymnasium(CAR, at_end="hold")
     trials = dd.Experiment(
-        "car", dd.Model(document=model), limit=20.0 * 999, trials=3, every=20, conditions=[top], world=world
+        "car",
+        dd.Model(document=model),
+        dd.TrialPlan(20.0 * 999, events=[top], every=20),
+        trials=3,
+        world=world,
     )
     table = trials.run()
     assert list(table["outcome"].values) == ["top"] * 3 and len(set(table["duration"].values)) > 1

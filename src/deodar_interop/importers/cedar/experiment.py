@@ -8,6 +8,7 @@ from pathlib import Path
 from deodar import codec
 from deodar.errors import DocumentError
 from deodar.experiments.experiment import Experiment
+from deodar.experiments.trial import TrialPlan
 from deodar.importers._beside import in_folder
 from deodar.importers.opening import require
 from deodar.importers.report import ImportReport
@@ -52,10 +53,8 @@ def load_cedar_experiment(path: str | Path, architecture: str | Path) -> Importe
     experiment = Experiment(
         text(body.get("name")) or path.stem,
         Model(document=reading.doc),
-        limit=reading.limit,
+        TrialPlan(reading.limit, events=tuple(reading.events.values()), actions=tuple(reading.actions)),
         trials=1 if reading.factors else reading.repetitions,
-        conditions=tuple(reading.events.values()),
-        actions=tuple(reading.actions),
         factors=tuple(reading.factors),
     )
     return ImportedExperiment(experiment, ImportReport("cedar", path.name, reading.lines))

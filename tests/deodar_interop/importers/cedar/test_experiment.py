@@ -88,9 +88,9 @@ def test_actions_at_times_and_on_data_set_parameters_and_end_the_trial(files):
     table = done.experiment.run()
     assert table["outcome"].values.tolist() == ["detected", "detected"]
     assert 200 < float(table["detected"][0]) < 400
-    first = done.experiment.actions[0]
+    first = done.experiment.plan.actions[0]
     assert (first.at, first.path, first.value) == (200, "boost.amplitude", 8)
-    assert done.experiment.actions[1].value == 0.5
+    assert done.experiment.plan.actions[1].value == 0.5
 
 
 def test_an_incremented_parameter_is_a_factor_and_what_has_no_counterpart_is_reported(files):
@@ -107,7 +107,7 @@ def test_an_incremented_parameter_is_a_factor_and_what_has_no_counterpart_is_rep
     )
     factor = done.experiment.factors[0]
     assert (factor.path, list(factor.levels)) == ("u.resting_level", [-4.5, -4, -3.5])
-    assert done.experiment.limit == 420
+    assert done.experiment.plan.limit == 420
     assert [line.what for line in done.report.losses] == ["WriteMessage"]
     table = done.experiment.run()
     assert table["outcome"].values.tolist() == ["stop ends", "odd ends", "stop ends"]
@@ -221,7 +221,7 @@ def test_stored_data_are_a_snapshot_and_lost_actions_have_a_reason(files):
     store = (f"{ACTION}.StoreSerializableData", {"filename": "C:\\\\data\\\\weights.data"})
     call = (f"{ACTION}.CallElementAction", {"connectable": "trace", "action": "reset memory"})
     done = dd.load_cedar_experiment(*files(sequence("store", at("0.2 s"), store, call), END_AT_500))
-    snapshot = done.experiment.actions[0]
+    snapshot = done.experiment.plan.actions[0]
     assert (snapshot.label, list(snapshot.of)) == ("weights.data", ["trace.output"])
     assert [line.why for line in done.report.losses] == [
         "deodar resets all elements of a trial together, by Reset"
