@@ -10,7 +10,9 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
+
+T = TypeVar("T")
 
 Severity = Literal["problem", "warning"]
 
@@ -246,6 +248,23 @@ def show(value: Any) -> str:
     if " at 0x" in text:
         text = f"{an(type(value).__name__)}"
     return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def instance_of(kind: type[T], value: object, where: str) -> T:
+    """Return an argument that is an object of a class.
+
+    Args:
+        kind: the class.
+        value: the argument.
+        where: its name.
+
+    Raises:
+        ParameterError: it is something else, such as a dict of the fields.
+    """
+    if not isinstance(value, kind):
+        what, fix = f"needs {an(kind.__name__)}, not {show(value)}", f"Write: {where}={kind.__name__}(...)"
+        raise ParameterError(what, where=where, fix=fix)
+    return value
 
 
 def an(name: str) -> str:

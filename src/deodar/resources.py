@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Callable
 from numbers import Integral
-from typing import Any, Self
+from typing import Any
 
 from deodar.cluster import Cluster
-from deodar.errors import ParameterError, show
+from deodar.errors import ParameterError, instance_of, show
 
 
 @dc.dataclass(frozen=True, repr=False)
@@ -72,32 +72,6 @@ class Resources:
         """Whether worker processes are to compute."""
         return self.workers is not None or self.cluster is not None
 
-    def use(self, user: str, *fields: str) -> Self:
-        """Set the number of cores, and return itself.
-
-        Args:
-            user: the function that uses it.
-            fields: names of the fields that the function uses, beside `cores`.
-
-        Raises:
-            ParameterError: another field is given.
-            CoresError: JAX has started with another number of cores.
-        """
-        usable = (*fields, "cores")
-        for field in dc.fields(self):
-            if getattr(self, field.name) is not None and field.name not in usable:
-                raise ParameterError(
-                    f"{user} cannot use {field.name}",
-                    where="on",
-                    fix=f"Leave it out; {user} uses {', '.join(usable)}",
-                )
-        if self.cores is not None:
-            # start-up time: this brings JAX
-            from deodar.cores import use_cores
-
-            use_cores(self.cores)
-        return self
-
     def told(self, user: str) -> Callable[..., Any]:
         """Return the function that receives the progress of a function that draws no bar.
 
@@ -107,6 +81,35 @@ class Resources:
         if self.progress is True:
             raise ParameterError(f"{user} draws no progress bar", where="on", fix="Give a function")
         return self.progress or _ignored
+
+
+def use_resources(on: Resources, user: str, *fields: str) -> Resources:
+    """Set the number of cores, and return the resources.
+
+    Args:
+        on: the resources that a caller gave.
+        user: the function that uses it.
+        fields: names of the fields that the function uses, beside `cores`.
+
+    Raises:
+        ParameterError: it is something else, or another field is given.
+        CoresError: JAX has started with another number of cores.
+    """
+    instance_of(Resources, on, "on")
+    usable = (*fields, "cores")
+    for field in dc.fields(on):
+        if getattr(on, field.name) is not None and field.name not in usable:
+            raise ParameterError(
+                f"{user} cannot use {field.name}",
+                where="on",
+                fix=f"Leave it out; {user} uses {', '.join(usable)}",
+            )
+    if on.cores is not None:
+        # start-up time: this brings JAX
+        from deodar.cores import use_cores
+
+        use_cores(on.cores)
+    return on
 
 
 def _ignored(*progress: object) -> None:

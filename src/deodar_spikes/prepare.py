@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Mapping
 
-from deodar.errors import ParameterError
+from deodar.errors import ParameterError, instance_of
 from deodar.importers.report import ImportReport, Line
 from deodar.model.model import Model
 from deodar_spikes.build import build
@@ -73,7 +73,7 @@ def prepare(model: Model, name: str = "", options: SpikingOptions | None = None)
         TimeError: the step is not shorter than every time constant.
         TooLarge: the network has too many neurons or weights.
     """
-    given = options or SpikingOptions()
+    given = SpikingOptions() if options is None else instance_of(SpikingOptions, options, "options")
     limits = chip_limits(given.chip)
     if given.mismatch is not None and not 0 <= given.mismatch < 1:
         raise ParameterError(f"a mismatch of {given.mismatch:g}", fix="Give a share, for example 0.1")

@@ -22,7 +22,7 @@ from deodar.analysis.working_memory import Memory, forgetting, outlives, suppres
 from deodar.codec import JsonObject
 from deodar.elements.field import Field
 from deodar.model.model import Model
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 
 ABOVE = 1.02
 """Input just above detection, relative to the threshold."""
@@ -249,7 +249,7 @@ def regimes(
         UnknownName: if the model has no element at `path`.
         AnalysisError: if the element is not a field.
     """
-    tell = on.use("dd.regimes", "progress").told("dd.regimes")
+    tell = use_resources(on, "dd.regimes", "progress").told("dd.regimes")
     tell("compiling")
     isolated = isolate(model, path, **isolation)
     tell("resting state")

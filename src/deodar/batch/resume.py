@@ -21,7 +21,7 @@ from deodar.compiler import hosts
 from deodar.errors import RecordError, WorkerError
 from deodar.precision import Arithmetic
 from deodar.recording import provenance
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 from deodar.sweep import POINT, checked
 from deodar.worlds._base import World
 
@@ -71,7 +71,7 @@ def resume(
     from deodar.recording.record import about
     from deodar.recording.repeat import differences, request, world_of
 
-    on.use("dd.resume", "cluster", "progress")
+    use_resources(on, "dd.resume", "cluster", "progress")
     path = Path(path)
     data = files.open_record(path)
     if not files.grows(path):

@@ -18,7 +18,7 @@ from deodar.batch.points import SweepPoints
 from deodar.compiler import hosts
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
-from deodar.errors import DeodarError, NotFinite, RecordError
+from deodar.errors import DeodarError, NotFinite, RecordError, instance_of
 from deodar.model.document import Document
 from deodar.numerics.axes import shape
 from deodar.recording import probe
@@ -58,7 +58,7 @@ class Output:
     @classmethod
     def of(cls, given: Output | str | Path) -> Output:
         """Return an output by its path, or the output itself."""
-        return given if isinstance(given, Output) else cls(given)
+        return cls(given) if isinstance(given, (str, Path)) else instance_of(Output, given, "out")
 
 
 class Sampling(NamedTuple):

@@ -24,7 +24,7 @@ from deodar.errors import DeodarError, Interrupted, NotFinite, RunWarning
 from deodar.model.model import Handle, Model
 from deodar.parameters import real
 from deodar.recording.probe import Probe
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 from deodar.session import agreement
 from deodar.session.run import MOST_STEPS
 from deodar.session.session import require_model
@@ -116,7 +116,7 @@ def simulate(
         OutputError: samples cannot be written; those before are in the file.
     """
     require_model(model)
-    on.use("dd.simulate", "device", "devices", "workers", "cluster", "batch", "progress")
+    use_resources(on, "dd.simulate", "device", "devices", "workers", "cluster", "batch", "progress")
     steps = expected_steps(duration, model.document.step if dt is None else dt)
     if steps >= LONG_STEPS:
         step = model.document.step if dt is None else dt

@@ -14,7 +14,7 @@ from deodar.experiments.jobs import USABLE
 from deodar.experiments.observations import DIVERGED
 from deodar.experiments.results import run_trials
 from deodar.experiments.setup import Setup
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 
 if TYPE_CHECKING:
     import xarray
@@ -83,7 +83,7 @@ class Experiment(Design):
             WorkerError: the workers cannot run the experiment; rows that exist are kept.
             KeyboardInterrupt: on Ctrl-C, after the running pieces have ended; their rows are stored.
         """
-        on.use("an experiment", *USABLE)
+        use_resources(on, "an experiment", *USABLE)
         setup = self.setup(trust)
         setup.store = "" if records is None else str(records)
         if setup.trials * setup.steps >= LONG_STEPS:

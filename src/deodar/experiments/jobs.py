@@ -11,7 +11,7 @@ from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
 from deodar.batch.staffing import Staffing, WorkerWatch
 from deodar.experiments.rows import KEY, Row, Rows
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 from deodar.session.interrupt import stoppable
 
 MACHINE = "machine"
@@ -91,7 +91,7 @@ def run_jobs(
             returned true.
         WorkerError: a worker process has died, or a cluster cannot run the jobs.
     """
-    progress = on.use("run_jobs", *USABLE).told("run_jobs")
+    progress = use_resources(on, "run_jobs", *USABLE).told("run_jobs")
     missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
     total, before = (
         sum(job.cost for job in jobs),

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable, Generator, Mapping, Sequence
 
 from deodar.compiler.dynamics import Dynamics
-from deodar.errors import ParameterError, RunWarning, WorldError
+from deodar.errors import ParameterError, RunWarning, WorldError, instance_of
 from deodar.experiments.actions import Action, End, Record, Reset, with_pushes
 from deodar.experiments.actions import require as require_actions
 from deodar.experiments.field_reader import with_readers
@@ -67,7 +67,8 @@ class Trials:
         precision: str = "float32",
         together: bool = True,
     ) -> None:
-        self.plan, self.world, self.precision, self.together = plan, world, precision, together
+        self.plan = instance_of(TrialPlan, plan, "plan")
+        self.world, self.precision, self.together = world, precision, together
         self._model = model
         # a world has one state on the host, which all trials reset
         self._world_lock = threading.RLock() if world is not None else contextlib.nullcontext()

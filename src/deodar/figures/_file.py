@@ -23,7 +23,7 @@ from deodar.model import output
 from deodar.recording import files
 from deodar.recording.provenance import KEY
 from deodar.recording.repeat import world_of
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 
 LETTERS = {"none": "", "a": "{}", "(a)": "({})", "a)": "{})", "A": "{}", "(A)": "({})", "A)": "{})"}
 """The letters of panels: how the first one is written."""
@@ -267,7 +267,7 @@ class FigureFile:
             MissingExtra: the extra `video` is not installed.
             OutputExists: the video exists, and `force` is not given.
         """
-        tell = on.use("animate", "progress").told("animate")
+        tell = use_resources(on, "animate", "progress").told("animate")
         path = output.location(path)
         format = _encode.format_of(path)
         _encode.claim(path, format, force)

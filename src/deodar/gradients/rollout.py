@@ -14,7 +14,7 @@ from jax import Array, lax
 
 from deodar.compiler.arguments import ProgramState
 from deodar.compiler.dynamics import ByPath, Dynamics, PreparedStep, TrialKey
-from deodar.errors import ParameterError, TimeError
+from deodar.errors import ParameterError, TimeError, instance_of
 from deodar.model import find
 from deodar.session.run import whole
 
@@ -81,6 +81,8 @@ def rollout(
     gap = 1 if every is None else whole(every, dynamics.dt, "every")
     if n < 0 or gap < 1:
         raise TimeError(f"{n} steps, a sample after each {gap}: expected at least 0 steps, and 1")
+    if start is not None:
+        instance_of(RolloutStart, start, "start")
     prepared = dynamics.prepare(parameters)
     own = dynamics.key() if key is None else key
     begin = RolloutStart(dynamics.init(parameters, own)) if start is None else start

@@ -17,7 +17,7 @@ from deodar.precision import Arithmetic
 from deodar.recording import provenance
 from deodar.recording.opened import again
 from deodar.recording.record import about
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 from deodar.sweep import Points, Sweep
 from deodar.worlds._base import World
 
@@ -105,7 +105,7 @@ def repeat(
         Untrusted: its document names a function, and `trust` is not given.
     """
     model, settings = request(data, trust)
-    on.use("dd.repeat", "device", "progress")
+    use_resources(on, "dd.repeat", "device", "progress")
     recorded = settings.pop("on")
     used = dc.replace(recorded, device=on.device or recorded.device, progress=on.progress)
     new = simulate(model, world=world or world_of(data), on=used, **settings)

@@ -27,7 +27,7 @@ from deodar.parameters import FrozenArray, show
 from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import described, stored
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 from deodar.session import agreement, memory
 from deodar.session.adopt import adopt, require
 from deodar.session.changes import changed_leaves
@@ -77,7 +77,7 @@ class Session:
         on: Resources = Resources(),
     ) -> None:
         self._model = model
-        self.device = on.use("dd.Session", "device", "devices").device
+        self.device = use_resources(on, "dd.Session", "device", "devices").device
         numbers, accuracy = Arithmetic.of(precision)
         distribution = distributed(Batch(), several(on.devices, on.device))[0]
         self._coming_dt: float | None = None

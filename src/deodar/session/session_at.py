@@ -14,7 +14,7 @@ from deodar import codec
 from deodar.errors import RecordError, TimeError
 from deodar.model import find
 from deodar.model.model import Model
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 from deodar.session.recorder import Change
 from deodar.session.repeat_changes import repeat_changes
 from deodar.session.run import whole
@@ -59,7 +59,7 @@ def session_at(
     from deodar.recording.record import about
     from deodar.recording.repeat import request, world_of
 
-    tell = on.use("dd.session_at", "progress").told("dd.session_at")
+    tell = use_resources(on, "dd.session_at", "progress").told("dd.session_at")
     data = files.open_record(Path(path))
     made = about(data)
     changes: list[Change] = []

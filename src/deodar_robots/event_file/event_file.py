@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from deodar.codec import Json, JsonObject
-from deodar.errors import Problem, WorldError
+from deodar.errors import Problem, WorldError, instance_of
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import real, show
 from deodar.registry import register
@@ -101,10 +101,8 @@ class EventFile(World):
         self.loop, self.jaer = bool(loop), bool(jaer)
         if isinstance(stream, bool) or real(stream) is None or stream < 0 or stream != int(stream):
             raise WorldError(f"stream is {show(stream)}; expected a whole number, 0 for the first")
-        if camera is not None and not isinstance(camera, EventCamera):
-            raise WorldError(f"camera is {show(camera)}; expected an EventCamera")
         self.stream, self.name = int(stream), str(file)
-        self.camera = EventCamera() if camera is None else camera
+        self.camera = EventCamera() if camera is None else instance_of(EventCamera, camera, "camera")
         sides = None if size is None else _sides(size)
         path = Path(file)
         self.format = _format(path)

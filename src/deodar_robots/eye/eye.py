@@ -13,7 +13,7 @@ from jax import Array, lax
 
 from deodar.codec import JsonObject
 from deodar.element import Arrays
-from deodar.errors import Problem, WorldError
+from deodar.errors import Problem, WorldError, instance_of
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.copies import any_copy
 from deodar.numerics.pytree import PyTree
@@ -116,8 +116,9 @@ class Eye(PureWorld):
         pose: Sequence[float] | Sequence[Sequence[float]] | np.ndarray = (MIDDLE, MIDDLE),
         period: float = 10.0,
     ) -> None:
-        self.camera = EventCamera() if camera is None else camera
-        self.pan_tilt, self.screen = pan_tilt, screen
+        self.camera = EventCamera() if camera is None else instance_of(EventCamera, camera, "camera")
+        self.pan_tilt = instance_of(PanTilt, pan_tilt, "pan_tilt")
+        self.screen = instance_of(EyeScreen, screen, "screen")
         self.period = self.step = number("period", period, above=0.0)
         self.first = None if first is None else _rows("first", first, 0.0, PIXELS - 1.0)
         self.rival = None if rival is None else finite_rows(RIVAL, rival, 3)

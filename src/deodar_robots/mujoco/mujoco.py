@@ -13,7 +13,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import Problem, UnknownName, WorldError, did_you_mean
+from deodar.errors import Problem, UnknownName, WorldError, did_you_mean, instance_of
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import real, show
 from deodar.registry import register
@@ -102,7 +102,7 @@ class MuJoCo(World):
         self.files = SceneFile.find(scene, robot)
         self.source = str(scene), None if robot is None else str(robot)
         self.period = number("period", period, above=0.0)
-        self.cameras = cameras
+        self.cameras = instance_of(MuJoCoCameras, cameras, "cameras")
         self.tool_noise = number("tool_noise", tool_noise)
         self.objects: dict[str, PlacedObject] = {}
         self._seed, self._trials, self._tick = 0, (0,), 0

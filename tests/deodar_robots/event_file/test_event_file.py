@@ -197,7 +197,6 @@ def test_a_simulated_eye_is_the_default_for_events() -> None:
         ({"size": (0, 10)}, "expected columns and rows"),
         ({"size": "large"}, "expected columns and rows"),
         ({"size": (100_000, 100_000)}, "states a sensor of 100000 x 100000 pixels"),
-        ({"camera": "DVS128"}, "expected an EventCamera"),
     ],
 )
 def test_wrong_settings_are_refused(settings, said: str) -> None:

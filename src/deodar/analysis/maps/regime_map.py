@@ -12,7 +12,7 @@ from deodar.analysis.maps.map_result import RegimeMap
 from deodar.analysis.maps.protocol import RegimeProtocol
 from deodar.analysis.maps.request import MapOptions, requested
 from deodar.model.model import Model
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 
 
 def regime_map(
@@ -54,7 +54,7 @@ def regime_map(
         ParameterError: changing a parameter needs another program, or its values are no axis of a map.
         UnknownName: a path is unknown.
     """
-    tell, finished = on.use("dd.regime_map", "progress").told("dd.regime_map"), 0
+    tell, finished = use_resources(on, "dd.regime_map", "progress").told("dd.regime_map"), 0
     request = requested(model, over, field, strength, options)
     protocol = RegimeProtocol(request)
 

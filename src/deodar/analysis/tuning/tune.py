@@ -16,7 +16,7 @@ from deodar.analysis.tuning.requirement import ExactQuantity, Requirement
 from deodar.analysis.tuning.search import searched
 from deodar.analysis.tuning.tuned import Tuned, result
 from deodar.model.model import Model
-from deodar.resources import Resources
+from deodar.resources import Resources, use_resources
 
 ROUNDS = 2
 """How often the values are moved to the middle of the region and back to the exact values."""
@@ -71,7 +71,7 @@ def tune(
         UnknownName: a path is unknown.
         MissingExtra: the package cma is not installed.
     """
-    progress = on.use("dd.tune", "progress").told("dd.tune")
+    progress = use_resources(on, "dd.tune", "progress").told("dd.tune")
     request = requested(model, parameters, requirements, field, bounds, options)
     judge = CandidateJudge(request, progress)
     equations: ExactField | None = None

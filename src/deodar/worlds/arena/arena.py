@@ -20,7 +20,7 @@ from jax.typing import DTypeLike
 from deodar import codec
 from deodar.codec import JsonObject
 from deodar.element import Arrays
-from deodar.errors import Problem, WorldError
+from deodar.errors import Problem, WorldError, instance_of
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
 from deodar.parameters import show
@@ -192,7 +192,8 @@ class Arena(PureWorld):
             raise WorldError(f"unit is {show(unit)}; expected one of {', '.join(UNITS)}")
         self.unit, self.scale = unit, UNITS[unit]
         self.vehicle = vehicle_of(vehicle)
-        self.physics, self.noise = physics, noise
+        self.physics = instance_of(ArenaPhysics, physics, "physics")
+        self.noise = instance_of(ArenaNoise, noise, "noise")
         self.period = physics.period
         self.source = str(layout) if isinstance(layout, (str, Path)) else ""
         self.objects = ArenaObjects(self.layouts, physics.period)
