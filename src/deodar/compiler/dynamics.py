@@ -201,7 +201,8 @@ class Dynamics:
                 self.body.world.reset(int(seed), [int(trial)], self.precision)
                 shared, state, noise = self.executable.embodied(self.body.world, empty, noise)
             assert "world" in state
-            return TrialKey(noise, shared, state["world"])
+            # outside of jit a world would index its arrays of the host by traced values
+            return jax.tree.map(jnp.asarray, TrialKey(noise, shared, state["world"]))
 
     def constants(self, parameters: ByPath | None = None) -> list[Constants]:
         """Return the constants that only parameters that rebuild change, such as the weights of kernels.
