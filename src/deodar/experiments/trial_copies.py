@@ -234,7 +234,8 @@ class TrialCopies:
         run = self.run
         first, copy = ((), ()) if self.alone else ((row,), (self.rows.index(row),))
         states, state = rows(*self._start, first), run.state.copy()
-        state["groups"], state["held"] = jax.tree.map(_writable, (state["groups"], state["held"]))
+        if keep_learned or not self.alone:  # put_states has arrays of its own
+            state["groups"], state["held"] = jax.tree.map(_writable, (state["groups"], state["held"]))
         if keep_learned:
             states = with_learned(run.doc, rows(run.program, state, copy), states)
         if self.alone:

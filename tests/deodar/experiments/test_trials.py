@@ -10,6 +10,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ParameterError
+from deodar.experiments import trial_copies
 from deodar.experiments.trial import Trial
 from tests.deodar.experiments.robots import decider, room, straight
 
@@ -36,6 +37,16 @@ def test_a_further_call_has_the_results_of_a_first_one_and_compiles_nothing():
     assert equal(again[1], dd.Trials(decider(), PLAN).run([3, 4, 5], 2, values))
     for swept, alone in zip(again[1], dd.Trials(model, PLAN).run([3, 4, 5], 2), strict=True):
         np.testing.assert_allclose(swept.values["u"], alone.values["u"], atol=1e-4)
+
+
+def test_a_reset_of_one_trial_alone_copies_no_state_to_the_host_twice(monkeypatch):
+    copied = []
+    monkeypatch.setattr(trial_copies, "_writable", lambda values: copied.append(1) or np.array(values))
+    for keep_learned in (False, True):
+        plan = dd.TrialPlan(20, ["u"], actions=[dd.Reset(10, keep_learned=keep_learned)])
+        [run] = dd.Trials(decider(), plan, together=False).run()
+        assert len(run.times) == 21
+        assert bool(copied) == keep_learned
 
 
 def test_later_changes_of_the_model_have_no_effect():
