@@ -6,7 +6,7 @@ ifeq ($(OS),Windows_NT)
   BIN := .venv/Scripts
 endif
 
-.PHONY: demo test whole rest verdict others test-core fast smoke browser lint types page studio docs generate bench native lowest lock audit clean
+.PHONY: demo test whole rest verdict others test-core fast smoke browser lint types page studio docs generate mutants bench native lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
@@ -72,6 +72,10 @@ docs: .venv/installed-docs
 # every file that follows from the code, after a kind, a command or a message was added or changed
 generate: .venv/installed-test
 	$(BIN)/python tools/generate.py
+
+# do the tests notice what was changed since a revision? make mutants CHANGED=HEAD~3
+mutants: .venv/installed-test
+	$(BIN)/python tools/mutate.py changed $(CHANGED)
 
 bench: .venv/installed
 	$(BIN)/python benchmarks/run.py

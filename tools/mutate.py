@@ -4,6 +4,8 @@
     python tools/mutate.py run [--count 200]         judge what HEAD draws: rows in evidence/mutants.csv
     python tools/mutate.py run --again               judge the survivors again, with the present tests
     python tools/mutate.py show                      print the share that is killed, and every survivor
+    python tools/mutate.py changed REV [--count 20]  judge mutants of the lines of `src` that changed since a
+                                                     revision, in ten minutes (`make mutants CHANGED=REV`)
     python tools/mutate.py floor [FILE ...]          find for each source file the cheapest test that notices
                                                      when its public functions raise: tests/floor.csv
 
@@ -63,6 +65,9 @@ PATIENCE = 10.0, 60.0
 
 NOTE = "__note_call__"
 """Name among the built-in ones by which functions note that they are called."""
+
+MINUTES = 10.0
+"""How long mutants of a change are judged."""
 
 Key = tuple[str, str, str]
 """What identifies a mutant of a commit: place, source before, source after."""
@@ -125,6 +130,25 @@ ARITHMETIC: dict[type[ast.operator], ast.operator] = {
 }
 
 
+OF_SEVERAL = {"max": "min", "min": "max", "any": "all", "all": "any", "sum": "max", "sorted": "list"}
+"""Functions of several values, and others that are equal for one."""
+
+
+def several_of(node: ast.AST) -> ast.expr | None:
+    """What a loop or a comprehension goes through, if it is one."""
+    match node:
+        case ast.For(iter=several) | ast.ListComp(generators=[ast.comprehension(iter=several), *_]):
+            return several
+        case ast.SetComp(generators=[ast.comprehension(iter=several), *_]):
+            return several
+        case ast.DictComp(generators=[ast.comprehension(iter=several), *_]):
+            return several
+        case ast.GeneratorExp(generators=[ast.comprehension(iter=several), *_]):
+            return several
+        case _:
+            return None
+
+
 def changes(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
     """Kinds of changes of a node, with the changed node."""
     match node:
@@ -148,6 +172,8 @@ def changes(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
             yield "removed statement", ast.Pass()
         case ast.Assign([ast.Attribute() | ast.Subscript()]):
             yield "removed statement", ast.Pass()
+        case ast.Call(ast.Name(name), [_, *_] as arguments, keywords) if name in OF_SEVERAL:
+            yield "of several", ast.Call(ast.Name(OF_SEVERAL[name]), arguments, keywords)
         case ast.Call(f, [a, b, *rest], keywords) if not any(isinstance(x, ast.Starred) for x in (a, b)):
             yield "swapped argument", ast.Call(f, [b, a, *rest], keywords)
         case _:
@@ -191,15 +217,19 @@ def mutants(file: str, text: str) -> Iterator[Mutant]:
             if child not in left_out:
                 yield from walk(child)
 
+    def mutant(node: ast.AST, kind: str, new: ast.AST) -> Mutant:
+        assert isinstance(node, ast.expr | ast.stmt) and node.end_lineno and node.end_col_offset is not None
+        start, end = at(node.lineno, node.col_offset), at(node.end_lineno, node.end_col_offset)
+        after = ast.unparse(ast.fix_missing_locations(new))
+        after = f"({after})" if isinstance(node, ast.expr) else after
+        return Mutant(file, node.lineno, node.col_offset + 1, kind, text[start:end], after, start, end)
+
     for node in walk(ast.parse(text)):
         for kind, new in changes(node):
-            assert (
-                isinstance(node, ast.expr | ast.stmt) and node.end_lineno and node.end_col_offset is not None
-            )
-            start, end = at(node.lineno, node.col_offset), at(node.end_lineno, node.end_col_offset)
-            after = ast.unparse(ast.fix_missing_locations(new))
-            after = f"({after})" if isinstance(node, ast.expr) else after
-            yield Mutant(file, node.lineno, node.col_offset + 1, kind, text[start:end], after, start, end)
+            yield mutant(node, kind, new)
+        if several := several_of(node):
+            first = ast.Call(ast.Name("list"), [several], [])
+            yield mutant(several, "only the first", ast.Subscript(first, ast.Slice(upper=ast.Constant(1))))
 
 
 def draw(root: Path, seed: str, count: int) -> list[Mutant]:
@@ -527,6 +557,54 @@ def report(rows: Sequence[Row], equal: Mapping[Key, str]) -> list[str]:
     ]
 
 
+def changed_lines(diff: str) -> dict[str, set[int]]:
+    """Return the numbers of the lines that each file has gained, from what `git diff --unified=0` prints."""
+    lines: dict[str, set[int]] = {}
+    file = ""
+    for row in diff.splitlines():
+        if row.startswith("+++ "):
+            file = row.removeprefix("+++ b/")
+        elif row.startswith("@@"):
+            start, _, count = row.split(" +", 1)[1].split(" ", 1)[0].partition(",")
+            lines.setdefault(file, set()).update(range(int(start), int(start) + int(count or 1)))
+    return lines
+
+
+def beside(file: str) -> str:
+    """Return the folder of the tests of a source file."""
+    folder = ROOT / "tests" / Path(file).parent.relative_to("src")
+    return next(p for p in (folder, *folder.parents) if p.is_dir()).relative_to(ROOT).as_posix()
+
+
+def judge_changes(root: Path, known: Path, commit: str, since: str, count: int) -> list[Row]:
+    """Judge mutants of the lines that changed since a revision, until MINUTES have passed."""
+    began = time.monotonic()
+    command = ["git", "diff", "--unified=0", since, commit, "--", "src/*.py"]
+    diff = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    lines = {file: numbers for file, numbers in changed_lines(diff).items() if (root / file).is_file()}
+    places = [
+        mutant
+        for file in sorted(lines)
+        for mutant in mutants(file, (root / file).read_text(encoding="utf-8"))
+        if mutant.line in lines[file]
+    ]
+    drawn = random.Random(commit).sample(places, min(count, len(places)))
+    tested = {test.partition("::")[0] for test in calls(known)}
+    folders = {beside(mutant.file) for mutant in drawn}
+    if missing := sorted(f for f in folders if not any(test.startswith(f"{f}/") for test in tested)):
+        note(root, known, ["-q", "-m", "fast or verdict", *missing])
+    rows: list[Row] = []
+    for mutant in drawn:
+        if time.monotonic() > began + 60 * MINUTES:
+            print(f"{len(drawn) - len(rows)} of {len(drawn)} were not judged in {MINUTES:g} minutes")
+            break
+        rows.append(judge(root, mutant, calls(known), commit))
+        print(
+            f"{rows[-1].outcome:>12}  {rows[-1].place}  {rows[-1].before}  ->  {rows[-1].after}", flush=True
+        )
+    return rows
+
+
 def tree(commit: str, into: Path) -> Path:
     """The files of a commit, with the tests of the working tree and the page that was built here."""
     archive = subprocess.run(["git", "archive", commit], cwd=ROOT, capture_output=True, check=True).stdout
@@ -543,11 +621,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0] if __doc__ else "")
     commands = parser.add_subparsers(dest="command", required=True)
-    for name in ("map", "run", "show", "floor"):
+    for name in ("map", "run", "show", "floor", "changed"):
         command = commands.add_parser(name)
         command.add_argument("--commit", default="HEAD", help="draw by this commit, and change its files")
+        if name == "changed":
+            command.add_argument("since", metavar="REV", help="lines that changed since this revision")
+        if name in ("run", "changed"):
+            count = COUNT if name == "run" else 20
+            command.add_argument("--count", type=int, default=count, help="how many are drawn")
         if name == "run":
-            command.add_argument("--count", type=int, default=COUNT, help="how many are drawn")
             command.add_argument("--again", action="store_true", help="judge survivors once more")
     given, rest = parser.parse_known_args(arguments)
     if rest and given.command not in ("map", "floor"):
@@ -563,6 +645,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         root = tree(commit, Path(place).resolve())
         if given.command == "map":
             sys.exit(note(root, known, rest or ["tests"]))
+        if given.command == "changed":
+            rows = judge_changes(root, known, commit, given.since, given.count)
+            print("\n".join(report(rows, equivalents())))
+            return
         found = calls(known)
         if not found:
             parser.error(

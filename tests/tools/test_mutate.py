@@ -30,6 +30,19 @@ import mutate
         ("f()", "removed statement", "pass"),
         ("self.a = b", "removed statement", "pass"),
         ("x = f(a, b, c)", "swapped argument", "x = (f(b, a, c))"),
+        (
+            "def f():\n    for i in a:\n        g(i)",
+            "only the first",
+            "def f():\n    for i in (list(a)[:1]):\n        g(i)",
+        ),
+        (
+            "x = {i: j for i, j in a for k in b}",
+            "only the first",
+            "x = {i: j for i, j in (list(a)[:1]) for k in b}",
+        ),
+        ("x = sum(f(i) for i in a)", "only the first", "x = sum(f(i) for i in (list(a)[:1]))"),
+        ("x = max(a, key=f)", "of several", "x = (min(a, key=f))"),
+        ("x = sum(a)", "of several", "x = (max(a))"),
     ],
 )
 def test_a_mutant_changes_one_expression(text: str, kind: str, changed: str) -> None:
@@ -182,3 +195,23 @@ def test_the_floor_is_read_as_it_was_written(tmp_path: Path) -> None:
     rows = {"src/b.py": "tests/test_b.py::test_x", "src/a.py": "tests/test_a.py::test_y"}
     mutate.write_floor(rows, tmp_path / "floor.csv")
     assert mutate.read_floor(tmp_path / "floor.csv") == rows
+
+
+def test_the_lines_that_a_file_has_gained_are_read_from_a_diff() -> None:
+    diff = (
+        "--- a/src/a.py\n+++ b/src/a.py\n@@ -1 +1,2 @@ def f():\n-x\n+y\n+z\n"
+        "@@ -9,0 +11 @@\n+w\n+++ b/src/b.py\n@@ -3,2 +0,0 @@\n-u\n-v\n"
+    )
+    assert mutate.changed_lines(diff) == {"src/a.py": {1, 2, 11}, "src/b.py": set()}
+
+
+@pytest.mark.parametrize(
+    ("file", "folder"),
+    [
+        ("src/deodar/model/edit.py", "tests/deodar/model"),
+        ("src/deodar/model/checks/units.py", "tests/deodar/model"),
+        ("src/deodar/errors.py", "tests/deodar"),
+    ],
+)
+def test_the_tests_of_a_file_lie_in_the_folder_of_its_name(file: str, folder: str) -> None:
+    assert mutate.beside(file) == folder
