@@ -172,6 +172,18 @@ class Design(Part):
             problems.append(
                 Problem("model", "is missing", 'Name the file of the model: "model": "model.json"')
             )
+        found = cls._of_keys(given, problems)
+        if problems:
+            keys = {name: key for key, name in OF_PLAN.items()}
+            places = [p.where.strip(".") for p in problems]
+            raise DocumentError(
+                [dc.replace(p, where=keys.get(at, at)) for p, at in zip(problems, places, strict=True)]
+            )
+        return found
+
+    @classmethod
+    def _of_keys(cls, given: dict[str, Any], problems: list[Problem]) -> Any:
+        """Return the experiment of the keys of a file, whose parts are made, with all problems added."""
         known = ["name", "model", *SETTINGS, *KINDS]
         for key in [key for key in given if key not in known]:
             del given[key]
@@ -180,14 +192,7 @@ class Design(Part):
         plan = from_data(of_plan, "", {"Experiment": TrialPlan}, {}, problems, "Experiment")
         # an experiment with another plan states its other problems
         more = {"plan": plan or TrialPlan(1.0)}
-        found: Any = from_data(given, "", {"Experiment": cls}, more, problems, "Experiment")
-        if problems:
-            keys = {name: key for key, name in OF_PLAN.items()}
-            places = [p.where.strip(".") for p in problems]
-            raise DocumentError(
-                [dc.replace(p, where=keys.get(at, at)) for p, at in zip(problems, places, strict=True)]
-            )
-        return found
+        return from_data(given, "", {"Experiment": cls}, more, problems, "Experiment")
 
     def save(self, path: str | Path, force: bool = False) -> None:
         """Write a file; a model without a file is written beside it, as NAME.model.json."""
