@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from deodar.batch import sent
 from deodar.batch.compute import compute
 from deodar.batch.driven_pieces import pieces_driven
 from deodar.batch.driver import PoolTask
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed_model import PackedModel, require_portable
+from deodar.batch.piece_record import PieceMessage, PieceState, RecordedPiece, RecordPart
 from deodar.batch.pieces import PieceResult
-from deodar.batch.run_file import OutputPart, RunOutput
-from deodar.batch.sent import PieceMessage, SentOutput, SentPart, SentState
+from deodar.batch.run_file import RunOutput
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.cluster import Cluster
 from deodar.errors import WorkerError
@@ -80,7 +79,7 @@ def in_pool(
     steps = [round(piece.duration / (piece.dt or 1.0)) for piece in pieces]
 
     def task(k: int) -> PoolTask:
-        return PoolTask(k, work, (packed, pieces[k], k, None if out is None else SentPart.of(out, k)))
+        return PoolTask(k, work, (packed, pieces[k], None if out is None else out.part(k)))
 
     def check(parts: Sequence[PieceResult | None]) -> None:
         between(sum(n for n, part in zip(steps, parts, strict=True) if part is not None))
@@ -90,7 +89,7 @@ def in_pool(
         for number, (_, messages) in arrived:
             for message in messages:
                 assert out is not None
-                sent.receive(out, number, message)
+                out.receive(number, message, beside=True)
         return [(number, part) for number, (part, _) in arrived]
 
     return pieces_driven(pool, len(pieces), out, task, check, wait)
@@ -100,15 +99,14 @@ def in_pool(
 
 
 def work(
-    packed: PackedModel, request: SimulationRequest, number: int, how: SentPart | None
+    packed: PackedModel, request: SimulationRequest, part: RecordPart | None
 ) -> tuple[PieceResult, list[PieceMessage]]:
     """Run one piece; return its record, or without one the messages that write it."""
-    model, messages, part = packed.model, list[PieceMessage](), None
+    messages: list[PieceMessage] = []
 
     def keep(message: PieceMessage) -> None:
-        if not isinstance(message, SentState):  # of a moment before the end, which the caller never sees
+        if not isinstance(message, PieceState):  # of a moment before the end, which the caller never sees
             messages.append(message)
 
-    if how is not None:
-        part = OutputPart(SentOutput(how, model.document, keep), number, how.region)
-    return compute(model, request, packed.world(), out=part), messages
+    piece = None if part is None else RecordedPiece(part, keep)
+    return compute(packed.model, request, packed.world(), out=piece), messages

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar.batch import pieces
+from deodar.batch.piece_record import RecordedPiece
 from deodar.batch.progress import Shown, bar
-from deodar.batch.run_file import OutputPart, RunOutput, Sampling
+from deodar.batch.run_file import RunOutput
 from deodar.batch.run_plan import RunPlan
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.compiler import hosts
@@ -43,7 +44,7 @@ def compute(
     request: SimulationRequest,
     world: World | None = None,
     spread: Spread | None = None,
-    out: RunOutput | OutputPart | None = None,
+    out: RunOutput | RecordedPiece | None = None,
 ) -> pieces.PieceResult:
     """Compute a whole run of `simulate`, or one piece of it.
 
@@ -57,9 +58,9 @@ def compute(
     if isinstance(out, RunOutput):
         out.plan(plan.points, plan.cut, plan.stated)
     if plan.cut.count == 1:
-        return _in_one(plan, out.part(0) if isinstance(out, RunOutput) else out)
+        return _in_one(plan, out.piece(0) if isinstance(out, RunOutput) else out)
     hosts.require_one("workers or a cluster", plan.across and spread is not None)
-    assert not isinstance(out, OutputPart)
+    assert not isinstance(out, RecordedPiece)
     jobs = plan.pieces()
     with _watched(plan.across, plan.steps * len(jobs), plan.request.on.progress) as tell:
         if spread is None:
@@ -77,7 +78,7 @@ def watching(request: SimulationRequest, progress: Callable[[int], None]) -> Sim
 # ----------------------------------------------------------------------------------------------- in one piece
 
 
-def _in_one(plan: RunPlan, part: OutputPart | None) -> pieces.PieceResult:
+def _in_one(plan: RunPlan, part: RecordedPiece | None) -> pieces.PieceResult:
     """Compute all copies of a plan in one program."""
     stopped, nothing = False, None
     with stoppable(plan.across) as check:
@@ -91,13 +92,11 @@ def _in_one(plan: RunPlan, part: OutputPart | None) -> pieces.PieceResult:
         run.tolerated = filled.size - 1
         found = [program.port(i, port) for i, port in plan.ports]
         about = provenance(plan.doc, run, **plan.settings, **plan.stated, batch=plan.cut.batch)
-        sink = _Store(plan, filled) if part is None else part
-        sink.begin(
-            program, [(*port, p) for port, p in zip(plan.ports, found, strict=True)], plan.sampling, about
-        )
+        sink = _Store(filled) if part is None else part
+        sink.begin(plan, program, found, about)
         try:
             with bar(plan.steps, plan.request.on.progress) as shown:
-                sink.record(run, plan.steps, found, check, shown)
+                sink.record(run, check, shown)
         except KeyboardInterrupt:
             stopped = True
         except NotFinite as error:
@@ -124,39 +123,29 @@ def _reasons(plan: RunPlan, run: Run) -> dict[tuple[int, ...], str]:
 class _Store:
     """The samples of a run in memory: arrays for all recorded values, filled during the run."""
 
-    def __init__(self, plan: RunPlan, batch: Batch) -> None:
-        self._plan, self._batch, self._taken = plan, batch.shape, 0
+    def __init__(self, batch: Batch) -> None:
+        self._batch, self._taken = batch.shape, 0
 
     def begin(
-        self,
-        program: Executable,
-        variables: Sequence[tuple[str, str, Port]],
-        sampling: Sampling,
-        about: Mapping[str, Any],
+        self, plan: RunPlan, program: Executable, ports: Sequence[Port], about: Mapping[str, Any]
     ) -> None:
-        """Set what is recorded: id, port and program's port of every variable."""
-        self._variables, self._sampling, self._about = variables, sampling, about
-        self._axes = [program.axes(port) for _, _, port in variables]
+        """Set what is recorded, as `RecordedPiece.begin` does."""
+        self._plan, self._ports, self._about = plan, ports, about
+        self._axes = [program.axes(port) for port in ports]
         self._arrays = [
-            np.empty((*self._batch, sampling.most, *shape(axes)), program.program.dtype)
+            np.empty((*self._batch, plan.sampling.most, *shape(axes)), program.program.dtype)
             for axes in self._axes
         ]
 
-    def record(
-        self,
-        run: Run,
-        steps: int,
-        ports: Sequence[Port],
-        check: Callable[[], None],
-        shown: Callable[[int], object],
-    ) -> None:
-        """Advance a run to its end, as `OutputPart.record` does."""
+    def record(self, run: Run, check: Callable[[], None], shown: Callable[[int], object]) -> None:
+        """Advance a run to its end, as `RecordedPiece.record` does."""
+        plan = self._plan
 
         def between(done: int) -> None:
             check()
             shown(done)
 
-        run.record(steps, ports, self._sampling.start, self._sampling.gap, self._collect, between)
+        run.record(plan.steps, self._ports, plan.sampling.start, plan.sampling.gap, self._collect, between)
 
     def _collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
         lead = len(self._batch)
@@ -172,15 +161,15 @@ class _Store:
         from deodar.recording.record import dataset
 
         plan, doc = self._plan, self._plan.doc
-        taken = self._sampling.most if lost else self._taken
+        taken = plan.sampling.most if lost else self._taken
         for array in self._arrays if lost else ():
             array[...] = np.nan
         own = *map(slice, plan.copies.shape), slice(taken)
         variables = [
             (doc.by_id()[ident], port, axes, array[own])
-            for (ident, port, _), axes, array in zip(self._variables, self._axes, self._arrays, strict=True)
+            for (ident, port), axes, array in zip(plan.ports, self._axes, self._arrays, strict=True)
         ]
-        times, about = self._sampling.times(doc, 0, taken), {**self._about, "complete": complete}
+        times, about = plan.sampling.times(doc, 0, taken), {**self._about, "complete": complete}
         data = dataset(doc, variables, times, plan.labels, plan.points.grid, about, plan.points.beside)
         trials = ["trial"] if plan.labels is not None else []
         return marked(data, [*plan.points.grid, *trials], reasons)
@@ -213,7 +202,7 @@ def _one_by_one(
         if out is not None and k in out.done:
             parts[k] = pieces.EMPTY
             continue
-        part = None if out is None else out.part(k)
+        part = None if out is None else out.piece(k)
         job = watching(job, lambda done, k=k: between(k * plan.steps + done))
         try:
             parts[k] = compute(plan.model, job, plan.world, out=part)

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
-import hashlib
-import time
-from collections.abc import Callable, Mapping, Sequence
+import functools
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from deodar import codec
+from deodar.batch.piece_record import (
+    PieceBegun,
+    PieceMessage,
+    PieceState,
+    RecordedPiece,
+    RecordPart,
+)
 from deodar.batch.pieces import Pieces
 from deodar.batch.points import SweepPoints
-from deodar.compiler import hosts
-from deodar.compiler.executable import Executable
-from deodar.compiler.program import Port
 from deodar.errors import DeodarError, NotFinite, RecordError, instance_of
-from deodar.model.document import Document
-from deodar.numerics.axes import shape
 from deodar.recording import probe
 from deodar.session import checkpoint
-from deodar.session.run import Run
 
 if TYPE_CHECKING:
     import xarray
@@ -35,9 +32,6 @@ CHECKPOINT = "state.npz"
 
 PIECE_CHECKPOINT = "state-{}.npz"
 """File of the last state of a piece that a worker process runs; removed when the piece is complete."""
-
-CHECKPOINT_SECONDS = 30.0
-"""Wall time between two stored states, in seconds, unless a document time is given (a guess)."""
 
 
 @dc.dataclass(frozen=True)
@@ -61,82 +55,6 @@ class Output:
         return cls(given) if isinstance(given, (str, Path)) else instance_of(Output, given, "out")
 
 
-class Sampling(NamedTuple):
-    """The samples of a run: after `start` steps and then after each `gap`, `most` of them.
-
-    `probes` states for each variable how many gaps lie between its samples, and their condition.
-    """
-
-    start: int
-    gap: int
-    most: int
-    dt: float
-    probes: Sequence[tuple[int, str | None]] = ()
-
-    def times(self, doc: Document, first: int, n: int) -> np.ndarray:
-        """Return the times of `n` samples from number `first` on."""
-        return doc.t0 + (self.start + (first + np.arange(n)) * self.gap) * self.dt
-
-
-StoredState = tuple[dict[str, Any], list[np.ndarray]]
-"""A stored state: its text and its arrays."""
-
-
-class Writer(Protocol):
-    """What a part of a record calls to add samples: `GrowingRecord`, or the pipe of a worker process."""
-
-    def put(
-        self,
-        dimension: str,
-        times: np.ndarray,
-        arrays: Mapping[str, np.ndarray],
-        first: int | None = None,
-        region: Region = (),
-    ) -> None: ...
-
-
-class PartOwner(Protocol):
-    """The record that a part belongs to: `RunOutput`, or its image in a worker process.
-
-    Attributes:
-        doc: the document.
-        grid: the dimensions of the points of a sweep, with the values of their coordinates.
-        beside: for each path of a list of points its values.
-        labels: the numbers of the trials; None without this dimension.
-        settings: what the record states of the whole run.
-        state: the stored state that the part may continue from.
-        state_file: the file of this state.
-        snapshots: document time between two stored states; None: about every 30 s of wall time.
-    """
-
-    doc: Document
-    grid: dict[str, Sequence[float]]
-    beside: dict[str, list[float]]
-    labels: list[int] | None
-    settings: Mapping[str, Any]
-    state: StoredState | None
-    state_file: str
-    snapshots: float | None
-
-    def begin(self, empty: Callable[[], xarray.Dataset]) -> Writer:
-        """Return the writer; the first call creates the record from what `empty` returns."""
-        ...
-
-    def store(self, run: Run, about: Mapping[str, Any]) -> None:
-        """Store the state of a part's run, after all samples before it."""
-        ...
-
-    def ended(self, number: int, reasons: Mapping[tuple[int, ...], str]) -> None:
-        """Note that a part is complete, and which copies of the whole run diverged in it."""
-        ...
-
-
-def sizes(owner: PartOwner) -> dict[str, int]:
-    """Return the dimensions of the copies of the whole run, with their lengths."""
-    trials = {} if owner.labels is None else {"trial": len(owner.labels)}
-    return {path: len(values) for path, values in owner.grid.items()} | trials
-
-
 class RunOutput:
     """The record of a run, written during the run.
 
@@ -145,26 +63,26 @@ class RunOutput:
         resume: whether to continue an incomplete record.
         cut: whether a resumed run drops the samples after its stored state at once: other versions or another
             machine computed them.
+        here: whether this process writes it; of several hosts the first one does.
 
     Raises:
         OutputExists: the path exists; with `force`: it is neither a record nor the folder of a run.
         OutputError: it cannot be written.
     """
 
-    def __init__(self, output: Output, resume: bool = False, cut: bool = False) -> None:
+    def __init__(self, output: Output, resume: bool = False, cut: bool = False, here: bool = True) -> None:
         # start-up time: these import xarray
         from deodar.recording import files, folder
 
-        self.force, self.snapshots = output.force, output.snapshots
+        self.force, self.snapshots, self.here = output.force, output.snapshots, here
         self.path = Path(output.path)
         self.record = files.locate(self.path)[0] if resume else folder.growing(self.path)
-        self.state: StoredState | None = None
-        self.state_file = str(self.record / CHECKPOINT)
+        self.state: checkpoint.StoredState | None = None
         self.resumes, self.cuts, self.longer = resume, cut, dict[str, Any]()
         if resume:
             if (self.record / CHECKPOINT).exists():  # else the run begins again
                 self.state = checkpoint.read(self.record / CHECKPOINT)
-        else:
+        elif here:
             folder.claim_growing(self.path, self.force)
         self.writer: GrowingRecord | None = None
         self.reasons: dict[tuple[int, ...], str] = {}
@@ -197,48 +115,88 @@ class RunOutput:
 
     def plan(self, points: SweepPoints, cut: Pieces, settings: Mapping[str, Any]) -> None:
         """Set the copies of the whole run, how they are cut into pieces, and what the record states of it."""
-        self.doc, self.cut = points.doc, cut
-        self.grid, self.beside = points.grid, points.beside
+        self.points, self.cut = points, cut
         self.settings: Mapping[str, Any] = {**settings, "batch": cut.batch}
-        self.labels: list[int] | None = settings["trials"]
-
-    def part(self, number: int) -> OutputPart:
-        """Return the part of the record that a piece of the run writes."""
-        return OutputPart(self, number, self.region(number))
+        trials = {} if settings["trials"] is None else {"trial": len(settings["trials"])}
+        self.sizes = {path: len(values) for path, values in points.grid.items()} | trials
 
     def region(self, number: int) -> Region:
         """Return the copies of a piece."""
         first = number * self.cut.length
         mine = slice(first, min(first + self.cut.length, self.cut.total))
-        return tuple(mine if d == self.cut.dimension else slice(0, n) for d, n in sizes(self).items())
+        return tuple(mine if d == self.cut.dimension else slice(0, n) for d, n in self.sizes.items())
 
-    def piece_state(self, number: int) -> StoredState | None:
-        """Return the stored state of a piece that a worker is to run; None: there is none.
+    def part(self, number: int) -> RecordPart:
+        """Return the part of the record that a piece of the run writes, wherever it runs."""
+        place, state = self._piece_state(number)
+        return RecordPart(
+            number,
+            self.region(number),
+            self.sizes,
+            self.points.grid,
+            self.points.beside,
+            self.settings["trials"],
+            self.settings,
+            self.snapshots,
+            self.resumes or self.writer is not None,
+            state,
+            str(place),
+        )
+
+    def piece(self, number: int) -> RecordedPiece:
+        """Return what records a piece that this process computes."""
+        receive = functools.partial(self.receive, number) if self.here else _nowhere
+        return RecordedPiece(self.part(number), receive)
+
+    def _piece_state(self, number: int) -> tuple[Path, checkpoint.StoredState | None]:
+        """Return the file and the content of the stored state of a piece; None: there is none.
 
         A worker process ran the piece before, or the process that wrote the record.
         """
         if self.state is not None and self.state[0]["piece"] == number:
-            return self.state
+            return self.record / CHECKPOINT, self.state
         place = self.record / PIECE_CHECKPOINT.format(number)
-        return checkpoint.read(place) if self.resumes and place.exists() else None
+        return place, checkpoint.read(place) if self.resumes and place.exists() else None
 
-    def begin(self, empty: Callable[[], xarray.Dataset]) -> GrowingRecord:
-        """Return the writer of the record. The first call creates it from what `empty` returns, a record
-        without samples, or opens the record that is resumed.
+    def receive(self, number: int, message: PieceMessage, beside: bool = False) -> None:
+        """Write what a piece tells.
+
+        Args:
+            number: number of the piece.
+            message: what it tells.
+            beside: whether other pieces run at the same time, so that its state has a file of its own until
+                it is complete.
         """
+        own = PIECE_CHECKPOINT.format(number)
+        if isinstance(message, probe.Chosen):
+            m = message
+            self._continued().put(m.dimension, m.times, m.values, m.first, self.region(number))
+        elif isinstance(message, PieceBegun):
+            self._create(message.empty)
+        elif isinstance(message, PieceState):
+            if self.writer is not None:
+                self._store(message.state, own if beside else CHECKPOINT)
+        else:
+            self.reasons.update(message.reasons)
+            self.done.append(number)
+            if beside:
+                self._store(({"piece": -1}, []), CHECKPOINT)
+                (self.record / own).unlink(missing_ok=True)
+
+    def _create(self, empty: xarray.Dataset) -> None:
+        """Create the record from one without samples; the first piece that begins does."""
         # start-up time: these import xarray
         from deodar.recording import folder
         from deodar.recording.growing import GrowingRecord
 
-        if self.writer is None and not self.resumes:
-            folder.begin(self.doc, self.path, self.force)
-            piece = {self.cut.dimension: self.cut.length} if self.cut.dimension else {}
-            made = empty()
-            times = [d for d in map(str, made.dims) if probe.is_time(d) and not made.sizes[d]]
-            self.writer = GrowingRecord(self.record, made, times, piece)
-        return self.continued()
+        if self.writer is not None or self.resumes:
+            return
+        folder.begin(self.points.doc, self.path, self.force)
+        piece = {self.cut.dimension: self.cut.length} if self.cut.dimension else {}
+        times = [d for d in map(str, empty.dims) if probe.is_time(d) and not empty.sizes[d]]
+        self.writer = GrowingRecord(self.record, empty, times, piece)
 
-    def continued(self) -> GrowingRecord:
+    def _continued(self) -> GrowingRecord:
         """Return the writer of a record that has begun; the first call of a resumed run opens it."""
         if self.writer is None:
             self.writer = self._opened()
@@ -250,7 +208,7 @@ class RunOutput:
         from deodar.recording.growing import GrowingRecord
 
         about: dict[str, Any] = {"lengths": {}, "piece": -1} if self.state is None else self.state[0]
-        states = [state[0] for k in range(self.cut.count) if (state := self.piece_state(k)) is not None]
+        states = [state[0] for k in range(self.cut.count) if (state := self._piece_state(k)[1]) is not None]
         lengths = dict(about["lengths"])
         for one in states:
             lengths = {d: max(n, lengths.get(d, 0)) for d, n in one["lengths"].items()}
@@ -261,36 +219,33 @@ class RunOutput:
                 writer.erase(self.region(k), taken.get(k, 0))
         return writer
 
-    def store(self, run: Run, about: Mapping[str, Any]) -> None:
-        """Store the state of the run of a part, after all samples before it."""
-        if self.writer is not None:
-            self.write_state(checkpoint.taken(run, about), CHECKPOINT)
-
-    def write_state(self, state: StoredState, name: str) -> None:
+    def _store(self, state: checkpoint.StoredState, name: str) -> None:
         """Write a state into the folder of the record, after all samples until now."""
-        assert self.writer is not None
-        self.writer.commit()
+        writer = self._continued()
+        writer.commit()
         reasons = [[list(copy), reason] for copy, reason in self.reasons.items()]
-        about = {"lengths": self.writer.lengths, "done": self.done, "reasons": reasons}
+        about = {"lengths": writer.lengths, "done": self.done, "reasons": reasons}
         checkpoint.write(({**state[0], **about, "pieces": self.cut.count}, state[1]), self.record / name)
 
-    def ended(self, number: int, reasons: Mapping[tuple[int, ...], str]) -> None:
-        """Note that a piece is complete, and which of its copies diverged, with their reasons."""
-        self.reasons.update(reasons)
-        self.done.append(number)
-
     def close(self) -> xarray.Dataset:
-        """Complete the record and return it, opened."""
+        """Complete the record and return it, opened; where another host writes it, a Dataset without samples.
+
+        That names the record.
+        """
         # start-up time: these import xarray
+        import xarray
+
         from deodar.recording import diverged, files
 
-        writer = self.continued()  # a resumed run may add no sample
+        if not self.here:
+            return xarray.Dataset(attrs={"written_by": "host 0", "out": str(self.path)})
+        writer = self._continued()  # a resumed run may add no sample
         lost = None
         if self.reasons:
             writer.commit()
             for copy in self.reasons:
                 writer.blank(copy)
-            lost = diverged.coordinate(sizes(self), self.reasons)
+            lost = diverged.coordinate(self.sizes, self.reasons)
         writer.close(True, lost)
         return files.open_record(self.record)
 
@@ -311,198 +266,5 @@ class RunOutput:
         return None
 
 
-class _NoSamples:
-    """A writer that drops all samples: another host writes them."""
-
-    def put(
-        self,
-        dimension: str,
-        times: np.ndarray,
-        arrays: Mapping[str, np.ndarray],
-        first: int | None = None,
-        region: Region = (),
-    ) -> None:
-        """Drop samples."""
-
-
-class OutputElsewhere(RunOutput):
-    """The record of a run that the first of several hosts writes, on the other hosts.
-
-    Args:
-        output: its place, for the Dataset that `close` returns.
-    """
-
-    def __init__(self, output: Output) -> None:
-        self.path, self.snapshots, self.force = Path(output.path), output.snapshots, False
-        self.state, self.state_file, self.resumes = None, "", False
-        self.writer, self.reasons, self.done = None, {}, []
-
-    def begin(self, empty: Callable[[], xarray.Dataset]) -> Any:
-        """Return a writer that drops all samples."""
-        return _NoSamples()
-
-    def store(self, run: Run, about: Mapping[str, Any]) -> None:
-        """Read the state of a run together with the first host, which stores it."""
-        checkpoint.taken(run, about)
-
-    def close(self) -> xarray.Dataset:
-        """Return a Dataset without samples, which names the record."""
-        # start-up time: this imports xarray
-        import xarray
-
-        return xarray.Dataset(attrs={"written_by": "host 0", "out": str(self.path)})
-
-
-class OutputPart:
-    """The part of a record that one piece of a run writes."""
-
-    def __init__(self, out: PartOwner, number: int, region: Region) -> None:
-        self.out, self.number, self.region = out, number, region
-        self._saved = time.monotonic()
-        self._saved_at = self._taken = 0
-
-    def begin(
-        self,
-        program: Executable,
-        variables: Sequence[tuple[str, str, Port]],
-        sampling: Sampling,
-        about: Mapping[str, Any],
-    ) -> None:
-        """Set what is written: id, port and program's port of every variable."""
-        self.program, self.variables, self.sampling, self.about = program, variables, sampling, about
-        # the identity of the run of this piece, apart from its duration and its machine
-        same = {k: v for k, v in about.items() if k not in ("duration", "made_by")}
-        self.digest = hashlib.sha256(codec.line(same, sort=True).encode()).hexdigest()
-        doc = self.out.doc
-        self.names = [f"{doc.by_id()[ident].path}.{port}" for ident, port, _ in variables]
-        strides, conditions = zip(*sampling.probes, strict=True)
-        thresholds = [probe.threshold(doc.by_id()[ident].element, port) for ident, port, _ in variables]
-        self.selector = probe.Selector(
-            probe.series(self.names, strides, conditions), dict(zip(self.names, thresholds, strict=True))
-        )
-
-    def _collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
-        """Write samples from number `k` on."""
-        own = [part.stop - part.start for part in self.region]
-        lead = len(self.program.batch.shape)
-        n = seen[0].shape[lead]
-        copies = self._copies(own)
-        values = {
-            name: a[tuple(map(slice, copies))].reshape(*own, *a.shape[lead:])
-            for name, a in zip(self.names, seen, strict=True)
-        }
-        writer = self.out.begin(self._empty)
-        times = self.sampling.times(self.out.doc, k, n)
-        for one in self.selector.choose(k, times, values, len(own)):
-            writer.put(one.dimension, one.times, one.values, one.first, self.region)
-        self._taken = k + n
-
-    def record(
-        self,
-        run: Run,
-        steps: int,
-        ports: Sequence[Port],
-        check: Callable[[], None],
-        shown: Callable[[int], object],
-    ) -> None:
-        """Advance a run that has just begun to its end, from the stored state if one is resumed.
-
-        Args:
-            run: the run.
-            steps: its number of steps.
-            ports: what is recorded.
-            check: raises KeyboardInterrupt to stop; called between chunks.
-            shown: called with the number of completed steps; may raise it, too.
-
-        Raises:
-            OutputError: samples cannot be written; those before are in the file.
-            KeyboardInterrupt: the run was stopped; the state is stored.
-        """
-        begun = self._resumed(run)
-        start, gap, most = self.sampling[:3]
-        taken = self._taken
-        run.probe = 1  # no second may pass before the first samples are written
-
-        def collect(k: int, seen: tuple[np.ndarray, ...]) -> None:
-            self._collect(taken + k, seen)
-
-        def between(done: int) -> None:
-            self._save_if_due(run, begun + done)
-            try:
-                shown(begun + done)
-                check()
-            except KeyboardInterrupt:
-                self._save(run, begun + done)
-                raise
-
-        if start and start >= begun:  # a run that is made longer records its end again
-            taken = self._taken = 0
-        due = start + taken * gap - begun if taken < most else steps - begun + 1
-        run.record(steps - begun, ports, due, gap, collect, between)
-        self._save(run, steps)
-
-    def _save_if_due(self, run: Run, done: int) -> None:
-        due = self.out.snapshots
-        passed = (done - self._saved_at) * self.sampling.dt
-        now = passed >= due if due is not None else time.monotonic() - self._saved >= CHECKPOINT_SECONDS
-        # all hosts read a state together, so the clock of the first one decides
-        if hosts.of_first("a stored state", now, run.program.across):
-            self._save(run, done)
-
-    def _save(self, run: Run, done: int) -> None:
-        """Store the state of the run after `done` steps, and all samples before it."""
-        self._saved, self._saved_at = time.monotonic(), done
-        about = {
-            "piece": self.number,
-            "steps": done,
-            "above": self.selector.above,
-            "taken": self._taken,
-            "of": self.digest,
-        }
-        self.out.store(run, about)
-
-    def _resumed(self, run: Run) -> int:
-        """Set the run to the stored state of this piece; return the number of its steps, 0 without one."""
-        if self.out.state is None or self.out.state[0]["piece"] != self.number:
-            return 0
-        about, arrays = self.out.state
-        if about.get("of") != self.digest:
-            raise RecordError(
-                "the stored state is of another run",
-                where=self.out.state_file,
-                fix="Remove it; the run then begins again",
-            )
-        checkpoint.put(run, about, arrays)
-        self._taken, self._saved_at = int(about["taken"]), int(about["steps"])
-        self.selector.above = dict(about["above"])
-        return int(about["steps"])
-
-    def end(self, reasons: Mapping[tuple[int, ...], str], complete: bool, lost: bool) -> None:
-        """Note which copies of a complete piece diverged, with their reasons; `close` makes them NaN."""
-        if not complete:
-            return
-        starts = [part.start for part in self.region]
-        whole = {tuple(k + s for k, s in zip(place, starts, strict=True)): r for place, r in reasons.items()}
-        self.out.ended(self.number, whole)
-
-    def _copies(self, own: Sequence[int]) -> list[int]:
-        """Return the lengths of the batch axes without the copies that only fill the piece up."""
-        points = int(np.prod(own[: len(self.out.grid)], dtype=int))
-        return ([points] if self.out.grid else []) + ([own[-1]] if self.out.labels is not None else [])
-
-    def _empty(self) -> xarray.Dataset:
-        # start-up time: this imports xarray
-        from deodar.recording import record
-
-        copies, doc = self._copies(list(sizes(self.out).values())), self.out.doc
-        variables: list[Any] = []
-        for ident, port, place in self.variables:
-            axes = self.program.axes(place)
-            array = np.empty((*copies, 0, *shape(axes)), self.program.program.dtype)
-            variables.append((doc.by_id()[ident], port, axes, array))
-        about = {**self.about, **self.out.settings}
-        out, no_times = self.out, np.empty(0)
-        data = record.dataset(doc, variables, no_times, out.labels, out.grid, about, out.beside)
-        return record.with_times(
-            data, {name: one.dimension for one in self.selector.found for name in one.names}
-        )
+def _nowhere(message: PieceMessage) -> None:
+    """Drop what a piece tells: another host writes it."""

@@ -5,13 +5,12 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from deodar.batch import pieces
 from deodar.batch.points import SweepPoints
-from deodar.batch.run_file import Sampling
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.compiler import device as devices
 from deodar.compiler import division, hosts
@@ -35,6 +34,23 @@ from deodar.worlds._base import World
 
 MOST_OWN = 2**16
 """Number of points, and of trials, that have noise of their own under one seed."""
+
+
+class Sampling(NamedTuple):
+    """The samples of a run: after `start` steps and then after each `gap`, `most` of them.
+
+    `probes` states for each variable how many gaps lie between its samples, and their condition.
+    """
+
+    start: int
+    gap: int
+    most: int
+    dt: float
+    probes: Sequence[tuple[int, str | None]] = ()
+
+    def times(self, doc: Document, first: int, n: int) -> np.ndarray:
+        """Return the times of `n` samples from number `first` on."""
+        return doc.t0 + (self.start + (first + np.arange(n)) * self.gap) * self.dt
 
 
 class RunPlan:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar.batch.cluster_pieces import run as on_cluster
 from deodar.batch.compute import Spread, compute
-from deodar.batch.run_file import Output, OutputElsewhere, RunOutput
+from deodar.batch.run_file import Output, RunOutput
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.batch.workers import run as in_workers
 from deodar.cluster import Cluster
@@ -131,12 +131,7 @@ def simulate(
     request = SimulationRequest(duration, dt, seed, record, every, trials, sweep, precision, on)
     with hosts.together(places.of_all_hosts(on.devices, on.device)):
         across = hosts.count() > 1 and hosts.span(places.several(on.devices, on.device))
-        if out is None:
-            file = None
-        elif across and not hosts.first():
-            file = OutputElsewhere(Output.of(out))
-        else:
-            file = RunOutput(Output.of(out))
+        file = None if out is None else RunOutput(Output.of(out), here=hosts.first() or not across)
         data = warned(model, request, world, file)
         # an error after the last chunk, as of a disk, also reaches the others in this call
         hosts.any_of("the end of the run", True, across)

@@ -14,15 +14,14 @@ import tempfile
 from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 
-from deodar.batch import sent
 from deodar.batch.compute import compute, watching
 from deodar.batch.driven_pieces import pieces_driven
 from deodar.batch.driver import PoolTask
 from deodar.batch.packed_model import PackedModel
+from deodar.batch.piece_record import PieceMessage, RecordedPiece, RecordPart
 from deodar.batch.pieces import PieceResult
 from deodar.batch.pool import Pool
-from deodar.batch.run_file import OutputPart, RunOutput
-from deodar.batch.sent import SentOutput, SentPart
+from deodar.batch.run_file import RunOutput
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.errors import Interrupted
 from deodar.model.model import Model
@@ -39,14 +38,15 @@ class WorkerTask:
         board: the file that all processes map: for each piece the completed steps, and at the end whether to
             stop.
         number: number of the piece.
-        sent: how the piece sends its samples, which the parent writes; None: the result has them.
+        part: the part of the record that the piece tells, and the parent writes; None: the result has the
+            samples.
     """
 
     packed: PackedModel
     request: SimulationRequest
     board: str
     number: int
-    sent: SentPart | None = None
+    part: RecordPart | None = None
 
 
 def run(
@@ -78,8 +78,8 @@ def run(
     with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces)), talks=True) as pool:
 
         def task(k: int) -> PoolTask:
-            how = None if out is None else SentPart.of(out, k)
-            return PoolTask(k, work, (WorkerTask(packed, pieces[k], path, k, how),))
+            part = None if out is None else out.part(k)
+            return PoolTask(k, work, (WorkerTask(packed, pieces[k], path, k, part),))
 
         def check(parts: object) -> None:
             try:
@@ -88,9 +88,9 @@ def run(
                 board[-1] = 1
                 raise
 
-        def heard(number: int, message: sent.PieceMessage) -> None:
+        def heard(number: int, message: PieceMessage) -> None:
             assert out is not None
-            sent.receive(out, number, message)
+            out.receive(number, message, beside=True)
 
         return pieces_driven(pool, len(pieces), out, task, check, lambda seconds: pool.wait(seconds, heard))
 
@@ -119,7 +119,7 @@ def _mapped(path: str) -> Generator[memoryview]:
 # ---------------------------------------------------------------------------------------------- in the worker
 
 
-def work(send: Callable[[sent.PieceMessage], None], job: WorkerTask) -> PieceResult:
+def work(send: Callable[[PieceMessage], None], job: WorkerTask) -> PieceResult:
     """Run one piece; `send` sends what it records to the process that writes it."""
     with _mapped(job.board) as board:
 
@@ -128,10 +128,8 @@ def work(send: Callable[[sent.PieceMessage], None], job: WorkerTask) -> PieceRes
             if board[-1]:
                 raise KeyboardInterrupt
 
-        model, part = job.packed.model, None
-        if job.sent is not None:
-            part = OutputPart(SentOutput(job.sent, model.document, send), job.number, job.sent.region)
+        piece = None if job.part is None else RecordedPiece(job.part, send)
         try:
-            return compute(model, watching(job.request, report), job.packed.world(), out=part)
+            return compute(job.packed.model, watching(job.request, report), job.packed.world(), out=piece)
         except Interrupted as error:
             return PieceResult(error.data, False)

@@ -16,8 +16,11 @@ from deodar.session.run import Run
 
 KIND = "state of a run"
 
+StoredState = tuple[dict[str, Any], list[np.ndarray]]
+"""A stored state: its text and its arrays."""
 
-def taken(run: Run, about: Mapping[str, Any]) -> tuple[dict[str, Any], list[np.ndarray]]:
+
+def taken(run: Run, about: Mapping[str, Any]) -> StoredState:
     """Return the state of a run: elements, learned weights, clock, world, copies that diverged.
 
     The noise follows from seed and tick. `about` is what the reader needs besides.
@@ -32,7 +35,7 @@ def taken(run: Run, about: Mapping[str, Any]) -> tuple[dict[str, Any], list[np.n
     return {**about, "run": text}, [*own, *theirs]
 
 
-def write(state: tuple[Mapping[str, Any], list[np.ndarray]], path: Path) -> None:
+def write(state: StoredState, path: Path) -> None:
     """Write what `taken` returned.
 
     Raises:
@@ -41,7 +44,7 @@ def write(state: tuple[Mapping[str, Any], list[np.ndarray]], path: Path) -> None
     stored.write(path, state[0], state[1], KIND)
 
 
-def read(path: Path) -> tuple[dict[str, Any], list[np.ndarray]]:
+def read(path: Path) -> StoredState:
     """Return what `write` wrote: its text and arrays, for `put`.
 
     Raises:

@@ -124,7 +124,7 @@ def test_only_the_missing_pieces_of_a_run_are_given_to_workers(tmp_path, address
     real = ClusterPool.give
 
     def give(self, key, function, *arguments, **how):
-        given.append((key, arguments[3].state))
+        given.append((key, arguments[2].state))
         real(self, key, function, *arguments, **how)
 
     monkeypatch.setattr(ClusterPool, "give", give)

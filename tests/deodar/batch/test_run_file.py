@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.batch import run_file, sent
+from deodar.batch import piece_record, run_file
 from deodar.batch.compute import compute, watching
+from deodar.batch.piece_record import PieceEnded, PieceMessage, RecordedPiece
 from deodar.batch.pieces import EMPTY, PieceResult
-from deodar.batch.run_file import OutputPart, RunOutput
-from deodar.batch.sent import SentOutput, SentPart
+from deodar.batch.run_file import RunOutput
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.cli import main
 from deodar.errors import Interrupted, NotFinite, OutputExists, RecordError
@@ -74,7 +74,7 @@ def test_a_wall_clock_that_is_set_back_delays_no_state(
 ) -> None:
     back = itertools.count(1_700_000_000.0, -3600.0)
     monkeypatch.setattr("time.time", lambda: next(back))
-    monkeypatch.setattr(run_file, "CHECKPOINT_SECONDS", 1e-9)
+    monkeypatch.setattr(piece_record, "CHECKPOINT_SECONDS", 1e-9)
     stored: list[int] = []
 
     def note(done: int) -> None:
@@ -120,10 +120,10 @@ def sent_here(monkeypatch: pytest.MonkeyPatch) -> None:
         parts: list[PieceResult | None] = [EMPTY if k in out.done else None for k in range(len(pieces))]
         for k in [k for k, part in enumerate(parts) if part is None]:
 
-            def send(message: sent.PieceMessage, k: int = k) -> None:
-                sent.receive(out, k, pickle.loads(pickle.dumps(message)))
+            def send(message: PieceMessage, k: int = k) -> None:
+                out.receive(k, pickle.loads(pickle.dumps(message)), beside=True)
 
-            part = OutputPart(SentOutput(SentPart.of(out, k), model.document, send), k, out.region(k))
+            part = RecordedPiece(pickle.loads(pickle.dumps(out.part(k))), send)
             try:
                 job = watching(pieces[k], lambda done, k=k: between(k * 40 + done))
                 parts[k] = compute(model, job, world, out=part)
@@ -167,15 +167,15 @@ def test_a_run_killed_before_a_worker_reports_its_end_is_resumed(
 ) -> None:
     given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
     here = dd.simulate(model(), 40, **given | {"on": dd.Resources(batch=2)})
-    receive = sent.receive
+    receive = RunOutput.receive
 
-    def killed(out: RunOutput, number: int, message: sent.PieceMessage) -> None:
-        if isinstance(message, sent.PieceEnded):
+    def killed(out: RunOutput, number: int, message: PieceMessage, beside: bool) -> None:
+        if isinstance(message, PieceEnded):
             raise InterruptedError
-        receive(out, number, message)
+        receive(out, number, message, beside)
 
     with monkeypatch.context() as changed:
-        changed.setattr(sent, "receive", killed)
+        changed.setattr(RunOutput, "receive", killed)
         with pytest.raises(InterruptedError):
             dd.simulate(model(), 40, out=dd.Output(tmp_path / "run", snapshots=20), **given)
     assert checkpoint.read(tmp_path / "run/record.zarr/state-0.npz")[0]["steps"] == 40
@@ -390,6 +390,15 @@ def test_copies_that_diverged_before_a_stop_are_nan_after_it(tmp_path: Path) -> 
     with pytest.warns(dd.errors.RunWarning):
         there = dd.resume(tmp_path / "run")
     assert there.load().identical(here) and np.isnan(there["u.activation"].values[1]).all()
+
+
+def test_a_batch_whose_copies_all_diverge_before_its_only_sample_is_nan_in_the_file(tmp_path: Path) -> None:
+    made = model()
+    made.set({"u.sigmoid": dd.Linear()})
+    with pytest.raises(NotFinite, match="infinite"):
+        dd.simulate(made, 40, sweep={"u.kernel.0.amplitude": [1e9, 1e10]}, out=tmp_path / "run")
+    kept = dd.open_record(tmp_path / "run")
+    assert about(kept)["complete"] is True and all(kept["diverged"].values)
 
 
 def test_a_run_that_diverges_keeps_its_record_until_then(tmp_path: Path) -> None:
