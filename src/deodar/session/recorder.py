@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -11,18 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar import codec
-from deodar.codec import Json
+from deodar.codec import JsonObject
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 from deodar.errors import DeodarError, NotFinite, ParameterError, TimeError
-from deodar.model import document_files as documents
 from deodar.model import find
-from deodar.model.document import Document
 from deodar.numerics.axes import shape
-from deodar.parameters import FrozenArray
 from deodar.recording import probe as probing
 from deodar.recording import provenance
 from deodar.recording.probe import Probe, Selector
+from deodar.session.journal import Change, JournalReader, to_file
 from deodar.session.run import Run, whole
 
 if TYPE_CHECKING:
@@ -30,15 +27,6 @@ if TYPE_CHECKING:
 
 MOST_RECORDS = 64
 """Records of one chunk: a session advances by few steps at a time."""
-
-
-@dc.dataclass(frozen=True)
-class Change:
-    """An entry of the journal of a session: the tick, what was changed, and its new value."""
-
-    tick: int
-    what: str
-    value: Any
 
 
 class Recorder:
@@ -55,7 +43,13 @@ class Recorder:
     """
 
     def __init__(
-        self, run: Run, path: Path, probes: Sequence[Probe], every: float | None, force: bool = False
+        self,
+        run: Run,
+        journal: Sequence[Change],
+        path: Path,
+        probes: Sequence[Probe],
+        every: float | None,
+        force: bool = False,
     ) -> None:
         # start-up time: these import xarray
         from deodar.recording import folder, record
@@ -77,8 +71,7 @@ class Recorder:
         limits = [probing.threshold(entry.element, port) for entry, port in found]
         self._selector = Selector(series, dict(zip(self.names, limits, strict=True)))
         self._taken, self._next = 0, run.clock.tick
-        self._changes: list[dict[str, Json]] = []
-        self.follow([])
+        self._journal, self._reader, self._changes = journal, JournalReader(journal), list[JsonObject]()
         variables: list[Any] = [
             (entry, port, axes, np.empty((0, *shape(axes)), run.program.program.dtype))
             for (entry, port), axes in zip(found, self._axes, strict=True)
@@ -138,22 +131,10 @@ class Recorder:
                 np.asarray([run.clock.time]), [values[None] for values in run.read(self._ports(run.program))]
             )
 
-    def follow(self, journal: Sequence[Change]) -> None:
-        """Store the changes of a session from now on."""
-        self._journal, self._seen = journal, len(journal)
-        self._last = journal[-1] if journal else None
-
     def note(self) -> None:
         """Store the changes of the session since the last call, with their ticks."""
-        journal = self._journal
-        if self._seen and journal[self._seen - 1] is not self._last:  # of several moves the last one counts
-            self._seen -= 1
-            self._changes = self._changes[:-1]
-        new, self._seen = journal[self._seen :], len(journal)
-        self._last = journal[-1] if journal else None
-        self._changes += [
-            {"tick": change.tick, "what": change.what, "value": _plain(change.value)} for change in new
-        ]
+        gone, new = self._reader.news(self._journal)
+        self._changes[len(self._changes) - gone :] = map(to_file, new)
         if new and self._writer is not None:
             self._writer.annotate("changes", codec.line(self._changes))
 
@@ -258,21 +239,3 @@ def compile_records(program: Executable, places: Sequence[tuple[str, str]]) -> N
     """Compile what a recorder of ports (id and name) calls of a program, if that has all of them."""
     if all(ident in program.plan.row for ident, _ in places):
         program.chunk([program.port(ident, port) for ident, port in places], MOST_RECORDS)
-
-
-def _plain(value: Any) -> Json:
-    """Return a changed value as plain data."""
-    if isinstance(value, Document):
-        return documents.to_data(value)[0]
-    if isinstance(value, FrozenArray):
-        return value.data.tolist()
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    if dc.is_dataclass(value) and not isinstance(value, type):
-        return repr(value)
-    try:
-        return codec.parse(codec.line(value))
-    except (TypeError, ValueError):
-        return repr(value)

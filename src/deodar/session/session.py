@@ -26,19 +26,20 @@ from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
 from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe, probes
-from deodar.recording.provenance import described, stored
+from deodar.recording.provenance import stored
 from deodar.resources import Resources, use_resources
 from deodar.session import agreement, memory
 from deodar.session.adopt import adopt, require
 from deodar.session.changes import changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
+from deodar.session.journal import Change
 from deodar.session.keep import keep
 from deodar.session.meter import Meter
 from deodar.session.port_reader import PortKey, PortReader
-from deodar.session.recorder import Change, Recorder
+from deodar.session.recorder import Recorder
 from deodar.session.run import Run, host, require_duration, require_step, whole
 from deodar.session.run_live import run_live
-from deodar.session.session_snapshot import SessionSnapshot, StateRow, fill, put_states, rows
+from deodar.session.session_snapshot import SessionSnapshot, fill, rows
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._scene import Scene, SceneBox
@@ -62,8 +63,9 @@ class Session:
 
     Attributes:
         device: the device, as given.
-        journal: every change of a parameter or of dt, every reset and restore, and every change of the world
-            by the user, with its tick; together with seed and document it repeats the session.
+        journal: every call that changed a parameter or dt, reset or restored the session, injected an input
+            or changed the world, with its tick: `change.method`, `change.arguments`. Together with seed and
+            document it repeats the session: `change.repeat(session)`.
     """
 
     def __init__(
@@ -157,7 +159,7 @@ class Session:
     def reset(self, seed: int | None = None) -> None:
         """Reset state, time and noise to the start, with another seed if one is given; parameters stay."""
         new = self.seed if seed is None else require_seed(seed)
-        self.journal.append(Change(self.tick, "reset", new))
+        self.journal.append(Change(self.tick, "reset", (new,)))
         self._end_record("the session was reset")
         self._run.seed = new
         self._run.reset()
@@ -175,7 +177,7 @@ class Session:
         given = frozen.data if frozen.shape else float(frozen.data)
         if self.program.across:
             hosts.require_equal("what is injected", [entry.path, n, frozen.digest])
-        self.journal.append(Change(self.tick, f"push {entry.path}", (frozen, n)))
+        self.journal.append(Change(self.tick, "inject", (entry.path, frozen, n)))
         g, r = self._run.program.plan.row[entry.id]
         for _ in range(n):
             dt, recorder, self._recorder = self.dt, self._recorder, None
@@ -280,7 +282,7 @@ class Session:
         values = edit.assignments(path, value)
         cost = adopt(self._run, edit.change_all(self.document, values), (self.dt, self.next_dt))
         self.journal += [
-            Change(self.tick, at, FrozenArray(v) if isinstance(v, np.ndarray) else v)
+            Change(self.tick, "set", (at, FrozenArray(v) if isinstance(v, np.ndarray) else v))
             for at, v in values.items()
         ]
         return cost
@@ -292,7 +294,7 @@ class Session:
         """
         cost = adopt(self._run, document, (self.dt, self.next_dt))
         self._ports.clear()
-        self.journal.append(Change(self.tick, "document", document))
+        self.journal.append(Change(self.tick, "edit", (document,)))
         return cost
 
     def snapshot(self) -> SessionSnapshot:
@@ -321,15 +323,9 @@ class Session:
             raise ParameterError(f"the snapshot is of another model, {snapshot.document.name!r}")
         self.go_back(snapshot, self.world)
 
-    def put_states(self, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
-        """Replace the states of elements (`SessionSnapshot.states`); time, noise, parameters, the world and
-        its readings continue.
-        """
-        put_states(self._run, states)
-
     def go_back(self, snapshot: SessionSnapshot, world: World | None) -> None:
         """Restore a snapshot of this session with the world of that moment, whatever was edited since."""
-        self.journal.append(Change(self.tick, "restore", snapshot))
+        self.journal.append(Change(self.tick, "restore", (snapshot,)))
         self._end_record("a snapshot was restored")
         run = self._run
         before = run.clock, run.seed, run.exchange
@@ -377,8 +373,7 @@ class Session:
                 f"the session is recorded already, into {self._recorder.path}",
                 fix="Close that recorder first",
             )
-        self._recorder = Recorder(self._run, Path(path), probes(record), every, force)
-        self._recorder.follow(self.journal)
+        self._recorder = Recorder(self._run, self.journal, Path(path), probes(record), every, force)
         return self._recorder
 
     def keep(self) -> list[str]:
@@ -410,7 +405,7 @@ class Session:
         scene.require_room(name, center, item.size if isinstance(item, SceneBox) else None)
         with errors_of(world, "move"):
             world.move(name, center)
-        self._note(f"world.move {name}", tuple(center))
+        self._note("move", name, tuple(center))
 
     def place(
         self, name: str, center: Sequence[float], size: Sequence[float], color: Sequence[float] | None = None
@@ -433,7 +428,7 @@ class Session:
             raise WorldError("is the name of a mark", where=name, fix="Choose another name")
         with errors_of(world, "place"):
             world.place(name, center, size, *coloured)
-        self._note(f"world.place {name}", (tuple(center), tuple(size), *coloured))
+        self._note("place", name, tuple(center), tuple(size), *coloured)
 
     def remove(self, name: str) -> None:
         """Remove an object from the world."""
@@ -442,7 +437,7 @@ class Session:
             raise WorldError("is a mark; it can be moved, not removed", where=name)
         with errors_of(world, "remove"):
             world.remove(name)
-        self._note(f"world.remove {name}", None)
+        self._note("remove", name)
 
     def push_body(self, body: str, force: Sequence[float]) -> None:
         """Push a body of the world with a force along x, y and z (N), until the next push of it.
@@ -454,7 +449,7 @@ class Session:
         world, _ = self._seen()
         with errors_of(world, "push"):
             world.push(body, force)
-        self._note(f"world.push {body}", tuple(force))
+        self._note("push_body", body, tuple(force))
 
     def _seen(self) -> tuple[World, Scene]:
         scene = self.scene()
@@ -465,10 +460,13 @@ class Session:
             )
         return self.world, scene
 
-    def _note(self, what: str, value: Any) -> None:
-        if self.journal and (self.journal[-1].tick, self.journal[-1].what) == (self.tick, what):
-            self.journal.pop()  # only the last of several moves between two steps has an effect
-        self.journal.append(Change(self.tick, what, value))
+    def _note(self, method: str, name: str, *rest: Any) -> None:
+        new = Change(self.tick, method, (name, *rest))
+        if self.journal:  # only the last of several moves between two steps has an effect
+            last = self.journal[-1]
+            if (last.tick, last.method, last.arguments[0]) == (new.tick, method, name):
+                self.journal.pop()
+        self.journal.append(new)
 
     # --------------------------------------------------------------------------------------------- properties
 
@@ -491,7 +489,7 @@ class Session:
     def world(self, world: World | None) -> None:
         hosts.require_one("a world", self.program.across and world is not None)
         self._run.see(world)
-        self.journal.append(Change(self.tick, "world", described(world)))
+        self.journal.append(Change(self.tick, "world", (world,)))
 
     @property
     def document(self) -> Document:
@@ -507,7 +505,7 @@ class Session:
     def dt(self, value: float) -> None:
         require_step(self.document, value)
         self._coming_dt = float(value)
-        self.journal.append(Change(self.tick, "dt", float(value)))
+        self.journal.append(Change(self.tick, "dt", (float(value),)))
         self._to_new_dt(0)
 
     @property

@@ -15,17 +15,13 @@ from deodar.errors import RecordError, TimeError
 from deodar.model import find
 from deodar.model.model import Model
 from deodar.resources import Resources, use_resources
-from deodar.session.recorder import Change
-from deodar.session.repeat_changes import repeat_changes
+from deodar.session.journal import Change, from_file, repeat_changes, until
 from deodar.session.run import whole
 from deodar.session.session import Session
 from deodar.worlds._base import World
 
 if TYPE_CHECKING:
     import xarray
-
-NOT_REPEATED = ("document", "dt", "world", "reset", "restore")
-"""Changes of a session that a record does not describe completely."""
 
 
 def session_at(
@@ -65,7 +61,8 @@ def session_at(
     changes: list[Change] = []
     if "session" in made:
         model, settings = _of_session(data, made, trust)
-        changes = _changes(data)
+        given: Any = codec.parse(str(data.attrs.get("changes", "[]")))
+        changes = list(map(from_file, given))
     else:
         model, settings = request(data, trust)
     if settings.get("trials") is not None or settings.get("sweep"):
@@ -80,13 +77,8 @@ def session_at(
     session = Session(model, settings["dt"], settings["seed"], settings["precision"], world, on=there)
     tick = whole(time - session.time, session.dt, "the time from the start")
     _require_recorded(data, time, made, session.time + settings.get("duration", 0.0), str(path))
-    repeat_changes(
-        session,
-        [c for c in changes if c.tick <= tick],
-        tick,
-        tell,
-        _comparisons(session, data, time, str(path)),
-    )
+    stops = _comparisons(session, data, time, str(path))
+    repeat_changes(session, until(changes, tick), tick, tell, stops)
     return session
 
 
@@ -102,17 +94,6 @@ def _of_session(data: xarray.Dataset, made: Any, trust: bool) -> tuple[Model, di
     several = (devices := provenance.devices_of(made)) > 1
     settings["on"] = Resources(made["made_by"]["device"].split()[0], devices) if several else Resources()
     return Model(document=provenance.document(made), trusted=trust), settings
-
-
-def _changes(data: xarray.Dataset) -> list[Change]:
-    given: Any = codec.parse(str(data.attrs.get("changes", "[]")))
-    changes = [Change(int(c["tick"]), str(c["what"]), c["value"]) for c in given]
-    for change in changes:
-        if change.what in NOT_REPEATED:
-            raise RecordError(
-                f"the change of {change.what!r} at step {change.tick} cannot be repeated from the record"
-            )
-    return changes
 
 
 def _require_recorded(data: xarray.Dataset, time: float, made: Any, end: float, where: str) -> None:

@@ -9,8 +9,7 @@ import jax
 import numpy as np
 
 from deodar.errors import RecordError
-from deodar.session.recorder import Change
-from deodar.session.repeat_changes import StepProgress, is_push, repeat_changes
+from deodar.session.journal import Change, JournalReader, StepProgress, repeat_changes, until
 from deodar.session.session import Session
 from deodar.session.session_snapshot import SessionSnapshot
 from deodar.worlds._base import World
@@ -57,8 +56,7 @@ class BranchStates:
     def __init__(self, interval: float = INTERVAL, most: int = MOST_BYTES) -> None:
         self._interval, self._most = interval, most
         self._stored: list[_BranchState] = []
-        self._seen = 0
-        self._last: Change | None = None
+        self._reader = JournalReader()
         self._wall, self._now, self._due = 0.0, 0.0, 0.0
         self._too_large = 0
 
@@ -101,18 +99,10 @@ class BranchStates:
 
     def note(self, session: Session) -> None:
         """Store the changes of the session since the last call."""
-        journal = session.journal
-        if self._seen and journal[self._seen - 1] is not self._last:  # of several moves the last one counts
-            self._seen -= 1
-            if self._stored and self._stored[-1].changes:
-                self._stored[-1].changes.pop()
-        new, self._seen = journal[self._seen :], len(journal)
-        self._last = journal[-1] if journal else None
+        gone, new = self._reader.news(session.journal)
         if self._stored:
-            self._stored[-1].changes += [
-                dc.replace(change, value=session.world) if change.what == "world" else change
-                for change in new
-            ]
+            changes = self._stored[-1].changes
+            changes[len(changes) - gone :] = new
 
     def branch(self, session: Session, tick: int, progress: StepProgress) -> None:
         """Take a session back to an earlier tick; later states are forgotten.
@@ -129,18 +119,18 @@ class BranchStates:
         assert k is not None
         begin = self._stored[k]
         present, world = session.snapshot(), session.world
-        changes = [c for c in begin.changes if c.tick <= tick and not (c.tick == tick and is_push(c))]
+        changes = until(begin.changes, tick)
         try:
             session.go_back(begin.snapshot, begin.world)
             repeat_changes(session, changes, tick, progress)
         except BaseException:
             session.go_back(present, world)
-            self._seen = len(session.journal)
-            self._last = session.journal[-1]
+            self._reader.skip(session.journal)
             raise
         begin.changes = changes
         del self._stored[k + 1 :]
-        self._seen, self._last, self._due = len(session.journal), session.journal[-1], self._wall
+        self._due = self._wall
+        self._reader.skip(session.journal)
 
     def _require(self, session: Session, k: int | None) -> None:
         """Raise RecordError if a moment cannot be computed again."""

@@ -292,7 +292,6 @@ class Engine:
         self._halt()
         if self.session is not None:
             self.session.world = world
-            self.states.note(self.session)
         self.failure, self._stale = ((), ()), True
 
     def rearrange(self, how: Callable[[Session], None]) -> None:

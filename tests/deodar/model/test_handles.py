@@ -312,7 +312,7 @@ def test_a_session_sets_several_values_at_one_tick(model: dd.Model) -> None:
     session.step(3)
     assert session.set({"g.u.tau": 30, "v.tau": 10}) == "live"
     assert session.get("g.u.tau") == 30.0 and session.get("v.tau") == 10.0
-    assert [(c.tick, c.what, c.value) for c in session.journal] == [(3, "g.u.tau", 30), (3, "v.tau", 10)]
+    assert [(c.tick, *c.arguments) for c in session.journal] == [(3, "g.u.tau", 30), (3, "v.tau", 10)]
     with pytest.raises(ParameterError):
         session.set({"g.u.tau": 40, "v.tau": -1})
     assert session.get("g.u.tau") == 30.0 and len(session.journal) == 2

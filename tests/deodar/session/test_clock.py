@@ -141,13 +141,13 @@ def test_a_step_that_may_grow_keeps_up_and_the_journal_repeats_the_run(every: in
     assert one.time == 3000 and meter.time == 3000 and meter.factor == pytest.approx(1, rel=0.02)
     assert meter.lengthened > 500 and 3 <= meter.step <= 5 and meter.lost == 0
     assert one.dt == one.next_dt == 1, "planned again at the end"
-    changes = [c for c in one.journal if c.what == "dt"]
-    assert changes and all(c.value == round(c.value) and 1 <= c.value <= 5 for c in changes)
+    changes = [c for c in one.journal if c.method == "dt"]
+    assert changes and all(dt == round(dt) and 1 <= dt <= 5 for c in changes for dt in c.arguments)
 
     again = session(every)
     for change in changes:
         again.step(change.tick - again.tick)
-        again.dt = change.value
+        change.repeat(again)
     again.step(one.tick - again.tick)
     assert again.time == one.time
     np.testing.assert_array_equal(again.read("u.activation"), one.read("u.activation"))
@@ -166,7 +166,7 @@ def test_a_lengthened_step_returns_to_dt_when_there_is_time() -> None:
     wall.cost = 0.0001
     second = wall.live(2000, longest=10)
     assert first.lengthened > 100 and second.lengthened < 600 and second.drift < 5
-    assert [c.value for c in wall.session.journal][-1] == 1
+    assert wall.session.journal[-1].arguments == (1,)
 
 
 class Told(World):
@@ -191,7 +191,9 @@ def test_a_world_is_read_at_its_period_for_every_step() -> None:
     one = dd.Session(model, world=world)
     wall = Wall(one, cost=0.0025)
     meter = wall.live(3000, longest=5)
-    assert {c.value for c in one.journal} <= {1, 2, 3, 4}, "five steps do not fit into the period"
+    assert {dt for c in one.journal for dt in c.arguments} <= {1, 2, 3, 4}, (
+        "five steps do not fit into the period"
+    )
     assert meter.lengthened > 500 and one.time == 3000
     gaps = np.diff(world.read)
     assert gaps.min() >= 12 and gaps.max() < 12 + 4 and np.median(gaps) == 12

@@ -67,7 +67,7 @@ def test_inject_gives_the_trajectory_of_a_connected_input(noise: float) -> None:
     bound.step(50)
     free.inject("u", amount, 50)
     np.testing.assert_allclose(free.read("u.activation"), bound.read("u.activation"), atol=1e-9)
-    assert free.journal[-1].what == "push u"
+    assert (free.journal[-1].method, free.journal[-1].arguments[::2]) == ("inject", ("u", 50))
 
 
 def test_inject_into_an_element_without_input_is_refused() -> None:

@@ -232,12 +232,12 @@ def test_a_change_after_the_last_step_is_stored(tmp_path: Path) -> None:
 def test_of_several_moves_between_two_steps_the_last_one_is_stored(tmp_path: Path) -> None:
     session = dd.Session(model())
     with session.record(tmp_path / "r.zarr", "u"):
-        session._note("move block", [1.0, 2.0])
+        session._note("move", "block", [1.0, 2.0])
         session.step()
-        session._note("move block", [3.0, 4.0])
+        session._note("move", "block", [3.0, 4.0])
         assert session.recorder is not None
         session.recorder.note()
-        session._note("move block", [5.0, 6.0])
+        session._note("move", "block", [5.0, 6.0])
     changes = json.loads(dd.open_record(tmp_path / "r.zarr").attrs["changes"])
     assert [change["value"] for change in changes] == [[1.0, 2.0], [5.0, 6.0]]
 

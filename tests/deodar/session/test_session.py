@@ -40,11 +40,11 @@ def test_a_change_acts_from_the_next_step_and_is_recorded_in_the_journal() -> No
     s.step(2)
     s.restore(kept)
     s.reset()
-    assert [(c.tick, c.what) for c in s.journal] == [
-        (3, "u.resting_level"),
-        (4, "u.kernel"),
-        (6, "restore"),
-        (4, "reset"),
+    assert [(c.tick, c.method, c.arguments[0]) for c in s.journal] == [
+        (3, "set", "u.resting_level"),
+        (4, "set", "u.kernel"),
+        (6, "restore", kept),
+        (4, "reset", 0),
     ]
 
 
