@@ -84,15 +84,7 @@ def in_pool(
     def check(parts: Sequence[PieceResult | None]) -> None:
         between(sum(n for n, part in zip(steps, parts, strict=True) if part is not None))
 
-    def wait(seconds: float) -> list[tuple[int, PieceResult]]:
-        arrived = pool.wait(seconds)
-        for number, (_, messages) in arrived:
-            for message in messages:
-                assert out is not None
-                out.receive(number, message, beside=True)
-        return [(number, part) for number, (part, _) in arrived]
-
-    return pieces_driven(pool, len(pieces), out, task, check, wait)
+    return pieces_driven(pool, len(pieces), out, task, check)
 
 
 # ---------------------------------------------------------------------------------------------- in the worker

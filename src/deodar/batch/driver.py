@@ -12,6 +12,25 @@ WAIT = 0.1
 """Longest wall time between two checks for Ctrl-C, in seconds."""
 
 
+@dataclass(frozen=True)
+class Staffing:
+    """The workers at one moment.
+
+    Attributes:
+        workers: number of workers now.
+        running: number of pieces that were given to them and have not returned.
+    """
+
+    workers: int
+    running: int
+
+
+WorkerWatch = Callable[[Staffing], bool]
+"""A function that is called several times a second while workers run or are awaited; once it returns true,
+the computation ends at once.
+"""
+
+
 class WorkerPool(Protocol):
     """Workers that one thread drives: `Pool`, or `ClusterPool`."""
 

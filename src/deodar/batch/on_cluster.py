@@ -23,7 +23,7 @@ from typing import Any, Self
 
 from deodar.batch import cluster_task, scheduler
 from deodar.batch.cluster_task import INSTRUCTIONS
-from deodar.batch.staffing import Staffing, WorkerWatch
+from deodar.batch.driver import Staffing, WorkerWatch
 from deodar.cluster import Cluster
 from deodar.errors import WorkerError, first_line
 

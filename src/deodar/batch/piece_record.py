@@ -109,12 +109,9 @@ class RecordedPiece:
         same = {k: v for k, v in about.items() if k not in ("duration", "made_by")}
         self.digest = hashlib.sha256(codec.line(same, sort=True).encode()).hexdigest()
         by = plan.doc.by_id()
-        self.names = [f"{by[ident].path}.{port}" for ident, port in plan.ports]
-        strides, conditions = zip(*plan.sampling.probes, strict=True)
-        thresholds = [probe.threshold(by[ident].element, port) for ident, port in plan.ports]
-        self.selector = probe.Selector(
-            probe.series(self.names, strides, conditions), dict(zip(self.names, thresholds, strict=True))
-        )
+        found = [(by[ident], port) for ident, port in plan.ports]
+        self.selector = probe.selector(found, *zip(*plan.sampling.probes, strict=True))
+        self.names = list(self.selector.thresholds)
 
     def _collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
         """Tell samples from number `k` on."""
@@ -235,5 +232,4 @@ class RecordedPiece:
         data = record.dataset(
             self.plan.doc, variables, np.empty(0), part.labels, part.grid, about, part.beside
         )
-        dimensions = {name: one.dimension for one in self.selector.found for name in one.names}
-        self._tell(PieceBegun(record.with_times(data, dimensions)))
+        self._tell(PieceBegun(record.with_times(data, self.selector.found)))

@@ -16,7 +16,7 @@ from deodar.compiler import device as devices
 from deodar.compiler import division, hosts
 from deodar.compiler.copy_batch import Batch
 from deodar.elements.field import Field
-from deodar.errors import ParameterError, TimeError, WorkerError
+from deodar.errors import ParameterError, WorkerError
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Model
@@ -27,7 +27,7 @@ from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import stored
 from deodar.session import memory
-from deodar.session.run import require_step, whole
+from deodar.session.run import gaps, require_step, whole
 from deodar.session.session import LARGEST_SEED, require_model, require_seed
 from deodar.sweep import Points
 from deodar.worlds._base import World
@@ -217,11 +217,9 @@ def _probes(
     found = [] if request.record is None else probes(request.record)
     _require_alone(found, request, writes)
     every = [request.every if probe.every is None else probe.every for probe in found]
-    gaps = [1 if time is None else whole(time, step, "every") for time in every or [request.every]]
-    if 0 in gaps:
-        raise TimeError("every is 0; expected at least one step")
-    gap = math.gcd(*gaps)
-    return found, gap, [(n // gap, probe.when) for n, probe in zip(gaps, found, strict=False)]
+    steps = gaps(every or [request.every], step)
+    gap = math.gcd(*steps)
+    return found, gap, [(n // gap, probe.when) for n, probe in zip(steps, found, strict=False)]
 
 
 def _require_alone(found: Sequence[Probe], request: SimulationRequest, writes: bool) -> None:

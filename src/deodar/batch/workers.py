@@ -88,11 +88,7 @@ def run(
                 board[-1] = 1
                 raise
 
-        def heard(number: int, message: PieceMessage) -> None:
-            assert out is not None
-            out.receive(number, message, beside=True)
-
-        return pieces_driven(pool, len(pieces), out, task, check, lambda seconds: pool.wait(seconds, heard))
+        return pieces_driven(pool, len(pieces), out, task, check)
 
 
 @contextlib.contextmanager
@@ -119,7 +115,7 @@ def _mapped(path: str) -> Generator[memoryview]:
 # ---------------------------------------------------------------------------------------------- in the worker
 
 
-def work(send: Callable[[PieceMessage], None], job: WorkerTask) -> PieceResult:
+def work(send: Callable[[PieceMessage], None], job: WorkerTask) -> tuple[PieceResult, list[PieceMessage]]:
     """Run one piece; `send` sends what it records to the process that writes it."""
     with _mapped(job.board) as board:
 
@@ -130,6 +126,7 @@ def work(send: Callable[[PieceMessage], None], job: WorkerTask) -> PieceResult:
 
         piece = None if job.part is None else RecordedPiece(job.part, send)
         try:
-            return compute(job.packed.model, watching(job.request, report), job.packed.world(), out=piece)
+            done = compute(job.packed.model, watching(job.request, report), job.packed.world(), out=piece)
+            return done, []
         except Interrupted as error:
-            return PieceResult(error.data, False)
+            return PieceResult(error.data, False), []

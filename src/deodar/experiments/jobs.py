@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from deodar.batch.driver import PoolTask, Staffing, WorkerWatch, driven
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
-from deodar.batch.staffing import Staffing, WorkerWatch
 from deodar.experiments.rows import KEY, Row, Rows
 from deodar.resources import Resources, use_resources
 from deodar.session.interrupt import stoppable
@@ -120,7 +120,11 @@ def _anywhere(
     jobs: Sequence[Job], workers: int | None, ends: WorkerWatch, cluster: ClusterPool | None
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     if not jobs or not (workers or cluster):
-        yield from _here(jobs)
+        with stoppable() as check:
+            for job in jobs:
+                check()
+                yield job, job.run()
+            check()
     elif cluster is not None:
         yield from _in_workers(jobs, cluster, ends)
     else:
@@ -128,19 +132,9 @@ def _anywhere(
             yield from _in_workers(jobs, pool, ends)
 
 
-def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
-    with stoppable() as check:
-        for job in jobs:
-            check()
-            yield job, job.run()
-        check()
-
-
 def _in_workers(
     jobs: Sequence[Job], pool: Pool | ClusterPool, ends: WorkerWatch
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
-    from deodar.batch.driver import PoolTask, driven  # start-up time: this brings JAX
-
     by_key = {job.keys: job for job in jobs}
     run = named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run
 

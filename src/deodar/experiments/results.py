@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from deodar import codec
+from deodar.batch.driver import WorkerWatch
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed_model import require_portable
-from deodar.batch.staffing import WorkerWatch
 from deodar.cluster import Cluster
 from deodar.codec import JsonObject
 from deodar.compiler.device import find

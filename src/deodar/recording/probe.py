@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from deodar.errors import ParameterError, did_you_mean
+from deodar.model.document import Entry
 from deodar.model.model import Handle, path_of
 from deodar.parameters import real, show
 
@@ -207,3 +208,11 @@ class Selector:
         before = np.concatenate([[self.above.get(name, bool(above[0]))], above[:-1]])
         self.above[name] = bool(above[-1])
         return place[above] if one.when == "peak" else place[above != before]
+
+
+def selector(
+    ports: Sequence[tuple[Entry, str]], strides: Sequence[int], conditions: Sequence[str | None]
+) -> Selector:
+    """Return what chooses the samples of ports, of which each is `PATH.PORT` of an element."""
+    limits = {f"{entry.path}.{port}": threshold(entry.element, port) for entry, port in ports}
+    return Selector(series(list(limits), strides, conditions), limits)

@@ -12,7 +12,7 @@ from deodar import codec
 from deodar.codec import JsonObject
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, Axis
-from deodar.recording.probe import TIME, is_time
+from deodar.recording.probe import TIME, Series, is_time
 from deodar.recording.provenance import KEY
 
 Variable = tuple[Entry, str, Axes, np.ndarray]
@@ -74,13 +74,14 @@ def dataset(
     return xarray.Dataset(out, coords, {KEY: codec.line(about), "title": doc.name})
 
 
-def with_times(data: xarray.Dataset, dimensions: Mapping[str, str]) -> xarray.Dataset:
+def with_times(data: xarray.Dataset, found: Sequence[Series]) -> xarray.Dataset:
     """Return a record without samples whose variables have dimensions of time of their own.
 
     Args:
         data: the record; its dimension `time` has length 0.
-        dimensions: name of the dimension of each variable.
+        found: the series of the variables.
     """
+    dimensions = {name: one.dimension for one in found for name in one.names}
     times, coords = data[TIME], {n: c for n, c in data.coords.items() if n != TIME}
     variables: dict[Any, Any] = {}
     for name, variable in data.data_vars.items():

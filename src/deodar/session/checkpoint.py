@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from deodar import codec, registry
 from deodar.errors import NotFinite, RecordError
 from deodar.recording import stored
-from deodar.session import world_file
+from deodar.session.exchange import StoredLeaves, WorldState
 from deodar.session.run import Run
 
 KIND = "state of a run"
@@ -29,7 +30,7 @@ def taken(run: Run, about: Mapping[str, Any]) -> StoredState:
         RecordError: the world keeps something that a file cannot hold.
     """
     own = stored.leaves(run.state, "the model")
-    world, theirs = world_file.to_file(run.exchange.keep())
+    world, theirs = world_to_file(run.exchange.keep())
     lost = [[list(copy), error.problems[0].what, error.step] for copy, error in run.lost.items()]
     text = {"clock": dc.asdict(run.clock), "leaves": len(own), "world": world, "lost": lost}
     return {**about, "run": text}, [*own, *theirs]
@@ -68,7 +69,56 @@ def put(run: Run, about: Mapping[str, Any], arrays: list[np.ndarray]) -> None:
     here = run.exchange.world
     if (text["world"] is None) != (here is None):
         raise RecordError("the stored state is of a run in another world")
-    kept = world_file.from_file(text["world"], rest)
+    kept = world_from_file(text["world"], rest)
     if kept is not None and not isinstance(here, kept.kind):
         raise RecordError(f"the stored state is of a run in the world {kept.kind.__name__}")
     run.exchange.put(kept)
+
+
+def world_to_file(kept: WorldState | None) -> tuple[dict[str, Any] | None, list[np.ndarray]]:
+    """Return the state of a world as text and arrays.
+
+    Raises:
+        RecordError: the world keeps something that a file cannot hold.
+    """
+    if kept is None:
+        return None, []
+    if isinstance(kept.world, StoredLeaves):
+        leaves = list(kept.world.leaves)
+    else:
+        leaves = stored.leaves(kept.world, f"the world {kept.kind.__name__}")
+    commands = dict(kept.commands or {})
+    text = {
+        "kind": kept.kind.__name__,
+        "leaves": len(leaves),
+        "commands": None if kept.commands is None else list(commands),
+        "last": kept.last,
+        "due": kept.due,
+        "origin": kept.origin,
+    }
+    if kept.objects is not None:
+        try:
+            text["objects"] = codec.parse(codec.line(kept.objects))
+        except (TypeError, ValueError):
+            raise RecordError(
+                f"the objects of the world {kept.kind.__name__} are not plain data, which a file cannot hold",
+                fix="Let its `arrangement` return numbers, text, lists and dictionaries",
+            ) from None
+    return text, [*leaves, *map(np.asarray, commands.values())]
+
+
+def world_from_file(text: dict[str, Any] | None, arrays: list[np.ndarray]) -> WorldState | None:
+    """Return the state of a world from what `world_to_file` returned.
+
+    Raises:
+        RecordError: a world of this kind is not known.
+    """
+    if text is None:
+        return None
+    kind = registry.kinds("worlds").get(text["kind"])
+    if kind is None:
+        raise RecordError(f"was taken in a world of the kind {text['kind']}, which is not known here")
+    leaves, commands, names = arrays[: text["leaves"]], arrays[text["leaves"] :], text["commands"]
+    told = None if names is None else dict(zip(names, commands, strict=True))
+    times = text["last"], text["due"], text["origin"]
+    return WorldState(kind, StoredLeaves(leaves), *times, told, text.get("objects"))

@@ -16,11 +16,10 @@ from deodar.compiler.program import Port
 from deodar.errors import DeodarError, NotFinite, ParameterError, TimeError
 from deodar.model import find
 from deodar.numerics.axes import shape
-from deodar.recording import probe as probing
 from deodar.recording import provenance
-from deodar.recording.probe import Probe, Selector
+from deodar.recording.probe import Probe, selector
 from deodar.session.journal import Change, JournalReader, to_file
-from deodar.session.run import Run, whole
+from deodar.session.run import Run, gaps
 
 if TYPE_CHECKING:
     from deodar.recording.growing import GrowingRecord
@@ -62,14 +61,11 @@ class Recorder:
             raise ParameterError("a port is recorded twice", fix="Record each port once")
         self._places = [(entry.id, port) for entry, port in found]
         self._every = [every if probe.every is None else probe.every for probe in probes]
-        gaps = self._gaps(run)
-        self._gap = math.gcd(*gaps)
+        steps = gaps(self._every, run.clock.dt)
+        self._gap = math.gcd(*steps)
         self._axes = [run.program.axes(port) for port in self._ports(run.program)]
-        self.names = [f"{entry.path}.{port}" for entry, port in found]
-        strides = [gap // self._gap for gap in gaps]
-        series = probing.series(self.names, strides, [probe.when for probe in probes])
-        limits = [probing.threshold(entry.element, port) for entry, port in found]
-        self._selector = Selector(series, dict(zip(self.names, limits, strict=True)))
+        self._selector = selector(found, [n // self._gap for n in steps], [probe.when for probe in probes])
+        self.names = list(self._selector.thresholds)
         self._taken, self._next = 0, run.clock.tick
         self._journal, self._reader, self._changes = journal, JournalReader(journal), list[JsonObject]()
         variables: list[Any] = [
@@ -84,11 +80,10 @@ class Recorder:
         }
         about = provenance.provenance(doc, run, **settings)
         empty = record.dataset(doc, variables, np.empty(0), None, {}, about)
-        dimensions = {name: one.dimension for one in series for name in one.names}
         self._writer: GrowingRecord | None = GrowingRecord(
             folder.begin(doc, path, force),
-            record.with_times(empty, dimensions),
-            [one.dimension for one in series],
+            record.with_times(empty, self._selector.found),
+            [one.dimension for one in self._selector.found],
         )
         try:
             self.compile(run.program)
@@ -144,12 +139,12 @@ class Recorder:
         The next sample stays at its time, rounded up to a step.
         """
         try:
-            gaps = self._gaps(run)
+            steps = gaps(self._every, run.clock.dt)
         except TimeError as error:
             self.end(f"the step has become {run.clock.dt:g}: {error.problems[0].what}")
             return
-        self._gap = math.gcd(*gaps)
-        strides = {name: gap // self._gap for name, gap in zip(self.names, gaps, strict=True)}
+        self._gap = math.gcd(*steps)
+        strides = {name: n // self._gap for name, n in zip(self.names, steps, strict=True)}
         new = [one._replace(stride=strides[one.names[0]]) for one in self._selector.found]
         if new != self._selector.found:  # some interval is a time, another one a step
             self._selector.found, self._taken = new, 0
@@ -226,13 +221,6 @@ class Recorder:
 
     def _ports(self, program: Executable) -> list[Port]:
         return [program.port(ident, port) for ident, port in self._places]
-
-    def _gaps(self, run: Run) -> list[int]:
-        """Return the steps between two samples of each variable."""
-        gaps = [1 if time is None else whole(time, run.clock.dt, "every") for time in self._every]
-        if 0 in gaps:
-            raise TimeError("every is 0; expected at least one step")
-        return gaps
 
 
 def compile_records(program: Executable, places: Sequence[tuple[str, str]]) -> None:

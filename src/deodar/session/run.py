@@ -650,6 +650,14 @@ def whole(duration: float, dt: float, what: str) -> int:
     return round(n)
 
 
+def gaps(every: Sequence[float | None], dt: float) -> list[int]:
+    """Return the steps between two samples for each interval; None: every step."""
+    found = [1 if time is None else whole(time, dt, "every") for time in every]
+    if 0 in found:
+        raise TimeError("every is 0; expected at least one step")
+    return found
+
+
 def host(tree: PyTree) -> PyTree:
     """Copy a PyTree of arrays to the host."""
     return jax.tree.map(lambda a: np.array(hosts.gathered(a)), tree)

@@ -14,7 +14,7 @@ from deodar.model import document_files, output
 from deodar.model.model import Model
 from deodar.parameters import show
 from deodar.recording import provenance, stored
-from deodar.session import world_file
+from deodar.session.checkpoint import world_from_file, world_to_file
 from deodar.session.clock import Clock
 from deodar.session.session_snapshot import SessionSnapshot, StateRow
 
@@ -50,7 +50,7 @@ def save_snapshot(snapshot: SessionSnapshot, path: str | Path, force: bool = Fal
 
     rows = {ident: [kept(shown), kept(held)] for ident, (shown, held) in snapshot.states.items()}
     document, own = document_files.to_data(snapshot.document)
-    world, found = world_file.to_file(snapshot.world)
+    world, found = world_to_file(snapshot.world)
     about = {
         "document": document,
         "arrays": base64.b64encode(document_files.pack(own)).decode() if own else "",
@@ -87,7 +87,7 @@ def load_snapshot(path: str | Path, trust: bool = False) -> SessionSnapshot:
             ident: tuple({name: next(rest) for name in names} for names in pair)
             for ident, pair in about["rows"].items()
         }
-        world = world_file.from_file(about["world"], list(rest))
+        world = world_from_file(about["world"], list(rest))
         clock, seed, precision = Clock(**about["clock"]), int(about["seed"]), str(about["precision"])
     except (KeyError, TypeError, ValueError, StopIteration, RuntimeError) as error:
         raise RecordError(

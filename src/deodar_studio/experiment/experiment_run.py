@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from deodar import codec
+from deodar.batch.driver import Staffing
 from deodar.batch.pool import Pool
-from deodar.batch.staffing import Staffing
 from deodar.errors import DeodarError, Problem, RecordError
 from deodar.experiments import packed_experiment
 from deodar.experiments.following import RowsTail, RowsWriter, Standing, standing

@@ -20,7 +20,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from deodar.errors import ModelError, NotFinite, Problem
+from deodar.errors import DeodarError, ModelError, NotFinite, Problem
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.session.cost import StepCost, costs
@@ -33,8 +33,7 @@ from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar_studio.live.branch_states import BranchStates
 from deodar_studio.live.compilation import Compilation, CompileTimes
-from deodar_studio.live.cost_report import CostReport, said
-from deodar_studio.live.published import PublishedState
+from deodar_studio.live.published import CostReport, PublishedState
 from deodar_studio.live.ring import StateRing
 from deodar_studio.live.trace import Trace, TraceRequest
 from deodar_studio.live.track import Track
@@ -549,3 +548,12 @@ class Engine:
 def _found(known: Sequence[PortReader], program: Any, places: Iterable[PortKey]) -> PortReader | None:
     """Return a known `PortReader` of a program that reads exactly the groups of these places, or None."""
     return next((one for one in known if one.program is program and one.fits(places)), None)
+
+
+def said(error: BaseException) -> tuple[Problem, ...]:
+    """Return the problems of an error of any class."""
+    return (
+        tuple(error.problems)
+        if isinstance(error, DeodarError)
+        else (Problem("", f"{type(error).__name__}: {error}"),)
+    )

@@ -1,4 +1,4 @@
-"""The state of a run at one moment, as the engine publishes it."""
+"""What the engine publishes: the state of a run at one moment, and the cost of its elements."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from deodar.errors import Problem
+from deodar.session.cost import StepCost
 from deodar.session.port_reader import PortKey
 from deodar.worlds._scene import Scene
 from deodar_studio.live.track import Trail
@@ -32,3 +34,12 @@ class PublishedState:
     scene: Scene | None = None
     trail: Trail = dc.field(default_factory=Trail)
     passed: int = 0
+
+
+@dc.dataclass(frozen=True)
+class CostReport:
+    """Cost of elements: whether a measurement runs, the last result, and why a measurement failed."""
+
+    measuring: bool = False
+    costs: StepCost | None = None
+    problems: tuple[Problem, ...] = ()

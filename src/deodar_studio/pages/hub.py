@@ -25,8 +25,8 @@ from deodar_studio.files.file_thread import try_in_file_thread
 from deodar_studio.files.state_store import StateStore, state_folder
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.live.compilation import CompileTimes
-from deodar_studio.live.cost_report import CostReport
 from deodar_studio.live.engine import Engine
+from deodar_studio.live.published import CostReport
 from deodar_studio.messages.to_page import (
     CompilingView,
     Costs,
