@@ -119,19 +119,17 @@ class RunOutput:
         self.settings: Mapping[str, Any] = {**settings, "batch": cut.batch}
         trials = {} if settings["trials"] is None else {"trial": len(settings["trials"])}
         self.sizes = {path: len(values) for path, values in points.grid.items()} | trials
-
-    def region(self, number: int) -> Region:
-        """Return the copies of a piece."""
-        first = number * self.cut.length
-        mine = slice(first, min(first + self.cut.length, self.cut.total))
-        return tuple(mine if d == self.cut.dimension else slice(0, n) for d, n in self.sizes.items())
+        whole = {dimension: slice(0, n) for dimension, n in self.sizes.items()}
+        mine = [slice(k, min(k + cut.length, cut.total)) for k in range(0, cut.total, cut.length)]
+        own = [{cut.dimension: part} if cut.dimension else {} for part in mine]
+        self.regions: list[Region] = [tuple((whole | one).values()) for one in own]
 
     def part(self, number: int) -> RecordPart:
         """Return the part of the record that a piece of the run writes, wherever it runs."""
         place, state = self._piece_state(number)
         return RecordPart(
             number,
-            self.region(number),
+            self.regions[number],
             self.sizes,
             self.points.grid,
             self.points.beside,
@@ -170,7 +168,7 @@ class RunOutput:
         own = PIECE_CHECKPOINT.format(number)
         if isinstance(message, probe.Chosen):
             m = message
-            self._continued().put(m.dimension, m.times, m.values, m.first, self.region(number))
+            self._continued().put(m.dimension, m.times, m.values, m.first, self.regions[number])
         elif isinstance(message, PieceBegun):
             self._create(message.empty)
         elif isinstance(message, PieceState):
@@ -216,7 +214,7 @@ class RunOutput:
         if self.cuts:  # other pieces may be longer than these
             taken = {int(one["piece"]): int(one["taken"]) for one in (about, *states) if one["piece"] >= 0}
             for k in (k for k in range(self.cut.count) if k not in self.done):
-                writer.erase(self.region(k), taken.get(k, 0))
+                writer.erase(self.regions[k], taken.get(k, 0))
         return writer
 
     def _store(self, state: checkpoint.StoredState, name: str) -> None:
