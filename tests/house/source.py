@@ -69,6 +69,11 @@ def _short(name: str) -> str:
     return name.removeprefix("deodar.") if name.startswith("deodar.") else name.removesuffix("deodar")
 
 
+def at(path: Path, line: int) -> str:
+    """Return the place of a line, as editors and terminals open it: `src/deodar/errors.py:3`."""
+    return f"{path.relative_to(ROOT).as_posix()}:{line}"
+
+
 def texts() -> list[Path]:
     """Return every text file of the repository that git knows or would add, without built and installed
     files.

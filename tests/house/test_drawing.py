@@ -5,11 +5,9 @@ from __future__ import annotations
 import ast
 from pathlib import Path
 
-import pytest
-
 from deodar.diagrams import wires
 from deodar.figures import _style
-from tests.house.source import MODULES, SRC, module, tree
+from tests.house.source import MODULES, at, module, tree
 
 DIAGRAMS = {"diagrams.paper", "diagrams.text"}
 """Modules for pictures of architectures: shapes, and widths of names."""
@@ -35,11 +33,23 @@ def _matplotlib(path: Path) -> list[int]:
     return [line for line in found if line not in _for_types(path)]
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
-def test_matplotlib_is_imported_where_figures_are_drawn(path: Path) -> None:
-    name = module(path)
-    if not {"figure", "figures"} & set(name.split(".")) and name not in DIAGRAMS:
-        assert not _matplotlib(path), f"{path.name} draws: move it to the figures of its package"
+def test_matplotlib_is_imported_where_figures_are_drawn() -> None:
+    found = [
+        at(path, line)
+        for path in MODULES
+        if not {"figure", "figures"} & set(module(path).split(".")) and module(path) not in DIAGRAMS
+        for line in _matplotlib(path)
+    ]
+    assert not found, f"move what draws to the figures of its package: {found}"
+
+
+def test_imports_of_matplotlib_are_found(tmp_path: Path) -> None:
+    bad = tmp_path / "bad.py"
+    bad.write_text(
+        "if TYPE_CHECKING:\n    import matplotlib\nimport matplotlib.pyplot as plt\n"
+        "def f():\n    from matplotlib import figure\n"
+    )
+    assert _matplotlib(bad) == [3, 5]
 
 
 def test_colours_are_named_only_in_the_style() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import tomllib
 
-import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -30,14 +29,24 @@ def locked() -> dict[str, list[str]]:
     return found
 
 
-@pytest.mark.parametrize("text", DIRECT)
-def test_every_direct_dependency_is_locked_within_its_bounds(text: str) -> None:
-    requirement = Requirement(text)
-    versions = locked().get(canonicalize_name(requirement.name), [])
-    assert versions, f"{requirement.name} is not in requirements.lock. Type: make lock"
-    assert all(requirement.specifier.contains(v) for v in versions), (
-        f"{text} is locked at {', '.join(versions)}. Type: make lock"
-    )
+def _unmet(texts: list[str], versions: dict[str, list[str]]) -> list[str]:
+    """Return the requirements that no version, or a version outside of their bounds, is locked for."""
+    unmet: list[str] = []
+    for text in texts:
+        requirement = Requirement(text)
+        found = versions.get(canonicalize_name(requirement.name), [])
+        if not found or not all(requirement.specifier.contains(v) for v in found):
+            unmet.append(f"{text} is locked at {', '.join(found) or 'no version'}")
+    return unmet
+
+
+def test_every_direct_dependency_is_locked_within_its_bounds() -> None:
+    unmet = _unmet(DIRECT, locked())
+    assert not unmet, f"type `make lock`: {unmet}"
+
+
+def test_a_dependency_that_is_not_locked_is_found() -> None:
+    assert len(_unmet(["numpy>=2", "scipy<1", "absent"], {"numpy": ["2.1"], "scipy": ["0.9", "1.2"]})) == 2
 
 
 def test_every_entry_has_hashes() -> None:

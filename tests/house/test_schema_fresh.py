@@ -50,18 +50,15 @@ def test_the_schema_is_a_valid_json_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(SHIPPED)
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        n
-        for n, cls in registry.kinds().items()
-        if issubclass(cls, Element) and cls.__module__.startswith("deodar.")
-    ],
-)
-def test_saved_documents_are_valid(name: str) -> None:
-    model = Model("one")
-    model.add(registry.kind(name).example())
-    VALIDATOR.validate(json.loads(model.to_json()))
+def test_saved_documents_are_valid() -> None:
+    elements = {n: cls for n, cls in registry.kinds().items() if issubclass(cls, Element)}
+    wrong: list[str] = []
+    for name, cls in elements.items():
+        model = Model("one")
+        model.add(cls.example())
+        data = json.loads(model.to_json())
+        wrong += [f"{name}: {error.message}" for error in VALIDATOR.iter_errors(data)]
+    assert len(elements) > 50 and not wrong, wrong
 
 
 def test_the_schema_refuses_what_load_refuses() -> None:

@@ -1,27 +1,19 @@
-"""Rules for the files themselves: words, state, printing."""
+"""Rules for the files themselves that no rule of ruff or biome is about: words, state, docstrings, width."""
 
 from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
-
-from tests.house.source import MODULES, ROOT, SRC, module, texts, tree
+from tests.house.source import MODULES, ROOT, at, module, texts, tree
 
 # Written in pieces, so that this file does not contain the words that it finds.
-FORBIDDEN = {
-    "unfinished work": [rf"\b{a}{b}\b" for a, b in [("TO", "DO"), ("FIX", "ME"), ("XX", "X")]],
-}
-
-# Packages of extras that one module alone imports: only there an import may fail.
-IMPORTERS = {
-    "dask": "batch.scheduler",
-    "dask_jobqueue": "batch.scheduler",
-    "distributed": "batch.scheduler",
-    "fsspec": "recording.remote_store",
-}
+UNFINISHED = re.compile("|".join(rf"\b{a}{b}\b" for a, b in [("TO", "DO"), ("FIX", "ME"), ("XX", "X")]))
+"""Words for unfinished work, in files of any kind: ruff's FIX finds them at the beginning of comments of
+Python.
+"""
 
 # Names that are written once, when their module is imported, and hold something that could change; a `Family`
 # (family.py) is another, filled by the decorators of its own module.
@@ -58,23 +50,18 @@ PAGE = [p for p in texts() if (ROOT / "studio") in p.parents and p.suffix in {".
 CHANGES = {"append", "add", "update", "pop", "clear", "extend", "insert", "remove", "setdefault", "discard"}
 
 
-@pytest.mark.parametrize("what", FORBIDDEN)
-def test_no_file_holds_forbidden_words(what: str) -> None:
-    pattern = re.compile("|".join(FORBIDDEN[what]))
+def test_no_file_holds_words_for_unfinished_work() -> None:
     found = [
-        f"{path.relative_to(ROOT)}:{number}: {line.strip()[:80]}"
+        f"{at(path, number)}: {line.strip()[:80]}"
         for path in texts()
         for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), 1)
-        if pattern.search(line)
+        if UNFINISHED.search(line)
     ]
     assert not found, found
 
 
-def test_forbidden_words_are_found_with_their_line() -> None:
-    for what, line in {
-        "unfinished work": "# TO" + "DO: more",
-    }.items():
-        assert re.search("|".join(FORBIDDEN[what]), line)
+def test_words_for_unfinished_work_are_found() -> None:
+    assert UNFINISHED.search("# TO" + "DO: more")
 
 
 def _mutable(value: ast.expr | None) -> bool:
@@ -86,94 +73,97 @@ def _mutable(value: ast.expr | None) -> bool:
     return False
 
 
-def _state(path: Path) -> list[str]:
-    """Return module-level names of mutable objects, and names that functions declare global."""
-    found: list[str] = []
+def _assigned(path: Path) -> Iterator[ast.Name]:
+    """Yield the names at the top of a module that hold a mutable object."""
     for node in tree(path).body:
-        targets = (
-            node.targets
-            if isinstance(node, ast.Assign)
-            else [node.target]
-            if isinstance(node, ast.AnnAssign)
-            else []
-        )
-        for target in targets:
-            # constants and tables are written in capitals and never changed
-            if (
-                isinstance(target, ast.Name)
-                and _mutable(node.value)
-                and not target.id.isupper()
-                and not target.id.startswith("__")
-            ):  # type: ignore[attr-defined]
-                found.append(target.id)
+        if isinstance(node, ast.Assign | ast.AnnAssign) and _mutable(node.value):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            yield from (target for target in targets if isinstance(target, ast.Name))
+
+
+def _written(path: Path) -> set[str]:
+    """Return the names that the code of a module changes, by a method or at an index."""
+    changed: set[str] = set()
     for node in ast.walk(tree(path)):
-        if isinstance(node, (ast.Global, ast.Nonlocal)) and isinstance(node, ast.Global):
-            found += node.names
-    return found
+        match node:
+            case ast.Subscript(value=ast.Name(id=name), ctx=ast.Store() | ast.Del()):
+                changed.add(name)
+            case ast.Call(func=ast.Attribute(value=ast.Name(id=name), attr=method)) if method in CHANGES:
+                changed.add(name)
+    return changed
 
 
-def _written(path: Path) -> list[str]:
-    """Return module-level names in capitals that a function changes."""
-    constants = {
-        t.id
-        for n in tree(path).body
-        for t in (
-            n.targets if isinstance(n, ast.Assign) else [n.target] if isinstance(n, ast.AnnAssign) else []
-        )
-        if isinstance(t, ast.Name) and _mutable(n.value)  # type: ignore[attr-defined]
+def _state(path: Path) -> dict[str, int]:
+    """Return the names of mutable objects that a module keeps, with their lines.
+
+    Constants and tables have names in capitals, and no code changes them. ruff finds `global` (PLW0603).
+    """
+    written = _written(path)
+    return {
+        name.id: name.lineno
+        for name in _assigned(path)
+        if name.id in written or not (name.id.isupper() or name.id.startswith("__"))
     }
-    changed: list[str] = []
-    for node in ast.walk(tree(path)):
-        if (
-            isinstance(node, ast.Subscript)
-            and isinstance(node.ctx, (ast.Store, ast.Del))
-            and isinstance(node.value, ast.Name)
-        ):
-            changed.append(node.value.id)
-        method = node.func if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) else None
-        if method is not None and isinstance(method.value, ast.Name) and method.attr in CHANGES:
-            changed.append(method.value.id)
-    return sorted(constants & set(changed))
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
-def test_no_state_at_module_level(path: Path) -> None:
-    name = module(path) or "__init__"
-    known = {n for m, n in STATE if m == name}
-    extra = (set(_state(path)) | set(_written(path))) - known
-    assert not extra, f"{name} keeps state in {sorted(extra)}: give it to an object that callers hold"
+def test_no_state_at_module_level() -> None:
+    found = {
+        (module(path) or "__init__", name): at(path, line)
+        for path in MODULES
+        for name, line in _state(path).items()
+    }
+    extra = [f"{place}: {name}" for (where, name), place in found.items() if (where, name) not in STATE]
+    assert not extra, f"give it to an object that callers hold: {extra}"
+    assert set(STATE) <= set(found), "STATE names what is gone"
 
 
-def test_every_listed_module_holds_state() -> None:
-    held = {(module(p) or "__init__", n) for p in MODULES for n in {*_state(p), *_written(p)}}
-    assert set(STATE) <= held, set(STATE) - held
+def test_state_is_found(tmp_path: Path) -> None:
+    bad = tmp_path / "bad.py"
+    bad.write_text(
+        "cache = {}\nTABLE = [1]\nSEEN = set()\nROWS: list[int] = []\n__all__ = ['f']\nsize = 3\n"
+        "def f():\n    SEEN.add(1)\n    ROWS[0] = 2\n"
+    )
+    assert _state(bad) == {"cache": 1, "SEEN": 3, "ROWS": 4}
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
-def test_only_the_command_line_prints(path: Path) -> None:
-    if {"cli", "commands"} & set(module(path).split(".")):
-        return
-    calls = [
-        n.lineno
-        for n in ast.walk(tree(path))
-        if isinstance(n, ast.Call)
-        and isinstance(n.func, ast.Name)
-        and n.func.id in ("print", "input", "exit")
+def _silent(path: Path) -> Iterator[int]:
+    """Yield the line of a module without a docstring, and of its public functions and classes without."""
+    top = tree(path)
+    if path.name != "__init__.py" and not ast.get_docstring(top):
+        yield 1
+    for node in top.body:
+        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            continue
+        if not node.name.startswith("_") and not ast.get_docstring(node):
+            yield node.lineno
+
+
+def test_every_module_and_public_function_has_a_docstring() -> None:
+    """In modules with a leading underscore too, which the rules D100 to D103 of ruff leave out."""
+    assert not [at(path, line) for path in MODULES for line in _silent(path)]
+
+
+def test_missing_docstrings_are_found(tmp_path: Path) -> None:
+    bad = tmp_path / "_bad.py"
+    bad.write_text('def f():\n    pass\nasync def g():\n    pass\nclass A:\n    """A."""\ndef _h(): pass\n')
+    assert list(_silent(bad)) == [1, 1, 3]
+
+
+BUILTINS = {"input": {"cli", "commands"}, "__import__": set[str]()}
+"""Functions of Python that no rule of ruff is about, with the folders that may call them."""
+
+
+def test_only_the_command_line_asks_and_imports_are_written() -> None:
+    found = [
+        at(path, node.lineno)
+        for path in MODULES
+        for node in ast.walk(tree(path))
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Name)
+        and node.func.id in BUILTINS
+        and not BUILTINS[node.func.id] & set(module(path).split("."))
     ]
-    assert not calls
-
-
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
-def test_every_module_and_public_function_has_a_docstring(path: Path) -> None:
-    assert path.name == "__init__.py" or ast.get_docstring(tree(path))
-    silent = [
-        n.name
-        for n in tree(path).body
-        if isinstance(n, (ast.FunctionDef, ast.ClassDef))
-        and not n.name.startswith("_")
-        and not ast.get_docstring(n)
-    ]
-    assert not silent
+    assert not found, found
 
 
 def test_no_module_is_named_after_no_particular_content() -> None:
@@ -181,22 +171,36 @@ def test_no_module_is_named_after_no_particular_content() -> None:
     assert not drawers, "one noun is one file"
 
 
-@pytest.mark.parametrize("path", PAGE, ids=lambda p: p.relative_to(ROOT / "studio").as_posix())
-def test_lines_of_the_page_have_at_most_110_columns(path: Path) -> None:
-    lines = path.read_text(encoding="utf-8").splitlines()
-    long = [number for number, line in enumerate(lines, 1) if len(line) > 110]
-    assert not long, f"run `python studio/build.py format`; split comments and strings by hand: lines {long}"
+def test_lines_of_the_page_have_at_most_110_columns() -> None:
+    long = [
+        at(path, number)
+        for path in PAGE
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if len(line) > 110
+    ]
+    assert not long, f"run `python studio/build.py format`; split comments and strings by hand: {long}"
 
 
-@pytest.mark.parametrize("path", PAGES, ids=lambda p: p.relative_to(ROOT).as_posix())
-def test_lines_of_the_manual_have_at_most_110_columns(path: Path) -> None:
-    whole = re.compile(r"^```.*?^```$|^<!-- arguments of .*?^<!-- end of ", re.MULTILINE | re.DOTALL)
-    text = whole.sub(lambda code: "\n" * code[0].count("\n"), path.read_text(encoding="utf-8"))
-    lines = re.sub(
-        r"<!-- (?:evidence|spikes) .*?<!-- end -->|`[^`\n]{60,}`", "", text, flags=re.DOTALL
-    ).splitlines()
-    long = [line for line in lines if len(line) > 110 and not line.startswith(("|", "!["))]
-    assert not long, "wrap the prose; code, tables and pictures may be wider"
+def _wide(text: str) -> Iterator[int]:
+    """Yield the numbers of lines of prose above 110 columns; code, tables and pictures may be wider."""
+    free = (
+        r"^```.*?^```$|^<!-- arguments of .*?^<!-- end of |<!-- (?:evidence|spikes) .*?<!-- end -->"
+        r"|`[^`\n]{60,}`"
+    )
+    prose = re.sub(free, lambda code: "\n" * code[0].count("\n"), text, flags=re.MULTILINE | re.DOTALL)
+    for number, line in enumerate(prose.splitlines(), 1):
+        if len(line) > 110 and not line.startswith(("|", "![")):
+            yield number
+
+
+def test_lines_of_the_manual_have_at_most_110_columns() -> None:
+    long = [at(path, line) for path in PAGES for line in _wide(path.read_text(encoding="utf-8"))]
+    assert not long, f"wrap the prose: {long}"
+
+
+def test_wide_lines_are_found() -> None:
+    wide = "word " * 23
+    assert list(_wide(f"```\n{wide}\n```\n{wide}\n| {wide}|\n")) == [4]
 
 
 def test_types_of_the_page_have_different_names() -> None:
@@ -212,20 +216,3 @@ def test_types_of_the_page_have_different_names() -> None:
 
 def test_warnings_are_errors() -> None:
     assert 'filterwarnings = ["error"]' in (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-
-
-@pytest.mark.parametrize("package", sorted(IMPORTERS))
-def test_one_module_imports_a_package_of_an_extra(package: str) -> None:
-    found = {module(path) for path in MODULES if package in _packages(path)}
-    assert found == {IMPORTERS[package]}
-
-
-def _packages(path: Path) -> set[str]:
-    """Return the packages that a file imports, at its top, in functions, and for types."""
-    out: set[str] = set()
-    for node in ast.walk(tree(path)):
-        if isinstance(node, ast.Import):
-            out |= {alias.name.split(".")[0] for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            out.add(node.module.split(".")[0])
-    return out
