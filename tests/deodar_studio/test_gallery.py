@@ -24,17 +24,17 @@ def test_the_order_names_examples_that_exist() -> None:
     assert NAMES[: len(order)] == order
 
 
-@pytest.mark.parametrize("example", examples(), ids=lambda e: e.name)
-def test_an_example_has_a_title_a_sentence_and_a_picture(example) -> None:
-    assert example.title[0].isupper()
-    assert 20 < len(example.sentence) <= LONGEST and example.sentence.endswith(".")
-    assert not example.sentence.startswith(f"{example.title}.")
-    assert example.picture == f"examples/{example.name}.png"
-    path = picture_file(example.name)
-    assert path is not None and path.stat().st_size < 15_000
-    with Image.open(path) as picture:
-        assert picture.size == (320, 200)
-    assert dd.load(example_file(example.name)).document.name
+def test_an_example_has_a_title_a_sentence_and_a_picture() -> None:
+    for example in examples():
+        assert example.title[0].isupper(), example
+        assert 20 < len(example.sentence) <= LONGEST and example.sentence.endswith("."), example
+        assert not example.sentence.startswith(f"{example.title}."), example
+        assert example.picture == f"examples/{example.name}.png"
+        path = picture_file(example.name)
+        assert path is not None and path.stat().st_size < 15_000, example
+        with Image.open(path) as picture:
+            assert picture.size == (320, 200), example
+        assert dd.load(example_file(example.name)).document.name, example
 
 
 @pytest.mark.parametrize("name", ["", "nothing", "../README", "make", "order", "/etc/passwd"])

@@ -28,6 +28,7 @@ def test_the_entries_of_the_glossary_are_in_alphabetical_order() -> None:
     assert sorted(ENTRIES, key=str.lower) == ENTRIES
 
 
-@pytest.mark.parametrize("term", TERMS)
-def test_the_glossary_explains_every_term_of_the_manual(term: str) -> None:
-    assert term.lower() in {entry.lower() for entry in ENTRIES}, f"docs/glossary.md has no entry '{term}'"
+def test_the_glossary_explains_every_term_of_the_manual() -> None:
+    entries = {entry.lower() for entry in ENTRIES}
+    missing = [term for term in TERMS if term.lower() not in entries]
+    assert TERMS and not missing, f"docs/glossary.md has no entries {missing}"

@@ -59,17 +59,13 @@ def test_an_interrupted_run_has_its_data() -> None:
     assert Interrupted("stopped at 5 of 10 ms", data).data is data
 
 
-@pytest.mark.parametrize("kind", KINDS, ids=lambda k: k.__name__)
-def test_every_error_derives_from_deodar_error_and_documents_when_it_is_raised(
-    kind: type[DeodarError],
-) -> None:
-    assert kind.__doc__ and (kind is DeodarError or "aised" in kind.__doc__)
+def test_every_error_documents_when_it_is_raised() -> None:
+    silent = [e.__name__ for e in KINDS if "aised" not in (e.__doc__ or "") and e is not DeodarError]
+    assert len(KINDS) > 20 and not silent, silent
 
 
-@pytest.mark.parametrize(
-    "kind", [k for k in KINDS if k not in (MissingExtra, Interrupted)], ids=lambda k: k.__name__
-)
-def test_errors_are_passed_between_processes(kind: type[DeodarError]) -> None:
-    error = kind([Problem("u", "one"), Problem("v", "two")])
-    again = pickle.loads(pickle.dumps(error))
-    assert type(again) is kind and str(again) == str(error)
+def test_errors_are_passed_between_processes() -> None:
+    for kind in (kind for kind in KINDS if kind not in (MissingExtra, Interrupted)):
+        error = kind([Problem("u", "one"), Problem("v", "two")])
+        again = pickle.loads(pickle.dumps(error))
+        assert type(again) is kind and str(again) == str(error)

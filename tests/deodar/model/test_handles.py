@@ -254,26 +254,17 @@ def test_handles_are_equal_by_model_and_element(model: dd.Model, u: Handle) -> N
     assert copy.copy(u.kernel[0]).sigma == 2.0 and pickle.loads(pickle.dumps(u.kernel))[0].sigma == 2.0
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_no_parameter_has_the_name_of_an_attribute_of_handles(model: dd.Model, kind: str) -> None:
-    own = {name for name in {*vars(Handle), *vars(model["v"])} if not name.startswith("__")}
-    assert not own & {p.name for p in parameters(KINDS[kind])}
+def test_no_parameter_has_the_name_of_an_attribute_of_handles_or_elements(model: dd.Model, u: Handle) -> None:
+    def attributes(*of: object) -> set[str]:
+        return {name for each in of for name in vars(each) if not name.startswith("__")} - {"name"}
 
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_no_parameter_has_the_name_of_an_attribute_of_elements(kind: str) -> None:
-    declared = {name for name in {*vars(Element), *vars(Coupling)} if not name.startswith("__")} - {"name"}
-    assert not declared & {p.name for p in parameters(KINDS[kind])}
-
-
-@pytest.mark.parametrize("kind", PARTS)
-def test_no_parameter_has_the_name_of_an_attribute_of_part_handles(u: Handle, kind: str) -> None:
-    own = {
-        name
-        for name in {*vars(PartHandle), *vars(PartsHandle), *vars(u.kernel), *vars(u.sigmoid)}
-        if not name.startswith("__")
+    inside = attributes(PartHandle, PartsHandle, u.kernel, u.sigmoid)
+    taken = {
+        **dict.fromkeys(KINDS, attributes(Handle, model["v"], Element, Coupling)),
+        **dict.fromkeys(PARTS, inside),
     }
-    assert not own & {p.name for p in parameters(PARTS[kind])}
+    kinds = {**KINDS, **PARTS}
+    assert not [f"{k}.{p.name}" for k, cls in kinds.items() for p in parameters(cls) if p.name in taken[k]]
 
 
 # ------------------------------------------------------------------------------------------------ one or many
