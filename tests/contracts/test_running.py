@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+
 import jax
 import numpy as np
 import pytest
 
 from deodar.compiler.functions import Functions, StepArguments
+from deodar.couplings.reward_gate import RewardGate
 from deodar.element import Setting, Time
 from deodar.leaves import leaves
 from deodar.model import find
@@ -78,20 +81,35 @@ def test_one_copy_has_exactly_the_declared_outputs(kind, precision):
         }
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_outputs_that_depend_on_inputs_of_the_same_step_are_declared(kind):
-    """A port that declares no input of the same instant must not depend on one."""
+def depending(kind: str) -> set[tuple[str, str]]:
+    """Return the pairs of an output and an input of a kind that changes it in the same step."""
     element = any_example(kind)
+    if isinstance(element, RewardGate):
+        element = dc.replace(element, duration=0.0)  # a window stays open, whatever arrives
     model = around(element)
     s = session(model)
     s.step(3)
-    seen = {port: s.read(f"example.{port}") for port in node(model).outs}
+    before = {port: s.read(f"example.{port}") for port in node(model).outs}
+    found: set[tuple[str, str]] = set()
     for port in element.ports():
-        s.set(f'"to {port}".amplitude', 0.2)
-    for port, before in seen.items():
-        passes = type(element).direct.get(port, ())
-        if not passes:
-            assert np.array_equal(s.read(f"example.{port}"), before), port
+        source = f'"to {port}"'
+        probes: list[tuple[str, object]] = [("amplitude", 0.2), ("amplitude", -2.0)]
+        if node(model, f"to {port}").outs["output"]:  # a number has no position
+            probes.append(("center", [c + 1 for c in s.get(f"{source}.center")]))
+        for name, value in probes:
+            path = f"{source}.{name}"
+            kept = s.get(path)
+            s.set(path, value)
+            found |= {(p, port) for p, b in before.items() if not np.array_equal(s.read(f"example.{p}"), b)}
+            s.set(path, kept)
+    return found
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if any_example(kind).ports()])
+def test_outputs_depend_in_the_same_step_on_the_inputs_that_they_declare_and_no_others(kind):
+    outs = node(around(any_example(kind))).outs
+    declared = {(port, name) for port, names in KINDS[kind].direct.items() if port in outs for name in names}
+    assert depending(kind) == declared
 
 
 @pytest.mark.parametrize("kind", KINDS)

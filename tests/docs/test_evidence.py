@@ -31,6 +31,7 @@ MADE = {
 def reports() -> dict[str, Any]:
     """Return evidence and report of each paper with stored runs."""
     found = {name: evidence.read(name) for name in evidence.kept()}
+    assert set(found) == {file.parent.name for file in evidence.EVIDENCE.rglob("runs.jsonl.xz")} and found
     return {name: (kept, kept.report()) for name, kept in found.items()}
 
 
@@ -46,6 +47,7 @@ def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) 
         name: evidence.numbers(*reports[name]) if name in reports else evidence.unrun(name)
         for name in papers.PAPERS
     }
+    assert evidence.pages()
     for page in evidence.pages():
         text = page.read_text(encoding="utf-8")
         assert evidence.filled(text, known) == text, f"{page.name} is stale: python tools/generate.py"

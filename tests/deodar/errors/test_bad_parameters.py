@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
@@ -371,13 +372,13 @@ def test_any_value_of_a_parameter_is_accepted_or_refused_by_an_error_of_deodar(k
     cls = registry.kind(kind)
     good = cls.example()
     given = {p.name: getattr(good, p.name) for p in parameters(cls)}
-    tried = 0
+    refused = 0
     for p in parameters(cls):
         for value in WRONG:
-            tried += 1
             try:
                 cls(**(given | {p.name: value}))
             except DeodarError as error:
+                refused += 1
                 paragraph(str(error))
-                assert p.name in str(error) or "needs a value" in str(error) or "." in str(error)
-    assert tried == len(parameters(cls)) * len(WRONG)
+                assert re.search(rf"\b{p.name}\b", str(error))
+    assert refused or not parameters(cls)

@@ -115,7 +115,7 @@ def test_an_event_that_is_missing_or_out_of_order_is_noticed(name: str):
     assert not PointingCycle(events={k: v for k, v in EVENT_TIMES.items() if k != name}).ordered
     late = "rest" if name != "rest" else "cues"
     swapped = {**EVENT_TIMES, name: EVENT_TIMES[late], late: EVENT_TIMES[name]}
-    assert name == "rest" or not PointingCycle(events=swapped).ordered
+    assert not PointingCycle(events=swapped).ordered
     assert PointingCycle(events={k: v for k, v in EVENT_TIMES.items() if k != "movement"}).ordered
 
 

@@ -79,9 +79,9 @@ def test_mutations_of_the_words_of_a_launcher_open_or_are_refused():
 
 
 def test_every_beginning_of_a_launcher_opens_or_is_refused():
-    for end in range(1, len(WHOLE), 29):
-        if is_launcher(WHOLE[:end].encode()):
-            tried(WHOLE[:end])
+    beginnings = [WHOLE[:end] for end in range(1, len(WHOLE), 29)]
+    opened = [tried(text) is not None for text in beginnings if is_launcher(text.encode())]
+    assert len(opened) > len(beginnings) - 5 and sum(opened) > 30 and not all(opened)
 
 
 @pytest.mark.parametrize(
