@@ -27,9 +27,9 @@ rest: .venv/installed-test
 verdict: .venv/installed-test
 	$(BIN)/python tools/suite.py verdict
 
-# all others
+# all others, and new examples of properties
 others: .venv/installed-test
-	$(BIN)/python tools/suite.py rest --durations 20 --require-durations
+	$(BIN)/python tools/suite.py rest --durations 20 --require-durations --hypothesis-profile new
 
 # for those who work on the engine: its part of the verdict
 test-core: .venv/installed-test

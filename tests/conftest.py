@@ -1,4 +1,4 @@
-"""Settings of all tests: options of compiled programs, their folder, the markers, and one profile of
+"""Settings of all tests: options of compiled programs, their folder, the markers, and the profiles of
 hypothesis.
 """
 
@@ -27,7 +27,10 @@ settings.register_profile(
     database=None,
     suppress_health_check=list(HealthCheck),
 )
-settings.register_profile("thorough", settings.get_profile("quick"), max_examples=200, derandomize=False)
+# `make whole` draws other examples each time; a failure prints the decorator that repeats it
+settings.register_profile(
+    "new", settings.get_profile("quick"), max_examples=20, derandomize=False, print_blob=True
+)
 settings.load_profile("quick")
 
 QUICK_PROGRAMS = (

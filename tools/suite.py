@@ -2,8 +2,8 @@
 once more with programs as deodar compiles them.
 
     python tools/suite.py verdict [PYTEST OPTIONS]   what `make test` runs
-    python tools/suite.py rest                       what `make whole` runs after it
-    python tools/suite.py whole                      both, each test once
+    python tools/suite.py rest                       what `make whole` runs after it, and properties once more
+    python tools/suite.py whole                      all
     python tools/suite.py core                       the engine's part of the verdict, and the contracts
 """
 
@@ -28,8 +28,8 @@ OTHERS = ("tests", "--ignore", "tests/deodar")
 
 CORE = ("tests/deodar", "tests/contracts")
 
-PARTS = {"verdict": " and verdict", "rest": " and not verdict", "whole": ""}
-"""The marker of each part, after that of the programs."""
+PARTS = {"verdict": " and verdict", "rest": " and (not verdict or hypothesis)", "whole": ""}
+"""The markers of each part, after that of the programs. Properties are in both: the rest draws new examples."""
 
 FAST = (*PYTEST, *SPREAD, "-m", "fast")
 

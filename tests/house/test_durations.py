@@ -105,6 +105,32 @@ def test_every_default_program_exists() -> None:
     )
 
 
+@pytest.mark.parametrize(("profile", "same"), [("quick", True), ("new", False)])
+def test_drawn_examples_follow_from_the_test_or_are_new_and_can_be_repeated(
+    profile: str, same: bool, tmp_path: Path
+) -> None:
+    test = (
+        "from hypothesis import given, strategies as st\n"
+        "@given(st.integers(0, 2**60))\n"
+        "def test_drawn(n):\n"
+        "    print('drawn', n)\n"
+        "    assert n == 0\n"
+    )
+    (tmp_path / "test_drawn.py").write_text(test)
+    (tmp_path / "conftest.py").write_text("from tests import conftest\n")
+    root = Path(conftest.__file__).parents[1]
+    command = [sys.executable, "-m", "pytest", "-q", "--hypothesis-profile", profile, str(tmp_path)]
+    runs = [
+        subprocess.run(
+            command, cwd=root, env=os.environ | {"PYTHONPATH": str(root)}, capture_output=True, text=True
+        )
+        for _ in range(2)
+    ]
+    drawn = [re.findall(r"^drawn (\d+)", run.stdout, re.MULTILINE) for run in runs]
+    assert all(drawn) and (drawn[0] == drawn[1]) == same
+    assert all(("@reproduce_failure(" in run.stdout) != same for run in runs)
+
+
 def test_processes_keep_byte_code(tmp_path: Path) -> None:
     (tmp_path / "imported.py").write_text("x = 1\n")
     subprocess.run([sys.executable, "-c", "import imported"], cwd=tmp_path, check=True)
