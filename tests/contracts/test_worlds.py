@@ -165,16 +165,20 @@ def test_unknown_sensors_and_motors_are_refused_by_name(kind):
     assert all(motor in str(caught.value) for motor in world.motors)
 
 
-@pytest.mark.parametrize("kind", WORLDS)
-def test_axes_that_a_sensor_does_not_have_are_refused(kind):
-    world = WORLDS[kind].example()
-    wrong = [Axis("strange", 0, 1, 17)]
-    for sensor, signal in world.sensors.items():
-        if signal.shape is not None:
-            model = dd.Model("sensing")
-            model.add(Sensor("eye", wrong, sensor))
-            with pytest.raises(WorldError, match=f"eye: '{sensor}' has .* the model gives it \\[17\\]"):
-                dd.Session(model, world=world)
+SHAPED = [
+    (kind, sensor)
+    for kind, cls in WORLDS.items()
+    for sensor, signal in cls.example().sensors.items()
+    if signal.shape is not None
+]
+
+
+@pytest.mark.parametrize(("kind", "sensor"), SHAPED)
+def test_axes_that_a_sensor_does_not_have_are_refused(kind, sensor):
+    model = dd.Model("sensing")
+    model.add(Sensor("eye", [Axis("strange", 0, 1, 17)], sensor))
+    with pytest.raises(WorldError, match=f"eye: '{sensor}' has .* the model gives it \\[17\\]"):
+        dd.Session(model, world=WORLDS[kind].example())
 
 
 def test_two_elements_cannot_drive_one_motor():

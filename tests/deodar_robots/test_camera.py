@@ -264,6 +264,7 @@ def test_a_camera_in_a_process_of_its_own_has_its_login(peer: PeerServer) -> Non
     peer.login = f"user:{SECRET}"
     camera = pickle.loads(pickle.dumps(Camera(f"http://user:{SECRET}@{peer.place}/", open_timeout=30.0)))
     camera.reset(0)
+    assert camera.sense("picture", AXES, 0.0).shape[-3:] == tuple(axis.samples for axis in AXES)
     camera.close()
 
 

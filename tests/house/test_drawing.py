@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import Path
 
 from deodar.diagrams import wires
@@ -55,12 +56,14 @@ def test_imports_of_matplotlib_are_found(tmp_path: Path) -> None:
 def test_colours_are_named_only_in_the_style() -> None:
     """A colour of a figure has a meaning, and a line in `Palette`."""
     allowed = {"_style.py", "animation.py"}  # the video has a palette of its own for the floor of the arena
-    for path in (p for p in MODULES if {"figure", "figures"} & set(module(p).split("."))):
-        texts = [
-            n.value for n in ast.walk(tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str)
-        ]
-        named = [t for t in texts if t.startswith("#") and len(t) == 7]
-        assert not named or path.name in allowed, (path.name, named)
+    named = [
+        at(path, n.lineno)
+        for path in MODULES
+        if {"figure", "figures"} & set(module(path).split(".")) and path.name not in allowed
+        for n in ast.walk(tree(path))
+        if isinstance(n, ast.Constant) and re.fullmatch("#[0-9a-fA-F]{6}", str(n.value))
+    ]
+    assert not named, named
 
 
 def test_signs_have_the_colours_of_pictures_of_models() -> None:

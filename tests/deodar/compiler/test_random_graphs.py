@@ -15,7 +15,7 @@ from typing import Any
 import jax
 import numpy as np
 import pytest
-from hypothesis import given, note
+from hypothesis import assume, given, note
 from hypothesis import strategies as st
 
 import deodar as dd
@@ -274,10 +274,11 @@ WAYS = ("", "waves", "fourier")
 def test_every_convolution_strategy_agrees_with_its_matrix(way: str, graph: Graph, seed: int) -> None:
     """One application, to 1e-5 of the sum of absolute weights."""
     y = np.random.default_rng(seed).random([a.samples for a in graph.axes]).astype(np.float32)
+    convolving = [each.kernel for each in graph.fields] + [link.kernels for link in graph.links]
+    assume(any(convolving))
+    errors: list[float] = []
     with dear(way):
-        for given_kernels in [f.kernel for f in graph.fields] + [link.kernels for link in graph.links]:
-            if not given_kernels:
-                continue
+        for given_kernels in filter(None, convolving):
             axes, many = tuple(graph.axes), 1 + 9 * (seed % 2)
             chosen = interaction.choices(given_kernels, axes, many)
 
@@ -290,10 +291,9 @@ def test_every_convolution_strategy_agrees_with_its_matrix(way: str, graph: Grap
             found = np.asarray(jax.jit(convolve)(y), float)
             each = [weights([k], graph.axes) for k in given_kernels]
             total = sum(np.abs(m).sum(1).max() for m in each)
-            assert (
-                np.abs(found.ravel() - sum(m @ y.ravel().astype(float) for m in each)).max()
-                < 1e-5 * total + 1e-6
-            )
+            error = np.abs(found.ravel() - sum(m @ y.ravel().astype(float) for m in each)).max()
+            errors.append(error / (1e-5 * total + 1e-6))
+    assert max(errors) < 1
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -65,7 +65,7 @@ def test_every_error_documents_when_it_is_raised() -> None:
 
 
 def test_errors_are_passed_between_processes() -> None:
-    for kind in (kind for kind in KINDS if kind not in (MissingExtra, Interrupted)):
+    for kind in {*KINDS} - {MissingExtra, Interrupted}:
         error = kind([Problem("u", "one"), Problem("v", "two")])
         again = pickle.loads(pickle.dumps(error))
         assert type(again) is kind and str(again) == str(error)

@@ -37,12 +37,10 @@ def test_every_kind_can_be_added_to_an_empty_document_and_read_back(kind: str) -
     assert document_files.loads(text.encode(), lambda name: packed) == doc
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if not registry.kind(kind).example().ports()])
 def test_a_kind_without_inputs_runs_at_once(kind: str) -> None:
     doc, (ident,) = building.add(Document("m"), kind, {})
-    entry = doc.by_id()[ident]
-    if not entry.element.ports():
-        assert problems(doc) == []
+    assert not doc.by_id()[ident].element.ports() and problems(doc) == []
 
 
 def test_the_first_field_has_one_new_axis_and_the_next_one_the_axes_of_the_first() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -31,14 +32,20 @@ LAYOUT: dict[str, Any] = {
 }
 
 
-def test_positions_that_fit_are_accepted() -> None:
-    for name, center, size in [
-        ("crate", (0.31, 0.3), (0.2, 0.2)),
-        ("new", (1.5, 0.2), (0.1, 0.1)),
-        ("goal", (1.8, 0.51), None),
-    ]:
+def refusal(name: str, center: Any, size: Any) -> str:
+    """Return the error of a position, "" if it fits."""
+    try:
         SCENE.require_room(name, center, size)
-    SCENE.require_room("crate", (1.4, 0.5), (0.1, 0.1))  # it touches the robot
+    except WorldError as error:
+        return str(error)
+    return ""
+
+
+def test_positions_that_fit_are_accepted() -> None:
+    assert refusal("crate", (0.31, 0.3), (0.2, 0.2)) == ""
+    assert refusal("new", (1.5, 0.2), (0.1, 0.1)) == ""
+    assert refusal("goal", (1.8, 0.51), None) == ""
+    assert refusal("crate", (1.4, 0.5), (0.1, 0.1)) == "", "it touches the robot"
 
 
 @pytest.mark.parametrize(
@@ -56,8 +63,7 @@ def test_positions_that_fit_are_accepted() -> None:
 def test_positions_that_do_not_fit_are_refused_with_the_reason(
     name: str, center: Any, size: Any, said: str
 ) -> None:
-    with pytest.raises(WorldError, match=said):
-        SCENE.require_room(name, center, size)
+    assert re.search(said, refusal(name, center, size))
 
 
 def test_a_missing_or_fixed_object_cannot_be_moved() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import struct
 
 import hypothesis.strategies as st
@@ -50,11 +51,9 @@ def test_changed_bytes_are_refused_or_read_with_the_length_that_they_state(array
     raw = bytearray(WireMessage(array).to_bytes())
     for _ in range(data.draw(st.integers(1, 4))):
         raw[data.draw(st.integers(0, len(raw) - 1))] = data.draw(st.integers(0, 255))
-    try:
+    with contextlib.suppress(BadMessage):
         got = WireMessage.from_bytes(bytes(raw))
-    except BadMessage:
-        return
-    assert got.array.nbytes == len(raw) - HEADER.size - 4 * got.array.ndim
+        assert got.array.nbytes == len(raw) - HEADER.size - 4 * got.array.ndim
 
 
 def test_a_header_of_a_huge_array_is_refused_before_anything_is_allocated():
