@@ -99,6 +99,8 @@ def test_programs_are_compiled_quickly_without_the_option_default_programs(
 def test_every_default_program_exists() -> None:
     root = Path(conftest.__file__).parents[1]
     places = [place.partition("::") for place in conftest.DEFAULT_PROGRAM]
+    by_hand = [p for p in (root / "tests").rglob("test_*.py") if "mark.default_" + "program" in p.read_text()]
+    assert not by_hand, "`make optimised` reads the files of DEFAULT_PROGRAM alone"
     assert all((root / file).exists() for file, _, _ in places)
     assert all(
         f"def {durations.function(name)}" in (root / file).read_text() for file, _, name in places if name

@@ -38,7 +38,6 @@ def test_an_experiment_can_be_run_and_teaches_the_sequence_of_its_condition(fold
     assert len(cues) == {"cued": 2, "cued-changed": 3}.get(name, 0)
 
 
-@pytest.mark.default_program
 def test_a_robot_that_is_carried_elsewhere_completes_its_sequence(folder: Path) -> None:
     experiment = dataclasses.replace(dd.Experiment.load(folder / "carried.json"), trials=2)
     rows = experiment.run()
