@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import pickle
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -19,23 +20,26 @@ from deodar.resources import Resources
 SIZES = [1, 2, 7, 100]
 
 
-@pytest.mark.parametrize(
-    ("trials", "points", "workers", "batch"),
-    list(itertools.product(SIZES, SIZES, [1, 2, 3, 16], [None, 1, 5, 10_000])),
-)
-def test_every_copy_is_in_exactly_one_piece(
-    trials: int, points: int, workers: int, batch: int | None
-) -> None:
+def faults(trials: int, points: int, workers: int, batch: int | None) -> Iterator[str]:
+    """Yield what is wrong with the pieces of a batch."""
     pieces = cut({"trial": trials, "a": points}, 2**20, workers, batch)
     whole = SimulationRequest(100.0)
     requests = pieces.requests(whole, range(trials), {"a": [float(k) for k in range(points)]})
     jobs = [(r.trials, (r.sweep or {})["a"]) for r in requests if isinstance(r.trials, list)]
     found = [(t, a) for job in jobs for t in job[0] for a in job[1]]
-    assert len(jobs) == pieces.count and len(found) == len(set(found)) == trials * points
+    if len(jobs) != pieces.count or not len(found) == len(set(found)) == trials * points:
+        yield f"{len(found)} copies, {len(set(found))} different ones, in {len(jobs)} pieces"
     sizes = [len(job[0]) * len(job[1]) for job in jobs]
-    assert max(sizes) == sizes[0] == pieces.batch and sizes[:-1] == [pieces.batch] * (len(jobs) - 1)
-    rest = min(trials, points)
-    assert pieces.batch <= max(rest, batch if batch is not None else BATCH_BYTES // 2**20)
+    if max(sizes) != pieces.batch or sizes[:-1] != [pieces.batch] * (len(jobs) - 1):
+        yield f"sizes {sizes}"
+    if pieces.batch > max(min(trials, points), batch if batch is not None else BATCH_BYTES // 2**20):
+        yield f"{pieces.batch} copies at once"
+
+
+def test_every_copy_is_in_exactly_one_piece() -> None:
+    cases = itertools.product(SIZES, SIZES, [1, 2, 3, 16], [None, 1, 5, 10_000])
+    wrong = [(case, fault) for case in cases for fault in faults(*case)]
+    assert not wrong, wrong
 
 
 def test_workers_get_pieces_of_equal_size() -> None:
