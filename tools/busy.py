@@ -89,7 +89,7 @@ class Way:
         shell: what a shell does before it becomes the tests.
         closed: whether the shell has no standard input.
         folder: name of the copy in which they run; empty: here.
-        environment: variables of theirs.
+        environment: variables that are set for them.
         user: number of their user; None: that of this process.
         busy: processes that compute beside them.
         runs: how many run at the same time, each in a copy of its own.

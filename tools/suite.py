@@ -29,7 +29,9 @@ OTHERS = ("tests", "--ignore", "tests/deodar")
 CORE = ("tests/deodar", "tests/contracts")
 
 PARTS = {"verdict": " and verdict", "rest": " and (not verdict or hypothesis)", "whole": ""}
-"""The markers of each part, after that of the programs. Properties are in both: the rest draws new examples."""
+"""The markers of each part, after that of the programs. Properties are in both: the rest draws new
+examples.
+"""
 
 FAST = (*PYTEST, *SPREAD, "-m", "fast")
 

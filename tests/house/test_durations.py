@@ -5,6 +5,7 @@ bits.
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -100,7 +101,7 @@ def test_every_default_program_exists() -> None:
     root = Path(conftest.__file__).parents[1]
     places = [place.partition("::") for place in conftest.DEFAULT_PROGRAM]
     by_hand = [p for p in (root / "tests").rglob("test_*.py") if "mark.default_" + "program" in p.read_text()]
-    assert not by_hand, "`make optimised` reads the files of DEFAULT_PROGRAM alone"
+    assert not by_hand, "`tools/suite.py` reads the files of DEFAULT_PROGRAM alone with default programs"
     assert all((root / file).exists() for file, _, _ in places)
     assert all(
         f"def {durations.function(name)}" in (root / file).read_text() for file, _, name in places if name

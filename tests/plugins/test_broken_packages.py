@@ -242,7 +242,7 @@ def test_an_entry_that_is_not_a_measure_or_figure_is_a_line_of_doctor(
 def test_a_broken_measure_is_an_error_only_of_experiments_that_name_it(install: Install) -> None:
     install("odd", {"odd": MEASURE.format(name="Odd") + RAISES}, {"deodar.measures": {"Odd": "odd:Odd"}})
     data = {"experiment": 3, "name": "e", "model": "m.json", "limit": 1.0, "measures": {"u": {"of": "u"}}}
-    assert [m.name for m in dd.Experiment.from_data(data).measures] == ["u"]
+    assert [m.name for m in dd.Experiment.from_data(data).plan.measures] == ["u"]
     assert "Odd" not in str(dd.Experiment.schema())
     data["measures"] = {"u": {"kind": "Odd", "of": "u"}}
     with pytest.raises(dd.errors.DocumentError) as caught:

@@ -1,8 +1,8 @@
 """What a recorded piece of a run says, wherever it runs: samples, states, its end.
 
-One process writes a record. A piece in this process tells it directly (`RunOutput.receive`), one in a worker
-process through a pipe, one on a cluster when it is complete. All write the same in the same order, so a kill
-loses as little.
+One process writes a record. A piece in this process reports to it directly (`RunOutput.receive`), one in a
+worker process through a pipe, one on a cluster when it is complete. All write the same in the same order, so
+a kill loses as little.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class PieceEnded:
 
 
 PieceMessage = PieceBegun | probe.Chosen | PieceState | PieceEnded
-"""What a piece tells."""
+"""What a piece reports."""
 
 
 @dc.dataclass(frozen=True)
@@ -92,7 +92,7 @@ class RecordPart:
 
 
 class RecordedPiece:
-    """A piece of a run that tells what it records."""
+    """A piece of a run that reports what it records."""
 
     def __init__(self, part: RecordPart, tell: Callable[[PieceMessage], None]) -> None:
         self.part, self._tell = part, tell

@@ -157,11 +157,11 @@ class RunOutput:
         return place, checkpoint.read(place) if self.resumes and place.exists() else None
 
     def receive(self, number: int, message: PieceMessage, beside: bool = False) -> None:
-        """Write what a piece tells.
+        """Write what a piece reports.
 
         Args:
             number: number of the piece.
-            message: what it tells.
+            message: what it reports.
             beside: whether other pieces run at the same time, so that its state has a file of its own until
                 it is complete.
         """
@@ -265,4 +265,4 @@ class RunOutput:
 
 
 def _nowhere(message: PieceMessage) -> None:
-    """Drop what a piece tells: another host writes it."""
+    """Drop what a piece reports: another host writes it."""

@@ -38,7 +38,7 @@ class WorkerTask:
         board: the file that all processes map: for each piece the completed steps, and at the end whether to
             stop.
         number: number of the piece.
-        part: the part of the record that the piece tells, and the parent writes; None: the result has the
+        part: the part of the record that the piece reports, and the parent writes; None: the result has the
             samples.
     """
 

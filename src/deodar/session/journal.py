@@ -6,7 +6,7 @@ import dataclasses as dc
 import time
 import types
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -18,14 +18,20 @@ from deodar.model.document import Document
 from deodar.parameters import FrozenArray
 from deodar.recording.provenance import described
 
-if TYPE_CHECKING:
-    from deodar.session.session import Session
-
 TOGETHER = 0.05
 """Wall time of the steps between two reports of progress, in seconds."""
 
 StepProgress = Callable[[int, int], None]
 """Function that is called with the number of steps taken and their total."""
+
+
+class Advanced(Protocol):
+    """What changes are repeated on: a session."""
+
+    @property
+    def tick(self) -> int: ...
+    def step(self, n: int = 1) -> None: ...
+
 
 WORDS = {
     "inject": "push",
@@ -51,7 +57,7 @@ class Change:
     method: str
     arguments: tuple[Any, ...]
 
-    def repeat(self, session: Session) -> None:
+    def repeat(self, session: Advanced) -> None:
         """Make the change again, at the present tick of a session."""
         found = getattr(type(session), self.method)
         call = found.__set__ if isinstance(found, property) else found
@@ -95,7 +101,7 @@ def until(changes: Iterable[Change], tick: int) -> list[Change]:
 
 
 def repeat_changes(
-    session: Session,
+    session: Advanced,
     changes: Sequence[Change],
     tick: int,
     progress: StepProgress,
