@@ -13,7 +13,7 @@ from deodar.numerics import convolution
 ROUNDING = 4e-6
 
 
-@pytest.mark.parametrize("boundary", convolution.BOUNDARIES)
+@pytest.mark.parametrize("boundary", ["zero", "periodic", "reflect"])  # replicated ends have matrices only
 @pytest.mark.parametrize(
     ("samples", "reach"), [(1, 0), (5, 2), (17, 8), (128, 50), (200, 57), (201, 33), (500, 249), (777, 100)]
 )
