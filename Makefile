@@ -30,6 +30,7 @@ verdict: .venv/installed-test
 # all others, and new examples of properties
 others: .venv/installed-test
 	$(BIN)/python tools/suite.py rest --durations 20 --require-durations --hypothesis-profile new
+	$(BIN)/python tools/mutate.py show --short
 
 # for those who work on the engine: its part of the verdict
 test-core: .venv/installed-test

@@ -433,6 +433,17 @@ def lowest(root: Path, file: str, found: Calls) -> str | None:
     return None
 
 
+def find_floor(root: Path, found: Calls, named: Sequence[str]) -> None:
+    """Find the tests of the named files, or of all that have none, and write them one by one."""
+    files = [path.relative_to(root).as_posix() for path in sorted((root / "src").rglob("*.py"))]
+    tests = {file: test for file, test in read_floor().items() if file in files}
+    for file in named or [file for file in files if file not in tests]:
+        if test := lowest(root, file, found):
+            tests = {**tests, file: test}
+            write_floor(tests)
+        print(f"{file}  {test or 'no test that is mapped'}", flush=True)
+
+
 def defined(root: Path, test: str) -> bool:
     """Return whether the file of a test still defines its function."""
     path, _, name = test.split("[")[0].partition("::")
@@ -612,6 +623,20 @@ def judge_changes(root: Path, known: Path, commit: str, since: str, count: int) 
     return rows
 
 
+def age(rows: Sequence[Row]) -> list[str]:
+    """Return a line for each commit whose mutants are on record: its date, and its distance."""
+
+    def git(*words: str) -> str:
+        return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True).stdout.strip()
+
+    lines: list[str] = []
+    for commit in dict.fromkeys(row.commit for row in rows):
+        date = git("log", "-1", "--format=%as", commit) or "a commit that is not here"
+        ago = git("rev-list", "--count", f"{commit}..HEAD") or "?"
+        lines.append(f"mutants of {commit[:8]}, {date}, {ago} commits ago")
+    return lines
+
+
 def tree(commit: str, into: Path) -> Path:
     """The files of a commit, with the tests of the working tree and the page that was built here."""
     archive = subprocess.run(["git", "archive", commit], cwd=ROOT, capture_output=True, check=True).stdout
@@ -636,6 +661,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if name in ("run", "changed"):
             count = COUNT if name == "run" else 20
             command.add_argument("--count", type=int, default=count, help="how many are drawn")
+        if name == "show":
+            command.add_argument("--short", action="store_true", help="without the survivors")
         if name == "run":
             command.add_argument("--again", action="store_true", help="judge survivors once more")
     given, rest = parser.parse_known_args(arguments)
@@ -646,7 +673,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     known = KEPT / f"{commit}.jsonl"
     rows = read(ROWS)
     if given.command == "show":
-        print("\n".join(report(rows, equivalents())))
+        print(*age(rows), *report(rows, equivalents())[: 1 if given.short else None], sep="\n")
         return
     with tempfile.TemporaryDirectory() as place:
         root = tree(commit, Path(place).resolve())
@@ -662,12 +689,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 f"no map of {commit[:7]}; type `python tools/mutate.py map --commit {commit[:7]}` first"
             )
         if given.command == "floor":
-            files = [path.relative_to(root).as_posix() for path in sorted((root / "src").rglob("*.py"))]
-            tests = {file: test for file, test in read_floor().items() if file in files}
-            for file in rest or [file for file in files if file not in tests]:
-                if test := lowest(root, file, found):
-                    write_floor(tests := {**tests, file: test})
-                print(f"{file}  {test or 'no test that is mapped'}", flush=True)
+            find_floor(root, found, rest)
             return
         rows = [r for r in rows if r.commit == commit]
         done = {r.key for r in rows if r.outcome == "killed" or not given.again}

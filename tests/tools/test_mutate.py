@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -215,3 +216,16 @@ def test_the_lines_that_a_file_has_gained_are_read_from_a_diff() -> None:
 )
 def test_the_tests_of_a_file_lie_in_the_folder_of_its_name(file: str, folder: str) -> None:
     assert mutate.beside(file) == folder
+
+
+def test_the_age_of_a_record_is_that_of_its_commits() -> None:
+    rows = [
+        mutate.Row(commit, "src/a.py:1:1", "a", "b", "constant", "killed", "t", 1, 0.1)
+        for commit in ("HEAD", "x")
+    ]
+    first, second = mutate.age(rows)
+    # the second where the folder is not that of git
+    assert re.fullmatch(
+        r"mutants of HEAD, (\d{4}-\d\d-\d\d, 0|a commit that is not here, \?) commits ago", first
+    )
+    assert second == "mutants of x, a commit that is not here, ? commits ago"
