@@ -594,7 +594,7 @@ def beside(file: str) -> str:
     return next(p for p in (folder, *folder.parents) if p.is_dir()).relative_to(ROOT).as_posix()
 
 
-def judge_changes(root: Path, known: Path, commit: str, since: str, count: int) -> list[Row]:
+def judge_changes(root: Path, map_file: Path, commit: str, since: str, count: int) -> list[Row]:
     """Judge mutants of the lines that changed since a revision, until MINUTES have passed."""
     began = time.monotonic()
     command = ["git", "diff", "--unified=0", since, commit, "--", "src/*.py"]
@@ -607,16 +607,16 @@ def judge_changes(root: Path, known: Path, commit: str, since: str, count: int) 
         if mutant.line in lines[file]
     ]
     drawn = random.Random(commit).sample(places, min(count, len(places)))
-    tested = {test.partition("::")[0] for test in calls(known)}
+    tested = {test.partition("::")[0] for test in calls(map_file)}
     folders = {beside(mutant.file) for mutant in drawn}
     if missing := sorted(f for f in folders if not any(test.startswith(f"{f}/") for test in tested)):
-        note(root, known, ["-q", "-m", "fast or verdict", *missing])
+        note(root, map_file, ["-q", "-m", "fast or verdict", *missing])
     rows: list[Row] = []
     for mutant in drawn:
         if time.monotonic() > began + 60 * MINUTES:
             print(f"{len(drawn) - len(rows)} of {len(drawn)} were not judged in {MINUTES:g} minutes")
             break
-        rows.append(judge(root, mutant, calls(known), commit))
+        rows.append(judge(root, mutant, calls(map_file), commit))
         print(
             f"{rows[-1].outcome:>12}  {rows[-1].place}  {rows[-1].before}  ->  {rows[-1].after}", flush=True
         )
@@ -670,7 +670,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         parser.error(f"unknown: {' '.join(rest)}")
     name = ["git", "rev-parse", given.commit]
     commit = subprocess.run(name, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
-    known = KEPT / f"{commit}.jsonl"
+    map_file = KEPT / f"{commit}.jsonl"
     rows = read(ROWS)
     if given.command == "show":
         print(*age(rows), *report(rows, equivalents())[: 1 if given.short else None], sep="\n")
@@ -678,12 +678,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     with tempfile.TemporaryDirectory() as place:
         root = tree(commit, Path(place).resolve())
         if given.command == "map":
-            sys.exit(note(root, known, rest or ["tests"]))
+            sys.exit(note(root, map_file, rest or ["tests"]))
         if given.command == "changed":
-            rows = judge_changes(root, known, commit, given.since, given.count)
+            rows = judge_changes(root, map_file, commit, given.since, given.count)
             print("\n".join(report(rows, equivalents())))
             return
-        found = calls(known)
+        found = calls(map_file)
         if not found:
             parser.error(
                 f"no map of {commit[:7]}; type `python tools/mutate.py map --commit {commit[:7]}` first"

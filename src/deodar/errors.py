@@ -250,21 +250,24 @@ def show(value: Any) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def instance_of(kind: type[T], value: object, where: str) -> T:
+def instance_of(kind: type[T], argument: object, where: str) -> T:
     """Return an argument that is an object of a class.
 
     Args:
         kind: the class.
-        value: the argument.
+        argument: what was given for it.
         where: its name.
 
     Raises:
         ParameterError: it is something else, such as a dict of the fields.
     """
-    if not isinstance(value, kind):
-        what, fix = f"needs {an(kind.__name__)}, not {show(value)}", f"Write: {where}={kind.__name__}(...)"
-        raise ParameterError(what, where=where, fix=fix)
-    return value
+    if not isinstance(argument, kind):
+        problem, fix = (
+            f"needs {an(kind.__name__)}, not {show(argument)}",
+            f"Write: {where}={kind.__name__}(...)",
+        )
+        raise ParameterError(problem, where=where, fix=fix)
+    return argument
 
 
 def an(name: str) -> str:

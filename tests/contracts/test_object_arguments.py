@@ -15,9 +15,9 @@ RECORDING = Path(__file__).parents[1] / "deodar_robots" / "event_file" / "one.ae
 
 
 def model() -> dd.Model:
-    made = dd.Model("node")
-    made.add(dd.Field("u", [], tau=10, resting_level=-1.0))
-    return made
+    node_model = dd.Model("node")
+    node_model.add(dd.Field("u", [], tau=10, resting_level=-1.0))
+    return node_model
 
 
 CALLS: dict[str, tuple[str, str, Callable[[Any], object]]] = {
@@ -42,9 +42,9 @@ CALLS: dict[str, tuple[str, str, Callable[[Any], object]]] = {
 }
 
 
-@pytest.mark.parametrize("given", [{}, 3], ids=["dict", "number"])
+@pytest.mark.parametrize("argument", [{}, 3], ids=["dict", "number"])
 @pytest.mark.parametrize("case", CALLS)
-def test_an_argument_of_another_type_is_refused_by_name(case: str, given: object) -> None:
+def test_an_argument_of_another_type_is_refused_by_name(case: str, argument: object) -> None:
     name, kind, call = CALLS[case]
     with pytest.raises(ParameterError, match=rf"{name}: needs an? {kind}, not .*Write: {name}={kind}\("):
-        call(given)
+        call(argument)

@@ -101,9 +101,9 @@ class Design(Part):
         names = [p.name for p in (*self.plan.events, *self.factors, *self.plan.measures)]
         for name in dict.fromkeys(names):
             if not name or name in OWN or names.count(name) > 1:
-                what = "is a column of every table" if name else "is not a name"
-                what = "is the name of two columns" if names.count(name) > 1 else what
-                yield "conditions, factors and measures", f"{name!r} {what}; give each a name of its own"
+                problem = "is a column of every table" if name else "is not a name"
+                problem = "is the name of two columns" if names.count(name) > 1 else problem
+                yield "conditions, factors and measures", f"{name!r} {problem}; give each a name of its own"
 
     # ---------------------------------------------------------------------------------------- what it will do
 
@@ -152,47 +152,47 @@ class Design(Part):
                 fix = "Type: deodar run FILE --duration MS"
                 raise DocumentError("is not an experiment: it is a model", fix=fix)
             raise DocumentError("is not an experiment: it has no key 'experiment'")
-        given = _migrated(cast("dict[str, Any]", data), folder, read)
-        if given.pop("experiment") != VERSION:
-            what = f"is an experiment of another version; this deodar reads versions 1 to {VERSION}"
-            raise DocumentError(what, fix="Type: pip install --upgrade deodar")
+        content = _migrated(cast("dict[str, Any]", data), folder, read)
+        if content.pop("experiment") != VERSION:
+            problem = f"is an experiment of another version; this deodar reads versions 1 to {VERSION}"
+            raise DocumentError(problem, fix="Type: pip install --upgrade deodar")
         problems: list[Problem] = []
-        needed = plugins.stated(given.pop("packages", {}), problems)
+        needed = plugins.stated(content.pop("packages", {}), problems)
         for key, kinds in KINDS.items():
-            if (rows := given.pop(key, None)) is None:
+            if (rows := content.pop(key, None)) is None:
                 continue
-            given[key] = _parts(key, rows, kinds, problems)
+            content[key] = _parts(key, rows, kinds, problems)
         if problems:
-            known = [p.name for p in MEASURES.packaged()]
-            unfit = plugins.unfit(needed, lambda kind: MEASURES.package(MEASURES[kind]), known)
+            packaged = [p.name for p in MEASURES.packaged()]
+            unfit = plugins.unfit(needed, lambda kind: MEASURES.package(MEASURES[kind]), packaged)
             raise DocumentError([*unfit, *problems])
         for key in ("model", "world"):
-            given[key] = _beside(given.get(key, ""), folder, key == "world") if key in given else ""
-        if not given["model"]:
+            content[key] = _beside(content.get(key, ""), folder, key == "world") if key in content else ""
+        if not content["model"]:
             problems.append(
                 Problem("model", "is missing", 'Name the file of the model: "model": "model.json"')
             )
-        found = cls._of_keys(given, problems)
+        experiment = cls._of_keys(content, problems)
         if problems:
             keys = {name: key for key, name in OF_PLAN.items()}
             places = [p.where.strip(".") for p in problems]
             raise DocumentError(
                 [dc.replace(p, where=keys.get(at, at)) for p, at in zip(problems, places, strict=True)]
             )
-        return found
+        return experiment
 
     @classmethod
-    def _of_keys(cls, given: dict[str, Any], problems: list[Problem]) -> Any:
+    def _of_keys(cls, content: dict[str, Any], problems: list[Problem]) -> Any:
         """Return the experiment of the keys of a file, whose parts are made, with all problems added."""
-        known = ["name", "model", *SETTINGS, *KINDS]
-        for key in [key for key in given if key not in known]:
-            del given[key]
-            problems.append(Problem(key, "Experiment has no such parameter", did_you_mean(key, known)))
-        of_plan = {name: given.pop(key) for key, name in OF_PLAN.items() if key in given}
+        keys = ["name", "model", *SETTINGS, *KINDS]
+        for key in [key for key in content if key not in keys]:
+            del content[key]
+            problems.append(Problem(key, "Experiment has no such parameter", did_you_mean(key, keys)))
+        of_plan = {name: content.pop(key) for key, name in OF_PLAN.items() if key in content}
         plan = from_data(of_plan, "", {"Experiment": TrialPlan}, {}, problems, "Experiment")
         # an experiment with another plan states its other problems
-        more = {"plan": plan or TrialPlan(1.0)}
-        return from_data(given, "", {"Experiment": cls}, more, problems, "Experiment")
+        parts = {"plan": plan or TrialPlan(1.0)}
+        return from_data(content, "", {"Experiment": cls}, parts, problems, "Experiment")
 
     def save(self, path: str | Path, force: bool = False) -> None:
         """Write a file; a model without a file is written beside it, as NAME.model.json."""
@@ -225,12 +225,12 @@ class Design(Part):
         path = output.location(path)
         try:
             if not path.is_file():
-                near = (
+                suggestion = (
                     did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")])
                     if path.parent.is_dir()
                     else ""
                 )
-                raise DocumentError("there is no such file", fix=near)
+                raise DocumentError("there is no such file", fix=suggestion)
             return cls.from_data(codec.read(path.read_bytes()), path.parent, read)
         except DeodarError as error:
             raise DocumentError(
@@ -245,8 +245,8 @@ class Design(Part):
     @staticmethod
     def schema() -> dict[str, Any]:
         """Return the JSON Schema of a file."""
-        both = [schema({"": cls}, named=False)["oneOf"][0]["properties"] for cls in (Design, TrialPlan)]
-        own = by_key(*both) | {
+        parameters = [schema({"": cls}, named=False)["oneOf"][0]["properties"] for cls in (Design, TrialPlan)]
+        properties = by_key(*parameters) | {
             "experiment": {"enum": list(range(1, VERSION + 1))},
             "name": {"type": "string"},
             "model": {"type": "string"},
@@ -258,7 +258,7 @@ class Design(Part):
             for part in parts["oneOf"]:
                 if part["title"] == USUAL.get(key):
                     part["required"].remove("kind")
-            own[key] = (
+            properties[key] = (
                 {"type": "array", "items": parts}
                 if key == "actions"
                 else {"type": "object", "additionalProperties": parts}
@@ -267,16 +267,16 @@ class Design(Part):
             "$schema": "https://json-schema.org/draft/2020-12/schema",
             "title": "deodar experiment",
             "type": "object",
-            "properties": own,
+            "properties": properties,
             "required": ["experiment", "name", "model", "limit"],
             "additionalProperties": False,
         }
 
 
-def by_key(own: Mapping[str, Any], of_plan: Mapping[str, Any]) -> dict[str, Any]:
+def by_key(of_experiment: Mapping[str, Any], of_plan: Mapping[str, Any]) -> dict[str, Any]:
     """Return what belongs to parameters of an experiment and of its plan, by the keys of a file."""
-    both = {**own, **{key: of_plan[name] for key, name in OF_PLAN.items() if name in of_plan}}
-    return {key: both[key] for key in SETTINGS if key in both}
+    settings = {**of_experiment, **{key: of_plan[name] for key, name in OF_PLAN.items() if name in of_plan}}
+    return {key: settings[key] for key in SETTINGS if key in settings}
 
 
 EXAMPLE = "example:"
@@ -321,6 +321,6 @@ def _parts(key: str, rows: Any, kinds: Mapping[str, type[Part]], problems: list[
     if key != "actions" and isinstance(rows, dict):
         named = cast("dict[str, Any]", rows).items()
         return [from_data(row, f"{key}.{k}", kinds, {"name": k}, problems, usual) for k, row in named]
-    wanted = "a list" if key == "actions" else "an object of named parts"
-    problems.append(Problem(key, f"needs {wanted}, not {show(rows)}"))
+    form = "a list" if key == "actions" else "an object of named parts"
+    problems.append(Problem(key, f"needs {form}, not {show(rows)}"))
     return []

@@ -74,14 +74,14 @@ def dataset(
     return xarray.Dataset(out, coords, {KEY: codec.line(about), "title": doc.name})
 
 
-def with_times(data: xarray.Dataset, found: Sequence[Series]) -> xarray.Dataset:
+def with_times(data: xarray.Dataset, series: Sequence[Series]) -> xarray.Dataset:
     """Return a record without samples whose variables have dimensions of time of their own.
 
     Args:
         data: the record; its dimension `time` has length 0.
-        found: the series of the variables.
+        series: the series of the variables.
     """
-    dimensions = {name: one.dimension for one in found for name in one.names}
+    dimensions = {name: s.dimension for s in series for name in s.names}
     times, coords = data[TIME], {n: c for n, c in data.coords.items() if n != TIME}
     variables: dict[Any, Any] = {}
     for name, variable in data.data_vars.items():

@@ -29,11 +29,11 @@ def taken(run: Run, about: Mapping[str, Any]) -> StoredState:
     Raises:
         RecordError: the world keeps something that a file cannot hold.
     """
-    own = stored.leaves(run.state, "the model")
-    world, theirs = world_to_file(run.exchange.keep())
+    model_leaves = stored.leaves(run.state, "the model")
+    world, world_leaves = world_to_file(run.exchange.keep())
     lost = [[list(copy), error.problems[0].what, error.step] for copy, error in run.lost.items()]
-    text = {"clock": dc.asdict(run.clock), "leaves": len(own), "world": world, "lost": lost}
-    return {**about, "run": text}, [*own, *theirs]
+    text = {"clock": dc.asdict(run.clock), "leaves": len(model_leaves), "world": world, "lost": lost}
+    return {**about, "run": text}, [*model_leaves, *world_leaves]
 
 
 def write(state: StoredState, path: Path) -> None:
@@ -61,47 +61,48 @@ def put(run: Run, about: Mapping[str, Any], arrays: list[np.ndarray]) -> None:
         RecordError: the state is of another model or world.
     """
     text = about["run"]
-    own, rest = arrays[: text["leaves"]], arrays[text["leaves"] :]
-    run.state = stored.filled(run.state, own, "the model")
+    model_leaves, world_leaves = arrays[: text["leaves"]], arrays[text["leaves"] :]
+    run.state = stored.filled(run.state, model_leaves, "the model")
     run.clock = dc.replace(run.clock, **text["clock"])
-    run.lost = {tuple(copy): NotFinite(what, [], step=step) for copy, what, step in text["lost"]}
+    run.lost = {tuple(copy): NotFinite(problem, [], step=step) for copy, problem, step in text["lost"]}
     run.forget()
-    here = run.exchange.world
-    if (text["world"] is None) != (here is None):
+    world = run.exchange.world
+    if (text["world"] is None) != (world is None):
         raise RecordError("the stored state is of a run in another world")
-    kept = world_from_file(text["world"], rest)
-    if kept is not None and not isinstance(here, kept.kind):
-        raise RecordError(f"the stored state is of a run in the world {kept.kind.__name__}")
-    run.exchange.put(kept)
+    world_state = world_from_file(text["world"], world_leaves)
+    if world_state is not None and not isinstance(world, world_state.kind):
+        raise RecordError(f"the stored state is of a run in the world {world_state.kind.__name__}")
+    run.exchange.put(world_state)
 
 
-def world_to_file(kept: WorldState | None) -> tuple[dict[str, Any] | None, list[np.ndarray]]:
+def world_to_file(state: WorldState | None) -> tuple[dict[str, Any] | None, list[np.ndarray]]:
     """Return the state of a world as text and arrays.
 
     Raises:
         RecordError: the world keeps something that a file cannot hold.
     """
-    if kept is None:
+    if state is None:
         return None, []
-    if isinstance(kept.world, StoredLeaves):
-        leaves = list(kept.world.leaves)
+    if isinstance(state.world, StoredLeaves):
+        leaves = list(state.world.leaves)
     else:
-        leaves = stored.leaves(kept.world, f"the world {kept.kind.__name__}")
-    commands = dict(kept.commands or {})
+        leaves = stored.leaves(state.world, f"the world {state.kind.__name__}")
+    commands = dict(state.commands or {})
     text = {
-        "kind": kept.kind.__name__,
+        "kind": state.kind.__name__,
         "leaves": len(leaves),
-        "commands": None if kept.commands is None else list(commands),
-        "last": kept.last,
-        "due": kept.due,
-        "origin": kept.origin,
+        "commands": None if state.commands is None else list(commands),
+        "last": state.last,
+        "due": state.due,
+        "origin": state.origin,
     }
-    if kept.objects is not None:
+    if state.objects is not None:
         try:
-            text["objects"] = codec.parse(codec.line(kept.objects))
+            text["objects"] = codec.parse(codec.line(state.objects))
         except (TypeError, ValueError):
             raise RecordError(
-                f"the objects of the world {kept.kind.__name__} are not plain data, which a file cannot hold",
+                f"the objects of the world {state.kind.__name__} are not plain data, which a file cannot"
+                " hold",
                 fix="Let its `arrangement` return numbers, text, lists and dictionaries",
             ) from None
     return text, [*leaves, *map(np.asarray, commands.values())]
@@ -119,6 +120,6 @@ def world_from_file(text: dict[str, Any] | None, arrays: list[np.ndarray]) -> Wo
     if kind is None:
         raise RecordError(f"was taken in a world of the kind {text['kind']}, which is not known here")
     leaves, commands, names = arrays[: text["leaves"]], arrays[text["leaves"] :], text["commands"]
-    told = None if names is None else dict(zip(names, commands, strict=True))
+    command_of = None if names is None else dict(zip(names, commands, strict=True))
     times = text["last"], text["due"], text["origin"]
-    return WorldState(kind, StoredLeaves(leaves), *times, told, text.get("objects"))
+    return WorldState(kind, StoredLeaves(leaves), *times, command_of, text.get("objects"))

@@ -59,8 +59,8 @@ class Change:
 
     def repeat(self, session: Advanced) -> None:
         """Make the change again, at the present tick of a session."""
-        found = getattr(type(session), self.method)
-        call = found.__set__ if isinstance(found, property) else found
+        member = getattr(type(session), self.method)
+        call = member.__set__ if isinstance(member, property) else member
         call(session, *(a.data if isinstance(a, FrozenArray) else a for a in self.arguments))
 
 
@@ -91,12 +91,12 @@ def until(changes: Iterable[Change], tick: int) -> list[Change]:
     """Return the changes that a session has seen at a tick; an injected input lasts at most until then."""
     out: list[Change] = []
     for change in changes:
-        left = tick - change.tick
-        if change.method == "inject" and left >= 0:
+        age = tick - change.tick
+        if change.method == "inject" and age >= 0:
             path, amount, n = change.arguments
-            change = dc.replace(change, arguments=(path, amount, min(n, left)))
-            left -= 1  # without a step it has no effect
-        out += [change] if left >= 0 else []
+            change = dc.replace(change, arguments=(path, amount, min(n, age)))
+            age -= 1  # without a step it has no effect
+        out += [change] if age >= 0 else []
     return out
 
 
@@ -114,13 +114,13 @@ def repeat_changes(
     Raises:
         RecordError: a change cannot be repeated.
     """
-    first, left = session.tick, list(changes)
+    first, pending = session.tick, list(changes)
     together = 1
     while True:
         if session.tick in stops:
             stops[session.tick]()
-        while left and left[0].tick <= session.tick:
-            change = left.pop(0)
+        while pending and pending[0].tick <= session.tick:
+            change = pending.pop(0)
             if change.method in ("reset", "restore"):
                 raise RecordError(
                     f"The run cannot continue from this moment: a {change.method} lies before it"
@@ -128,7 +128,7 @@ def repeat_changes(
             change.repeat(session)
         if session.tick >= tick:
             return
-        end = min([tick, *(t for t in stops if t > session.tick), *(c.tick for c in left[:1])])
+        end = min([tick, *(t for t in stops if t > session.tick), *(c.tick for c in pending[:1])])
         began, n = time.perf_counter(), min(end - session.tick, together)
         session.step(n)
         seconds = time.perf_counter() - began
@@ -141,13 +141,13 @@ def repeat_changes(
 
 def to_file(change: Change) -> JsonObject:
     """Return a change as a record states it: tick, what was changed, and its new value."""
-    method, (name, *rest) = change.method, change.arguments
+    method, (name, *arguments) = change.method, change.arguments
     if method in INCOMPLETE:
-        what, value = INCOMPLETE[method], described(name) if method == "world" else name
+        subject, value = INCOMPLETE[method], described(name) if method == "world" else name
     else:
-        what = f"{WORDS[method]} {name}" if method in WORDS else name
-        value = rest if method in ("inject", "place") else rest[0] if rest else None
-    return {"tick": change.tick, "what": what, "value": _plain(value)}
+        subject = f"{WORDS[method]} {name}" if method in WORDS else name
+        value = arguments if method in ("inject", "place") else arguments[0] if arguments else None
+    return {"tick": change.tick, "what": subject, "value": _plain(value)}
 
 
 def from_file(entry: Mapping[str, Any]) -> Change:
@@ -156,16 +156,16 @@ def from_file(entry: Mapping[str, Any]) -> Change:
     Raises:
         RecordError: the record does not describe it completely.
     """
-    tick, what, value = int(entry["tick"]), str(entry["what"]), entry["value"]
-    if what in INCOMPLETE.values():
-        raise RecordError(f"the change of {what!r} at step {tick} cannot be repeated from the record")
-    word, _, name = what.partition(" ")
-    for method, own in WORDS.items():
-        if own == word:
+    tick, subject, value = int(entry["tick"]), str(entry["what"]), entry["value"]
+    if subject in INCOMPLETE.values():
+        raise RecordError(f"the change of {subject!r} at step {tick} cannot be repeated from the record")
+    word, _, name = subject.partition(" ")
+    for method, method_word in WORDS.items():
+        if method_word == word:
             several = method in ("inject", "place")
-            rest = value if several else [] if method == "remove" else [value]
-            return Change(tick, method, (name, *rest))
-    return Change(tick, "set", (what, value))
+            arguments = value if several else [] if method == "remove" else [value]
+            return Change(tick, method, (name, *arguments))
+    return Change(tick, "set", (subject, value))
 
 
 def _plain(value: Any) -> Json:
@@ -177,7 +177,7 @@ def _plain(value: Any) -> Json:
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
+        return [_plain(part) for part in value]
     if dc.is_dataclass(value) and not isinstance(value, type):
         return repr(value)
     try:

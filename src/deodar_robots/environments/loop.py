@@ -112,13 +112,13 @@ def loop(
         if world is not None:
             raise ParameterError("the experiment has a world already", fix="Leave world out")
         plan = of.plan
-        given = {
+        parts = {
             "actions": plan.actions,
             "factors": of.factors,
             "measures": plan.measures,
             "watch": plan.watch,
         }
-        refused = [name for name, values in given.items() if values]
+        refused = [name for name, values in parts.items() if values]
         if refused:
             raise ParameterError(
                 f"an environment has no {' and no '.join(refused)}",
@@ -142,11 +142,11 @@ def loop(
         raise ParameterError("the period of the environment is 0; expected at least one step")
     _require_period(model, world, steps, dt)
     _require_ends(ends)
-    found = ClosedLoop(
+    closed_loop = ClosedLoop(
         *(model, world, _bounds(model, act), _seen(model, see), reward, ends, steps, limit, dt),
         *(require_seed(seed), trials, precision),
     )
-    for view in found.views:
+    for view in closed_loop.views:
         view.place(model.document)
     if isinstance(reward, str):
         entry, port = find.shown(model.document, reward)
@@ -154,7 +154,7 @@ def loop(
             raise ParameterError("is an array; the reward is one number", where=reward)
     elif reward is not None and not callable(reward):
         raise ParameterError(f"reward is {show(reward)}; expected the path of a port, or a function")
-    return found
+    return closed_loop
 
 
 def _period(model: Model, world: World | None) -> float:
@@ -167,10 +167,10 @@ def _period(model: Model, world: World | None) -> float:
 
 def _require_period(model: Model, world: World | None, steps: int, dt: float) -> None:
     """Refuse a period after which a part of the model or the world is in the middle of a step of its own."""
-    own = {e.path: e.every for e in model.document.entries}
+    multiples = {e.path: e.every for e in model.document.entries}
     if world is not None and world.period is not None:
-        own["the world"] = whole(_period(model, world), dt, "the world's period")
-    for name, every in own.items():
+        multiples["the world"] = whole(_period(model, world), dt, "the world's period")
+    for name, every in multiples.items():
         if steps % every:
             raise ParameterError(
                 f"the period of the environment is {steps * dt:g}, and {name} has a step of {every * dt:g}",
@@ -195,9 +195,9 @@ def _bounds(model: Model, act: Sequence[str] | Mapping[str, Bounds]) -> dict[str
     """Return the parameters that an agent sets, with their bounds; by default those that are declared."""
     if isinstance(act, str) or not act:
         raise ParameterError(f"act is {show(act)}; expected the paths of parameters that the agent sets")
-    given: Mapping[str, Any] = act if isinstance(act, Mapping) else dict.fromkeys(act)
+    bounds: Mapping[str, Any] = act if isinstance(act, Mapping) else dict.fromkeys(act)
     out: dict[str, Bounds] = {}
-    for path, pair in given.items():
+    for path, pair in bounds.items():
         low, high = _declared(model, path) if pair is None else _pair(path, pair)
         if not low < high:
             raise ParameterError(

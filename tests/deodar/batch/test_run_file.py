@@ -148,8 +148,8 @@ def test_pieces_of_workers_are_resumed_from_states_of_their_own(tmp_path: Path) 
     record = tmp_path / "run" / "record.zarr"
     with pytest.raises(Interrupted) as caught:
         dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 20))
-    kept = caught.value.data["u.activation"].values
-    assert np.isfinite(kept[:2, :4]).all() and about(caught.value.data)["complete"] is False
+    activation = caught.value.data["u.activation"].values
+    assert np.isfinite(activation[:2, :4]).all() and about(caught.value.data)["complete"] is False
     assert checkpoint.read(record / run_file.PIECE_CHECKPOINT.format(0))[0]["steps"] == 20
     begun: list[int] = []
 
@@ -300,10 +300,10 @@ def test_a_state_of_another_run_is_refused(tmp_path: Path) -> None:
 def test_a_run_with_conditions_alone_states_where_it_ended(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    made = model()
-    made.set({"u.sigmoid": dd.Linear(), "u.kernel.0.amplitude": 100.0})
+    growing = model()
+    growing.set({"u.sigmoid": dd.Linear(), "u.kernel.0.amplitude": 100.0})
     with pytest.raises(NotFinite, match="is kept") as caught:
-        dd.simulate(made, 40, record="u,when=crossing", every=1, out=tmp_path / "run")
+        dd.simulate(growing, 40, record="u,when=crossing", every=1, out=tmp_path / "run")
     assert "--resume" not in str(caught.value)
 
 
@@ -377,12 +377,12 @@ def test_samples_after_the_stored_state_are_dropped_where_differences_are_accept
 
 
 def test_copies_that_diverge_are_nan_in_the_file(tmp_path: Path) -> None:
-    made = model()
+    diverging = model()
     given = {"record": ["u"], "every": 5, "sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0]}}
     with pytest.warns(dd.errors.RunWarning):
-        here = dd.simulate(made, 40, **given)
+        here = dd.simulate(diverging, 40, **given)
     with pytest.warns(dd.errors.RunWarning):
-        there = dd.simulate(made, 40, out=tmp_path / "run", **given)
+        there = dd.simulate(diverging, 40, out=tmp_path / "run", **given)
     assert there.load().identical(here) and np.isnan(there["u.activation"].values[1]).all()
 
 
@@ -399,21 +399,21 @@ def test_copies_that_diverged_before_a_stop_are_nan_after_it(tmp_path: Path) -> 
 
 
 def test_a_batch_whose_copies_all_diverge_before_its_only_sample_is_nan_in_the_file(tmp_path: Path) -> None:
-    made = model()
-    made.set({"u.sigmoid": dd.Linear()})
+    diverging = model()
+    diverging.set({"u.sigmoid": dd.Linear()})
     with pytest.raises(NotFinite, match="infinite"):
-        dd.simulate(made, 40, sweep={"u.kernel.0.amplitude": [1e9, 1e10]}, out=tmp_path / "run")
-    kept = dd.open_record(tmp_path / "run")
-    assert about(kept)["complete"] is True and all(kept["diverged"].values)
+        dd.simulate(diverging, 40, sweep={"u.kernel.0.amplitude": [1e9, 1e10]}, out=tmp_path / "run")
+    record = dd.open_record(tmp_path / "run")
+    assert about(record)["complete"] is True and all(record["diverged"].values)
 
 
 def test_a_run_that_diverges_keeps_its_record_until_then(tmp_path: Path) -> None:
-    made = model()
-    made.set({"u.sigmoid": dd.Linear(), "u.kernel.0.amplitude": 100.0})  # grows without bound
+    growing = model()
+    growing.set({"u.sigmoid": dd.Linear(), "u.kernel.0.amplitude": 100.0})  # grows without bound
     with pytest.raises(NotFinite, match="is kept"):
-        dd.simulate(made, 40, record="u", every=1, out=tmp_path / "run")
-    kept = dd.open_record(tmp_path / "run")
-    assert about(kept)["complete"] is False and 0 < kept.sizes["time"] < 41
+        dd.simulate(growing, 40, record="u", every=1, out=tmp_path / "run")
+    record = dd.open_record(tmp_path / "run")
+    assert about(record)["complete"] is False and 0 < record.sizes["time"] < 41
 
 
 def test_an_existing_run_is_replaced_only_with_force(tmp_path: Path) -> None:

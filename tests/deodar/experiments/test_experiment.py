@@ -45,7 +45,7 @@ def line():
 
 def choice(**changes):
     """Return an experiment with this field."""
-    given = {
+    parts = {
         "events": [
             Appears("detected", "u", threshold=1.0, ends=False),
             Appears("left up", "u", near=30, radius=8, ends=False),
@@ -61,7 +61,7 @@ def choice(**changes):
         ],
     }
     plain = Experiment("choice", line(), dd.TrialPlan(150), 4, precision="float64")
-    return changed(plain, **(given | changes))
+    return changed(plain, **(parts | changes))
 
 
 def test_a_saved_experiment_is_equal_when_loaded(tmp_path):

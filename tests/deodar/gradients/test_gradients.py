@@ -28,13 +28,13 @@ def test_a_gradient_with_noise_delays_and_slow_parts_is_that_of_finite_differenc
     d = dd.dynamics(mixed(), paths)
     with d.context():
         for port in ("u", "node"):
-            value = jax.jit(total(d, 60, port))
+            function = jax.jit(total(d, 60, port))
             slopes = jax.jit(jax.grad(total(d, 60, port)))(d.parameters)
             for path, slope in slopes.items():
-                way = np.cos(np.arange(slope.size)).reshape(slope.shape)
-                near = [float(value({path: d.parameters[path] + e * way})) for e in (1e-5, -1e-5)]
-                by = float(np.sum(np.asarray(slope) * way))
-                assert by == pytest.approx((near[0] - near[1]) / 2e-5, rel=1e-6, abs=1e-6), path
+                direction = np.cos(np.arange(slope.size)).reshape(slope.shape)
+                ends = [float(function({path: d.parameters[path] + e * direction})) for e in (1e-5, -1e-5)]
+                by = float(np.sum(np.asarray(slope) * direction))
+                assert by == pytest.approx((ends[0] - ends[1]) / 2e-5, rel=1e-6, abs=1e-6), path
 
 
 TEN_THOUSAND_STEPS = """
@@ -58,9 +58,9 @@ print(compiled.memory_analysis().temp_size_in_bytes, peak)
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the peak from /proc")
 def test_ten_thousand_steps_of_a_hundred_samples_need_less_than_a_gigabyte() -> None:
     """The peak of a fresh process, with Python and JAX, which is about 0.4 GB."""
-    made = subprocess.run([sys.executable, "-c", TEN_THOUSAND_STEPS], capture_output=True, text=True)
-    assert made.returncode == 0, made.stderr
-    temporary, peak = map(int, made.stdout.split())
+    process = subprocess.run([sys.executable, "-c", TEN_THOUSAND_STEPS], capture_output=True, text=True)
+    assert process.returncode == 0, process.stderr
+    temporary, peak = map(int, process.stdout.split())
     assert temporary < 0.1 * GIGABYTE and peak < GIGABYTE
 
 

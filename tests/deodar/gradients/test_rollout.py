@@ -29,10 +29,10 @@ def test_it_continues_from_a_state() -> None:
     with d.context():
         whole = dd.rollout(d, 20, record=RECORD)
         half = dd.rollout(d, 11)
-        rest = dd.rollout(d, 9, record=RECORD, start=dd.RolloutStart(half.state, 11))
+        second = dd.rollout(d, 9, record=RECORD, start=dd.RolloutStart(half.state, 11))
     assert half.records == {}
     for path in RECORD:
-        assert rest.records[path] == pytest.approx(np.asarray(whole.records[path])[11:], abs=1e-12)
+        assert second.records[path] == pytest.approx(np.asarray(whole.records[path])[11:], abs=1e-12)
 
 
 def test_inputs_are_constant_or_have_an_axis_of_steps() -> None:
@@ -44,8 +44,8 @@ def test_inputs_are_constant_or_have_an_axis_of_steps() -> None:
         prepared, key = d.prepare(), d.key()
         state = d.init(key=key)
         for tick in range(8):
-            given = {"u": bump, "node": 1.0} if tick >= 3 else {}
-            state = d.step(prepared, state, given, tick, key)
+            inputs = {"u": bump, "node": 1.0} if tick >= 3 else {}
+            state = d.step(prepared, state, inputs, tick, key)
         with pytest.raises(ParameterError, match="one more with 9 steps"):
             dd.rollout(d, 9, inputs={"u": moving[:, None] * bump})
         with pytest.raises(TimeError):

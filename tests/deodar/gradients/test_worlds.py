@@ -36,7 +36,7 @@ def test_trials_and_seeds_by_vmap_are_single_runs_and_those_of_simulate() -> Non
             return dd.rollout(d, STEPS, key=key, record=["u"]).records["u"]
 
         keys = [d.key(3, 0), d.key(3, 1), d.key(3, 2), d.key(4, 0)]
-        together = jax.jit(jax.vmap(course))(jax.tree.map(lambda *one: jnp.stack(one), *keys))
+        together = jax.jit(jax.vmap(course))(jax.tree.map(lambda *leaves: jnp.stack(leaves), *keys))
         single = [course(key) for key in keys]
         with pytest.raises(WorldError, match="Make the keys outside"):
             jax.vmap(lambda seed: course(d.key(seed)))(jnp.arange(2))
@@ -57,7 +57,7 @@ def test_a_gradient_through_a_world_is_that_of_finite_differences() -> None:
             return jnp.append(run.records["pose"][-1], run.records["u"][-1])
 
         by = jax.jit(jax.jacrev(ends))(300.0)
-        value = jax.jit(ends)
-        near = (value(300.001) - value(299.999)) / 0.002
+        final = jax.jit(ends)
+        slopes = (final(300.001) - final(299.999)) / 0.002
     assert np.abs(by).min() > 0
-    np.testing.assert_allclose(by, near, rtol=1e-5)
+    np.testing.assert_allclose(by, slopes, rtol=1e-5)

@@ -37,18 +37,18 @@ def counted(state: Any, inputs: Any, time: Any) -> Any:
 def test_every_element_is_listed_once_with_its_group() -> None:
     session = dd.Session(mixed(extra=2))
     session.step(3)
-    found = session.costs(QUICK)
-    by = {c.path: c for c in found.elements}
-    assert len(by) == len(found.elements)
+    costs = session.costs(QUICK)
+    by = {c.path: c for c in costs.elements}
+    assert len(by) == len(costs.elements)
     assert {e.path for e in session.document.entries} <= set(by)
-    assert {c.path: c.kind for c in found.elements}["v>u"] == "Convolve"
+    assert {c.path: c.kind for c in costs.elements}["v>u"] == "Convolve"
     alike = [by[name] for name in ("u", "neighbour0", "neighbour1")]
     assert {c.alike for c in alike} == {3} and len({c.us for c in alike}) == 1, (
         "equal structure: they share the time"
     )
-    assert [c.us for c in found.elements] == sorted((c.us for c in found.elements), reverse=True)
-    assert all(c.us >= 0 for c in found.elements) and sum(
-        found.share(c) for c in found.elements
+    assert [c.us for c in costs.elements] == sorted((c.us for c in costs.elements), reverse=True)
+    assert all(c.us >= 0 for c in costs.elements) and sum(
+        costs.share(c) for c in costs.elements
     ) == pytest.approx(1)
 
 
@@ -112,8 +112,8 @@ def test_the_sum_of_the_parts_is_near_the_time_of_the_step(work: Work) -> None:
     ]
     for k in range(3):
         fields[k] >> Convolve([dd.Gaussian(0.2, 3)]) >> fields[k - 1]
-    found = dd.Session(model).costs(QUICK)
-    assert 0.7 < found.sum / found.step < 1.5
+    costs = dd.Session(model).costs(QUICK)
+    assert 0.7 < costs.sum / costs.step < 1.5
 
 
 def test_a_coupling_without_readers_is_not_computed_and_costs_nothing(work: Work) -> None:
@@ -146,7 +146,7 @@ def test_costs_have_the_present_names_of_elements() -> None:
 
 
 def test_the_table_of_costs_prints_its_numbers() -> None:
-    found = StepCost(
+    costs = StepCost(
         (
             ElementCost("1", "u", "Field", 3.0, 1, False),
             ElementCost("2", "v", "Field", 1.0, 2, False),
@@ -154,14 +154,14 @@ def test_the_table_of_costs_prints_its_numbers() -> None:
         ),
         4.5,
     )
-    assert found.sum == 4 and [found.share(c) for c in found.elements] == [0.75, 0.25, 0]
-    text = str(found).splitlines()
+    assert costs.sum == 4 and [costs.share(c) for c in costs.elements] == [0.75, 0.25, 0]
+    text = str(costs).splitlines()
     assert (
         text[1].split() == ["u", "Field", "3.000", "75.0", "%"]
         and text[3].endswith("once a chunk")
         and "4.500 us" in text[-1]
     )
-    data = found.data()
+    data = costs.data()
     assert data["sum_us"] == 4 and data["step_us"] == 4.5 and data["elements"][1]["share"] == 0.25
     assert StepCost((), 0.0).sum == 0
 

@@ -23,20 +23,20 @@ WORDS: list[tuple[tuple[Any, ...], str, Any]] = [
 ]
 
 
-@pytest.mark.parametrize(("call", "what", "value"), WORDS)
+@pytest.mark.parametrize(("call", "subject", "value"), WORDS)
 def test_a_change_has_the_same_words_in_a_record_and_is_read_again(
-    call: tuple[Any, ...], what: str, value: Any
+    call: tuple[Any, ...], subject: str, value: Any
 ) -> None:
     change = Change(7, call[0], call[1:])
     written = json.loads(json.dumps(to_file(change)))
-    assert written == {"tick": 7, "what": what, "value": value}
+    assert written == {"tick": 7, "what": subject, "value": value}
     assert from_file(written) == change
 
 
-@pytest.mark.parametrize("what", ["document", "dt", "world", "reset", "restore"])
-def test_a_change_that_a_record_does_not_describe_is_refused(what: str) -> None:
-    with pytest.raises(RecordError, match=f"the change of '{what}' at step 3 cannot be repeated"):
-        from_file({"tick": 3, "what": what, "value": None})
+@pytest.mark.parametrize("subject", ["document", "dt", "world", "reset", "restore"])
+def test_a_change_that_a_record_does_not_describe_is_refused(subject: str) -> None:
+    with pytest.raises(RecordError, match=f"the change of '{subject}' at step 3 cannot be repeated"):
+        from_file({"tick": 3, "what": subject, "value": None})
 
 
 def test_an_injected_input_lasts_until_the_tick_to_which_changes_are_cut() -> None:
@@ -47,7 +47,7 @@ def test_an_injected_input_lasts_until_the_tick_to_which_changes_are_cut() -> No
 
 
 def test_the_calls_of_a_journal_repeat_a_session() -> None:
-    first, again = dd.Session(model(), seed=2), dd.Session(model(), seed=2)
+    first, repeated = dd.Session(model(), seed=2), dd.Session(model(), seed=2)
     first.step(3)
     first.set({"u.tau": 20.0, "u.kernel": [dd.Gaussian(2, 3)]})
     first.inject("u", np.linspace(0, 1, 11), 4)
@@ -55,7 +55,7 @@ def test_the_calls_of_a_journal_repeat_a_session() -> None:
     first.step(5)
     first.edit(model().document)
     first.step(2)
-    repeat_changes(again, first.journal, first.tick, lambda done, steps: None)
-    assert again.time == first.time and again.dt == 0.5
-    assert again.read("u").tobytes() == first.read("u").tobytes()
-    assert [(c.tick, c.method) for c in again.journal] == [(c.tick, c.method) for c in first.journal]
+    repeat_changes(repeated, first.journal, first.tick, lambda done, steps: None)
+    assert repeated.time == first.time and repeated.dt == 0.5
+    assert repeated.read("u").tobytes() == first.read("u").tobytes()
+    assert [(c.tick, c.method) for c in repeated.journal] == [(c.tick, c.method) for c in first.journal]

@@ -325,8 +325,8 @@ def test_what_cannot_be_an_environment_is_refused(options: dict[str, Any], messa
 
 
 def test_experiments_that_are_no_environment_are_refused():
-    def experiment(**given: Any) -> dd.Experiment:
-        return dd.Experiment("driving", driving(), dd.TrialPlan(640.0, **given), world=arena())
+    def experiment(**parts: Any) -> dd.Experiment:
+        return dd.Experiment("driving", driving(), dd.TrialPlan(640.0, **parts), world=arena())
 
     with pytest.raises(ParameterError, match="driving: an environment has no actions and no watch"):
         dd.as_env(
