@@ -37,10 +37,10 @@ compiling.
 
 def folder() -> Path | None:
     """Return the folder of compiled programs, or None without a cache."""
-    given = os.environ.get("DEODAR_CACHE", "")
-    if given == "off":
+    setting = os.environ.get("DEODAR_CACHE", "")
+    if setting == "off":
         return None
-    return Path(given) if given else Path(platformdirs.user_cache_dir("deodar")) / "programs"
+    return Path(setting) if setting else Path(platformdirs.user_cache_dir("deodar")) / "programs"
 
 
 def compile(
@@ -58,17 +58,17 @@ def compile(
     program that calls them is read, because tracing it made them known.
     """
     place = folder()
-    given = cast("dict[str, str | bool] | None", options)  # JAX accepts whole numbers, too
+    jax_options = cast("dict[str, str | bool] | None", options)  # JAX accepts whole numbers, too
     if place is None:
         hosts.any_of("the cache of programs", True, hosts.span((device, *others)))
-        return lowered.compile(compiler_options=given), True
+        return lowered.compile(compiler_options=jax_options), True
     path = place / key(lowered, options, device, kernels, others)
-    found = _read(path, lowered, (device, *others))
+    stored = _read(path, lowered, (device, *others))
     # hosts compile together, or not at all: some compilers exchange what they measure
-    missing = hosts.any_of("the cache of programs", found is None, hosts.span((device, *others)))
-    if found is not None and not missing:
-        return found, False
-    compiled = lowered.compile(compiler_options=given)
+    missing = hosts.any_of("the cache of programs", stored is None, hosts.span((device, *others)))
+    if stored is not None and not missing:
+        return stored, False
+    compiled = lowered.compile(compiler_options=jax_options)
     _write(path, compiled)
     return compiled, True
 
@@ -81,7 +81,7 @@ def key(
     others: Sequence[Device] = (),
 ) -> str:
     """Return the file name of a program, equal for equal programs, devices and versions."""
-    about = [
+    parts = [
         jax.__version__,
         jaxlib.version.__version__,
         device.platform,
@@ -90,7 +90,7 @@ def key(
         platform.machine(),
         _processor(),
     ]
-    about += [
+    parts += [
         os.environ.get("XLA_FLAGS", ""),
         os.environ.get("NPROC", ""),
         str(os.cpu_count()),
@@ -99,11 +99,11 @@ def key(
         kernels,
     ]
     if topology := hosts.topology((device, *others)):
-        about.append(repr(topology))
+        parts.append(repr(topology))
     # an argument that is not used is missing in the text of the program, and is checked all the same when it
     # is called
-    about.append(repr(lowered.args_info))
-    text = "\n".join(about) + lowered.as_text()
+    parts.append(repr(lowered.args_info))
+    text = "\n".join(parts) + lowered.as_text()
     return hashlib.sha256(text.encode()).hexdigest()[:40]
 
 

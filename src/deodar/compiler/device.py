@@ -54,13 +54,13 @@ def find(name: str | None = None) -> Device:
     """
     if name is not None and not isinstance(name, str):
         raise DeviceError(f"a device is named by a text such as 'cpu' or 'gpu:0', not {show(name)}")
-    wanted = DEFAULT if name is None else name
-    kind, colon, number = wanted.lower().partition(":")
+    device_name = DEFAULT if name is None else name
+    kind, colon, number = device_name.lower().partition(":")
     devices = _of(kind)
     index = int(number) if number.isdecimal() else -1 if colon else 0
     if not 0 <= index < len(devices):
         raise DeviceError(
-            f"this computer has no device {wanted!r}; valid names: {', '.join(names())}",
+            f"this computer has no device {device_name!r}; valid names: {', '.join(names())}",
             fix="" if _of("gpu") else INSTALL,
         )
     return devices[index]
@@ -76,28 +76,28 @@ def several(count: int | str | None, kind: str | None = None) -> tuple[Device, .
     first = find(kind)
     if count is None:
         return (first,)
-    wanted = DEFAULT if kind is None else kind.lower()
-    if ":" in wanted and count != 1:
+    kind_name = DEFAULT if kind is None else kind.lower()
+    if ":" in kind_name and count != 1:
         raise DeviceError(
             f"{kind!r} names one device, and devices={count!r} asks for several",
-            fix=f"Give the kind: device={wanted.partition(':')[0]!r}",
+            fix=f"Give the kind: device={kind_name.partition(':')[0]!r}",
         )
-    if ":" in wanted:
+    if ":" in kind_name:
         return (first,)
     if hosts.count() > 1:
-        return _everywhere(count, wanted)
-    found = _of(wanted)
+        return _everywhere(count, kind_name)
+    devices = _of(kind_name)
     if isinstance(count, str) and count == ALL:
-        return tuple(found)
+        return tuple(devices)
     count = require_count(count)
-    if count > len(found):
-        more = f"; {HOST_DEVICES}={count} in the environment of Python divides the CPU into {count}"
+    if count > len(devices):
+        advice = f"; {HOST_DEVICES}={count} in the environment of Python divides the CPU into {count}"
         raise DeviceError(
-            f"{count} devices of the kind {wanted} are asked for, and this computer has {len(found)}:"
-            f" {', '.join(map(name, found))}",
-            fix=f"Type devices={len(found)} or devices={ALL!r}{more if wanted == 'cpu' else ''}",
+            f"{count} devices of the kind {kind_name} are asked for, and this computer has {len(devices)}:"
+            f" {', '.join(map(name, devices))}",
+            fix=f"Type devices={len(devices)} or devices={ALL!r}{advice if kind_name == 'cpu' else ''}",
         )
-    return tuple(found[:count])
+    return tuple(devices[:count])
 
 
 def of_all_hosts(count: int | str | None, kind: str | None = None) -> bool:
@@ -109,8 +109,8 @@ def of_all_hosts(count: int | str | None, kind: str | None = None) -> bool:
 
 def _everywhere(count: int | str, kind: str) -> tuple[Device, ...]:
     """Return devices of all hosts, of each the same number."""
-    found = [[d for d in jax.devices(kind) if d.process_index == k] for k in range(hosts.count())]
-    numbers = [len(own) for own in found]
+    by_host = [[d for d in jax.devices(kind) if d.process_index == k] for k in range(hosts.count())]
+    numbers = [len(host_devices) for host_devices in by_host]
     if isinstance(count, str) and count == ALL:
         if len(set(numbers)) > 1:
             listed = ", ".join(f"host {k}: {n}" for k, n in enumerate(numbers))
@@ -118,16 +118,16 @@ def _everywhere(count: int | str, kind: str) -> tuple[Device, ...]:
                 f"the hosts have different numbers of devices of the kind {kind} ({listed})",
                 fix=f"Type devices={min(numbers) * len(numbers)}",
             )
-        each = numbers[0]
+        share = numbers[0]
     else:
-        each, rest = divmod(require_count(count), len(numbers))
-        if rest or each > min(numbers):
+        share, remainder = divmod(require_count(count), len(numbers))
+        if remainder or share > min(numbers):
             raise DeviceError(
                 f"{count} devices of the kind {kind} are asked for on {len(numbers)} hosts, of which each has"
                 f" at least {min(numbers)}",
                 fix=f"Type a multiple of {len(numbers)} up to {min(numbers) * len(numbers)}, or {ALL!r}",
             )
-    return tuple(d for own in found for d in own[:each])
+    return tuple(d for host_devices in by_host for d in host_devices[:share])
 
 
 def require_count(count: object) -> int:
@@ -148,16 +148,16 @@ def name(device: Device) -> str:
 
 def names() -> list[str]:
     """The devices of this machine that JAX can use."""
-    found = {name(d): None for kind in KINDS for d in _of(kind)}
-    return list(found)
+    unique = {name(d): None for kind in KINDS for d in _of(kind)}
+    return list(unique)
 
 
 def cores() -> int:
     """Return the number of cores for programs on the CPU: from the environment, else all that this process
     may use.
     """
-    given = os.environ.get(CORES, "")
-    return int(given) if given.isdecimal() and int(given) > 0 else available()
+    setting = os.environ.get(CORES, "")
+    return int(setting) if setting.isdecimal() and int(setting) > 0 else available()
 
 
 def available() -> int:

@@ -35,11 +35,11 @@ def divided_axis(nodes: Sequence[Node], devices: int) -> Shards:
         {d for a in axes for d in range(2, a.samples // LEAST + 1) if a.samples % d == 0 and d <= 1024}
     )
     sizes = ", ".join(f"{a.name}: {a.samples}" for a in axes)
-    near = ", ".join(map(str, [d for d in fitting if d < devices][-3:])) or "none"
+    fewer = ", ".join(map(str, [d for d in fitting if d < devices][-3:])) or "none"
     raise DeviceError(
         f"no axis can be divided into {devices} equal parts ({sizes})",
         where=largest.path,
-        fix=f"Use a number of samples that is a multiple of {devices}, or fewer devices: {near}",
+        fix=f"Use a number of samples that is a multiple of {devices}, or fewer devices: {fewer}",
     )
 
 

@@ -65,7 +65,7 @@ class Distribution:
 class Division(Protocol):
     """The division of the programs of an executable: where each array is, and how functions are divided."""
 
-    def shardings(self, given: ProgramArguments) -> ProgramArguments:
+    def shardings(self, arguments: ProgramArguments) -> ProgramArguments:
         """Return the sharding of every array of these arguments."""
         ...
 
@@ -90,39 +90,39 @@ class DividedCopies:
         self._mesh = distribution.mesh
         shared, first = PartitionSpec(), PartitionSpec(DEVICES)
         points = first if distribution.along == "points" else shared
-        self._own = first if points is first or batch.points is None else PartitionSpec(None, DEVICES)
+        self._copies = first if points is first or batch.points is None else PartitionSpec(None, DEVICES)
         self._shared, self._points = shared, points
-        self._constants = [points if own else shared for own in rebuilt]
+        self._constants = [points if swept else shared for swept in rebuilt]
 
-    def shardings(self, given: ProgramArguments) -> ProgramArguments:
+    def shardings(self, arguments: ProgramArguments) -> ProgramArguments:
         """Return the sharding of every array of these arguments."""
         return jax.tree.map(
             lambda spec, part: jax.tree.map(lambda _: NamedSharding(self._mesh, spec), part),
-            self._specs(given),
-            given,
+            self._specs(arguments),
+            arguments,
             is_leaf=lambda part: isinstance(part, PartitionSpec),
         )
 
     def divided(self, function: Callable[..., Any]) -> Callable[..., Any]:
         """Return a function of the same arguments that computes the same on all devices together."""
 
-        def whole(*given: Any) -> Any:
-            specs = tuple(self._specs(ProgramArguments(*given)))
+        def whole(*parts: Any) -> Any:
+            specs = tuple(self._specs(ProgramArguments(*parts)))
             # without the check of replication: loops carry arrays that begin as equal zeros everywhere
             return jax.shard_map(
-                function, mesh=self._mesh, in_specs=specs, out_specs=self._own, check_vma=False
-            )(*given)
+                function, mesh=self._mesh, in_specs=specs, out_specs=self._copies, check_vma=False
+            )(*parts)
 
         return whole
 
-    def _specs(self, given: ProgramArguments) -> Any:
+    def _specs(self, arguments: ProgramArguments) -> Any:
         """Return for each part of the arguments how it is divided; a part may be a whole PyTree."""
-        values = {**dict.fromkeys(given.values, self._shared), "swept": self._points}
+        values = {**dict.fromkeys(arguments.values, self._shared), "swept": self._points}
         return ProgramArguments(
             values,  # pyright: ignore[reportArgumentType]  # prefixes of the arguments
             self._constants,  # pyright: ignore[reportArgumentType]
-            self._own,  # pyright: ignore[reportArgumentType]
-            self._own,  # pyright: ignore[reportArgumentType]
+            self._copies,  # pyright: ignore[reportArgumentType]
+            self._copies,  # pyright: ignore[reportArgumentType]
             self._shared,  # pyright: ignore[reportArgumentType]
             self._shared,  # pyright: ignore[reportArgumentType]
             self._shared,  # pyright: ignore[reportArgumentType]

@@ -15,31 +15,31 @@ def driven(doc: Document, path: str) -> list[Leaf]:
     Raises:
         ParameterError: changing the parameter needs another program, or it drives no number.
     """
-    found = find.target(doc, path)
-    if found.entry is None:
-        links = next(k.links for k in doc.parameters if k.name == found.document_parameter)
+    target = find.target(doc, path)
+    if target.entry is None:
+        links = next(k.links for k in doc.parameters if k.name == target.document_parameter)
         if not links:
             raise ParameterError(
                 f"the document parameter {path!r} drives nothing",
                 fix="Link something to it: model.link(path, name)",
             )
         return list(links)
-    get(found.entry.element, found.parameter)
-    known = {leaf: p for leaf, _, p in leaves(found.entry.element) if p.form != "array"}
-    inside = [leaf for leaf in known if leaf == found.parameter or leaf.startswith(found.parameter + ".")]
+    get(target.entry.element, target.parameter)
+    numbers = {leaf: p for leaf, _, p in leaves(target.entry.element) if p.form != "array"}
+    inside = [leaf for leaf in numbers if leaf == target.parameter or leaf.startswith(target.parameter + ".")]
     if not inside:
         raise ParameterError(
             "cannot be swept: changing it makes another program",
             where=path,
-            fix=f"Sweep one of: {', '.join(known)}",
+            fix=f"Sweep one of: {', '.join(numbers)}",
         )
-    return [(found.entry.id, leaf) for leaf in inside]
+    return [(target.entry.id, leaf) for leaf in inside]
 
 
 def array_leaf(doc: Document, path: str) -> Leaf | None:
     """Return the leaf that a parameter is, if it is an array with values; else None."""
-    found = find.target(doc, path)
-    if found.entry is None:
+    target = find.target(doc, path)
+    if target.entry is None:
         return None
-    arrays = {leaf for leaf, _, p in leaves(found.entry.element) if p.form == "array"}
-    return (found.entry.id, found.parameter) if found.parameter in arrays else None
+    arrays = {leaf for leaf, _, p in leaves(target.entry.element) if p.form == "array"}
+    return (target.entry.id, target.parameter) if target.parameter in arrays else None

@@ -167,15 +167,15 @@ class Dynamics:
     def replaced(self, state: ProgramState, arrays: ByPath) -> ProgramState:
         """Return a state with other arrays, by element and name as in `named`."""
         groups = [dict(group) for group in state["groups"]]
-        known = {f"{e.path}.{n}": (e.id, n) for e in self.doc.entries for n in self._arrays_of(e.id, state)}
+        places = {f"{e.path}.{n}": (e.id, n) for e in self.doc.entries for n in self._arrays_of(e.id, state)}
         for path, value in arrays.items():
-            if path not in known:
-                raise UnknownName(f"no state is called {path!r}", fix=did_you_mean(path, known))
-            ident, name = known[path]
+            if path not in places:
+                raise UnknownName(f"no state is called {path!r}", fix=did_you_mean(path, places))
+            ident, name = places[path]
             g, r = self.executable.plan.row[ident]
             groups[g][name] = jnp.asarray(groups[g][name]).at[r].set(value)
-        held = {g: groups[int(g)] for g in state["held"]}
-        return {**state, "groups": groups, "held": {**state["held"], **held}}
+        slow = {g: groups[int(g)] for g in state["held"]}
+        return {**state, "groups": groups, "held": {**state["held"], **slow}}
 
     # ---------------------------------------------------------------------------------------- the functions
 
@@ -216,7 +216,7 @@ class Dynamics:
     def rebuilt(self) -> list[bool]:
         """Whether the constants of each group depend on a parameter."""
         arrays = {self.executable.plan.row[ident][0] for ident, _ in self._arrays.values()}
-        return [own or g in arrays for g, own in enumerate(self.executable.program.rebuilt)]
+        return [swept or g in arrays for g, swept in enumerate(self.executable.program.rebuilt)]
 
     def prepare(
         self, parameters: ByPath | None = None, constants: list[Constants] | None = None
@@ -229,8 +229,8 @@ class Dynamics:
         """
         with self._traced() as program:
             values = self._values(parameters)
-            own = program.prepare_one(values) if constants is None else constants
-            return PreparedStep(values, own, self._chunk(program, values, own, {}))
+            group_constants = program.prepare_one(values) if constants is None else constants
+            return PreparedStep(values, group_constants, self._chunk(program, values, group_constants, {}))
 
     def init(self, parameters: ByPath | None = None, key: TrialKey | None = None) -> ProgramState:
         """Return the state at tick 0.
@@ -239,11 +239,11 @@ class Dynamics:
             parameters: values by path, as for `prepare`.
             key: key of the trial; None: that of seed 0 and trial 0.
         """
-        given = self.key() if key is None else key
+        trial_key = self.key() if key is None else key
         with self._traced() as program:
             state: ProgramState = jax.tree.map(jnp.asarray, program.begin(self._values(parameters)))
-            if given.world is not None:
-                state["world"] = given.world
+            if trial_key.world is not None:
+                state["world"] = trial_key.world
             return state
 
     def step(
@@ -329,8 +329,8 @@ class Dynamics:
     @cached_property
     def _present(self) -> dict[str, np.ndarray]:
         def value(leaves: Sequence[Leaf]) -> Any:
-            found = self._value(leaves[0]) if leaves else 0.0
-            return found.data if isinstance(found, FrozenArray) else found
+            parameter = self._value(leaves[0]) if leaves else 0.0
+            return parameter.data if isinstance(parameter, FrozenArray) else parameter
 
         return {name: np.asarray(value(leaves), self.precision) for name, leaves in self.drives.items()}
 
@@ -340,30 +340,30 @@ class Dynamics:
 
     def _values(self, parameters: ByPath | None) -> ProgramValues:
         """Return the parameters of the program."""
-        given, known = {} if parameters is None else parameters, self._present
-        for name in given:
-            if name not in known:
+        replaced, present = {} if parameters is None else parameters, self._present
+        for name in replaced:
+            if name not in present:
                 raise UnknownName(
                     f"{name!r} is no parameter of these dynamics",
-                    fix=did_you_mean(name, known) if known else "Name it: dd.dynamics(model, [path])",
+                    fix=did_you_mean(name, present) if present else "Name it: dd.dynamics(model, [path])",
                 )
         dtype = self.executable.program.dtype
-        own = {
-            name: jnp.asarray(value if (new := given.get(name)) is None else new, dtype)
-            for name, value in known.items()
+        arguments = {
+            name: jnp.asarray(value if (new := replaced.get(name)) is None else new, dtype)
+            for name, value in present.items()
         }
-        for name, value in own.items():
-            if value.shape != known[name].shape:
+        for name, value in arguments.items():
+            if value.shape != present[name].shape:
                 raise ParameterError(
-                    f"has the shape {list(value.shape)}; expected {list(known[name].shape)}", where=name
+                    f"has the shape {list(value.shape)}; expected {list(present[name].shape)}", where=name
                 )
-        swept: list[Any] = [own[name] for name in self._numbers]
+        swept: list[Any] = [arguments[name] for name in self._numbers]
         # the digits that rounding takes from a number, which a given one does not have
         swept += [jnp.zeros((), dtype)] * (len(self.executable.layout.swept) - len(swept))
         arrays = dict(self._base["arrays"])
         for name, (ident, path) in self._arrays.items():
             g, r = self.executable.plan.row[ident]
-            arrays[array_key(g, path)] = jnp.asarray(arrays[array_key(g, path)]).at[r].set(own[name])
+            arrays[array_key(g, path)] = jnp.asarray(arrays[array_key(g, path)]).at[r].set(arguments[name])
             if (low := array_key(g, path + LOW)) in arrays:
                 arrays[low] = jnp.asarray(arrays[low]).at[r].set(0)
         return {"vector": jnp.asarray(self._base["vector"]), "arrays": arrays, "swept": tuple(swept)}
@@ -375,8 +375,8 @@ class Dynamics:
             lasts = self.body.world.period
             unit = unit_seconds(self.doc.time_unit) * 1e3
             period = 0 if lasts is None else round(lasts / unit / self.dt)
-        now = {"period": period, "start": self.doc.t0, "dt": self.dt}
-        return packed(now, np.dtype(self.precision))
+        clock = {"period": period, "start": self.doc.t0, "dt": self.dt}
+        return packed(clock, np.dtype(self.precision))
 
     def _chunk(
         self, program: Program, values: ProgramValues, constants: list[Constants], readings: Arrays

@@ -124,10 +124,10 @@ class ProgramRequest:
         outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
         part = self.batch if distribution is None else distribution.part(self.batch)
         devices_of = len(distribution.devices) if distribution and distribution.along == "field" else 1
-        about = (doc, lifted, part.planned, self.body is not None, devices_of)
+        choices = (doc, lifted, part.planned, self.body is not None, devices_of)
         return (
             signature(doc),
-            () if self.exact else tuple(strategies_of(*about).items()),
+            () if self.exact else tuple(strategies_of(*choices).items()),
             outside,
             self.precision,
             self.exact,
@@ -211,7 +211,7 @@ class Executable:
         self.traced = 0
         self.compiled = 0
         self.seconds = 0.0
-        self._known: dict[Hashable, Any] = {}
+        self._compiled_parts: dict[Hashable, Any] = {}
         values: ProgramValues = self.values(doc)
         self._example: ProgramArguments | None = None
         self._prepare, constants = self.once(self.program.prepare, values)
@@ -232,8 +232,8 @@ class Executable:
             shared, state, keys = self.embodied(self.body.world, state, keys)
             values = {**values, "world": shared}
         sensed = {**self.blind(), **self.program.unseen()}
-        now = packed({"period": 1}, self.program.dtype)
-        example = ProgramArguments(values, constants, state, keys, sensed, *now)
+        clock = packed({"period": 1}, self.program.dtype)
+        example = ProgramArguments(values, constants, state, keys, sensed, *clock)
         if self.division is None:
             return jax.tree.map(_form, example)
         return jax.tree.map(_form, example, self.division.shardings(example))
@@ -262,18 +262,18 @@ class Executable:
         """
         body = self.body
         assert body is not None and isinstance(world, PureWorld)
-        shared, own, now = world.parts()
+        shared, world_copies, now = world.parts()
         joined = world.call(
             body.reads,
             lambda of: jax.vmap(dc.replace(body, world=of).begin, in_axes=(None, 0, 0)),
             shared,
-            own,
+            world_copies,
             now,
         )
         return (
             shared,
             {**state, "world": batched(joined, self.batch.shape)},
-            {**keys, "world": batched(own, self.batch.shape)},
+            {**keys, "world": batched(world_copies, self.batch.shape)},
         )
 
     def init(self, values: ProgramValues, seed: int, trials: TrialNumbers) -> tuple[ProgramState, NoiseKeys]:
@@ -286,9 +286,9 @@ class Executable:
         if self.division is None or self._example is None:
             return tree
         forms: PyTree = getattr(self._example, part)
-        own = {key: forms[key] for key in tree} if isinstance(tree, dict) else forms
+        forms_of_tree = {key: forms[key] for key in tree} if isinstance(tree, dict) else forms
         with precision_context(self.precision):
-            return jax.tree.map(lambda a, form: hosts.placed(a, form.sharding), tree, own)
+            return jax.tree.map(lambda a, form: hosts.placed(a, form.sharding), tree, forms_of_tree)
 
     def chunk(self, ports: Sequence[Port], most: int | None = None) -> tuple[Compiled, int]:
         """Return the executable that steps and records, and the capacity of its buffer in records.
@@ -296,18 +296,18 @@ class Executable:
         `most` bounds the capacity: a chunk of few steps should not fill a large buffer.
         """
         key = ("chunk", tuple(ports), most)
-        if key not in self._known:
+        if key not in self._compiled_parts:
             capacity = min(self.capacity(ports), most or 2**31)
             chunk = self._divided(lambda *a: self._chunk(ports, capacity, ProgramArguments(*a)))
-            self._known[key] = (chunk, capacity)
-        return self._known[key]
+            self._compiled_parts[key] = (chunk, capacity)
+        return self._compiled_parts[key]
 
     def reader(self, ports: Sequence[Port]) -> Compiled:
         """Return the executable that reads ports of a state."""
         key = ("read", tuple(ports))
-        if key not in self._known:
-            self._known[key] = self.new_reader(ports)
-        return self._known[key]
+        if key not in self._compiled_parts:
+            self._compiled_parts[key] = self.new_reader(ports)
+        return self._compiled_parts[key]
 
     def new_reader(self, ports: Sequence[Port]) -> Compiled:
         """The same, for a caller that keeps it itself."""
@@ -323,20 +323,20 @@ class Executable:
         self, values: ProgramValues, constants: list[Constants], sensed: Mapping[str, EitherArray]
     ) -> Arrays:
         """Return what follows from pictures among the readings, as a further part of them."""
-        if not self.program.pictured:
+        if not self.program.picture_calls:
             return {}
-        if "look" not in self._known:
+        if "look" not in self._compiled_parts:
             assert self._example is not None
-            given = self._example
-            readings = {ident: given.sensed[ident] for ident in self.program.pictures}
-            self._known["look"] = self.compile(
-                lambda values, *rest: self.program.look(_unswept(values), *rest),
-                given.values,
-                given.constants,
+            example = self._example
+            readings = {ident: example.sensed[ident] for ident in self.program.pictures}
+            self._compiled_parts["look"] = self.compile(
+                lambda values, *others: self.program.look(_unswept(values), *others),
+                example.values,
+                example.constants,
                 readings,
             )[0]
         readings = {ident: sensed[ident] for ident in self.program.pictures}
-        return self.call(self._known["look"], values, constants, readings)
+        return self.call(self._compiled_parts["look"], values, constants, readings)
 
     def call(self, executable: Callable[..., Any] | Compiled, *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""
@@ -353,8 +353,8 @@ class Executable:
 
     def axes(self, port: Port) -> Axes:
         """Return the axes of a port."""
-        like = self.plan.groups[port.group].like
-        return like.outs[port.name] if port.name in like.outs else like.ins[port.name]
+        node = self.plan.groups[port.group].like
+        return node.outs[port.name] if port.name in node.outs else node.ins[port.name]
 
     def capacity(self, ports: Sequence[Port]) -> int:
         """Return the number of records that fit into the buffer of one chunk."""
@@ -364,46 +364,46 @@ class Executable:
     # ------------------------------------------------------------------------------------------------- traced
 
     def _start(self, values: ProgramValues, seed: Array, trials: Array) -> tuple[ProgramState, NoiseKeys]:
-        one = self.program.init
+        of_trial = self.program.init
         if self.batch.trials is not None:
-            many = jax.vmap(one, in_axes=(None, None, 0))
+            many = jax.vmap(of_trial, in_axes=(None, None, 0))
         else:
 
             def many(values: ProgramValues, seed: Array, trial: Array) -> tuple[ProgramState, NoiseKeys]:
-                return one(values, seed, trial[0])
+                return of_trial(values, seed, trial[0])
 
         if self.batch.points is None:
             state, keys = many(_unswept(values), seed, trials)
         else:
-            own = 0 if self.batch.own_noise else None
-            each = jax.vmap(many, in_axes=(self._swept_axes(values), None, own))
-            state, keys = each(values, seed, trials)
+            seed_axis = 0 if self.batch.own_noise else None
+            of_points = jax.vmap(many, in_axes=(self._swept_axes(values), None, seed_axis))
+            state, keys = of_points(values, seed, trials)
         if self.batch.restarts:
             keys = {**keys, BEGUN: jnp.zeros(self.batch.shape, jnp.uint32)}
         return state, keys
 
-    def _chunk(self, ports: Sequence[Port], capacity: int, given: ProgramArguments) -> ChunkResult:
-        clock = unpacked(given.whole, given.real)
+    def _chunk(self, ports: Sequence[Port], capacity: int, arguments: ProgramArguments) -> ChunkResult:
+        clock = unpacked(arguments.whole, arguments.real)
 
-        def one(
+        def one_copy(
             values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
         ) -> ChunkResult:
             return self._run(
-                ports, capacity, self._begin(values, constants, keys, given.sensed, clock), state
+                ports, capacity, self._begin(values, constants, keys, arguments.sensed, clock), state
             )
 
-        return self._batched(one, given)
+        return self._batched(one_copy, arguments)
 
-    def _read(self, ports: Sequence[Port], given: ProgramArguments) -> tuple[Array, ...]:
-        clock = unpacked(given.whole, given.real)
+    def _read(self, ports: Sequence[Port], arguments: ProgramArguments) -> tuple[Array, ...]:
+        clock = unpacked(arguments.whole, arguments.real)
 
-        def one(
+        def one_copy(
             values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
         ) -> tuple[Array, ...]:
-            chunk = self._begin(values, constants, keys, given.sensed, clock)
+            chunk = self._begin(values, constants, keys, arguments.sensed, clock)
             return self.program.observe(ports, chunk, state, clock["tick"])
 
-        return self._batched(one, given)
+        return self._batched(one_copy, arguments)
 
     def _begin(
         self,
@@ -420,17 +420,17 @@ class Executable:
         still = self.program.steady(values, constants, sensed)
         return Chunk(values, constants, keys, sensed, clock, still)
 
-    def _batched(self, one: OneCopy[Result], given: ProgramArguments) -> Result:
-        values, constants, state, keys = given[:4]
+    def _batched(self, of_copy: OneCopy[Result], arguments: ProgramArguments) -> Result:
+        values, constants, state, keys = arguments[:4]
         if self.part.trials == 1:
-            one = _alone(one)
+            of_copy = _alone(of_copy)
         elif self.part.trials is not None:
             # also for models without state and noise
-            one = jax.vmap(one, in_axes=(None, None, 0, 0), axis_size=self.part.trials)
+            of_copy = jax.vmap(of_copy, in_axes=(None, None, 0, 0), axis_size=self.part.trials)
         if self.batch.points is None:
-            return one(_unswept(values), constants, state, keys)
+            return of_copy(_unswept(values), constants, state, keys)
         rebuilt = [0 if swept else None for swept in self.program.rebuilt]
-        return jax.vmap(one, in_axes=(self._swept_axes(values), rebuilt, 0, 0))(
+        return jax.vmap(of_copy, in_axes=(self._swept_axes(values), rebuilt, 0, 0))(
             values, constants, state, keys
         )
 
@@ -459,12 +459,12 @@ class Executable:
                 return self.fields.constrained(rows)
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
-        def steps(n: Array, given: Stepped) -> Stepped:
+        def steps(n: Array, start: Stepped) -> Stepped:
             # the tick is the only counter: XLA runs more than eight operations by a scheduler, which takes
             # 0.3 us of a step
-            end = given[0] + n.astype(jnp.uint32)
+            end = start[0] + n.astype(jnp.uint32)
 
-            def one(carry: Stepped) -> Stepped:
+            def one_step(carry: Stepped) -> Stepped:
                 tick, state, drawn, perceived = carry
                 drawn = program.draw(chunk.keys, tick, clock["tick"], drawn)
                 now = full(state)
@@ -485,7 +485,7 @@ class Executable:
                 assert "world" in state
                 world = state["world"]
 
-                def one(carry: Inner) -> Inner:
+                def inner_step(carry: Inner) -> Inner:
                     tick, groups, held, commands, drawn = carry
                     drawn = program.draw(chunk.keys, tick, clock["tick"], drawn)
                     now = full({"groups": groups, "held": held, "world": {**world, "commands": commands}})
@@ -494,12 +494,14 @@ class Executable:
                     return tick + jnp.uint32(1), new["groups"], new["held"], new["world"]["commands"], drawn
 
                 begun = tick, state["groups"], state["held"], world["commands"], drawn
-                tick, groups, held, commands, drawn = lax.while_loop(lambda c: c[0] != stop, one, begun)
+                tick, groups, held, commands, drawn = lax.while_loop(
+                    lambda c: c[0] != stop, inner_step, begun
+                )
                 now = full({"groups": groups, "held": held, "world": {**world, "commands": commands}})
                 return tick, flat(program.advance(chunk, now, tick)), drawn, perceived
 
             nested = program.body is not None and program.body.holds
-            return lax.while_loop(lambda carry: carry[0] != end, period if nested else one, given)
+            return lax.while_loop(lambda carry: carry[0] != end, period if nested else one_step, start)
 
         begun = clock["tick"], flat(state), program.undrawn(), program.unperceived()
         if not ports:
@@ -588,8 +590,8 @@ class Executable:
         function, tree = traced.jaxpr, jax.tree.structure(traced.out_info)
 
         def evaluate(*args: Any) -> Any:
-            found = jax.tree.unflatten(tree, host.evaluate(function, jax.tree.leaves(args)))
-            return found if self.division is not None else jax.device_put(found, self.device)
+            results = jax.tree.unflatten(tree, host.evaluate(function, jax.tree.leaves(args)))
+            return results if self.division is not None else jax.device_put(results, self.device)
 
         return evaluate
 
@@ -618,13 +620,13 @@ def _form(a: Array, sharding: Sharding | None = None) -> jax.ShapeDtypeStruct:
     return jax.ShapeDtypeStruct(a.shape, a.dtype, sharding=sharding)
 
 
-def _alone(one: OneCopy[Result]) -> OneCopy[Result]:
+def _alone(of_copy: OneCopy[Result]) -> OneCopy[Result]:
     """The function of one trial as that of a batch of one: it has the bits of a single run."""
 
     def single(
         values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
     ) -> Result:
-        out = one(values, constants, *jax.tree.map(lambda a: a[0], (state, keys)))
+        out = of_copy(values, constants, *jax.tree.map(lambda a: a[0], (state, keys)))
         return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
 
     return single
@@ -657,17 +659,17 @@ def executable(
     exact = accuracy == "exact" or precision == "float64"
     require_trust(model, doc)
     request = ProgramRequest(doc, precision, batch, place, exact, body, distribution, plain)
-    found = model.programs.get(request.key)
-    if found is None:
+    program = model.programs.get(request.key)
+    if program is None:
         if doc is model.document:
             model.require()
-        elif found := problems(doc):
-            raise ModelError(found)
+        elif faults := problems(doc):
+            raise ModelError(faults)
         while len(model.programs) >= MOST_KEPT:
             model.programs.pop(next(iter(model.programs)), None)  # another thread may have dropped it
-        found = _shared(request) if _bytes(doc) <= SHARED_BYTES else Executable(request)
-        model.programs[request.key] = found
-    return found
+        program = _shared(request) if _bytes(doc) <= SHARED_BYTES else Executable(request)
+        model.programs[request.key] = program
+    return program
 
 
 @functools.lru_cache(maxsize=48)

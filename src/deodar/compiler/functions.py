@@ -97,10 +97,12 @@ class Functions:
 
     def hoist(self, element: Element, at: Setting, constants: Constants) -> Constants:
         """Return values that are constant during a chunk although they depend on live parameters."""
-        own = element.hoist(at, constants.own)
+        hoisted = element.hoist(at, constants.own)
         if not self.convolves:
-            return Constants((), own)
-        return Constants(interaction.mix(element.kernels(), self.axes, constants.kernels, self.apart), own)
+            return Constants((), hoisted)
+        return Constants(
+            interaction.mix(element.kernels(), self.axes, constants.kernels, self.apart), hoisted
+        )
 
     def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         """Every output port at time t."""

@@ -27,35 +27,35 @@ def supports(jaxpr: Jaxpr) -> bool:
 def evaluate(function: ClosedJaxpr, arguments: Sequence[Any]) -> list[np.ndarray]:
     """Return the results of a function that `supports` accepts, for flat arguments."""
     with np.errstate(all="ignore"):
-        results = _run(function, arguments)
+        outputs = _run(function, arguments)
     return [
         np.asarray(value, _dtype(variable))
-        for value, variable in zip(results, function.jaxpr.outvars, strict=True)
+        for value, variable in zip(outputs, function.jaxpr.outvars, strict=True)
     ]
 
 
 def _run(function: ClosedJaxpr, arguments: Sequence[Any]) -> list[Any]:
-    jaxpr, known = function.jaxpr, dict[Var, Any]()
+    jaxpr, values = function.jaxpr, dict[Var, Any]()
     last = _last_uses(jaxpr)
 
     def value(atom: Var | Literal) -> Any:
-        return np.asarray(atom.val, _dtype(atom)) if isinstance(atom, Literal) else known[atom]
+        return np.asarray(atom.val, _dtype(atom)) if isinstance(atom, Literal) else values[atom]
 
-    given = [*function.consts, *arguments]
-    for variable, argument in zip([*jaxpr.constvars, *jaxpr.invars], given, strict=True):
-        known[variable] = np.asarray(argument, _dtype(variable))
+    inputs = [*function.consts, *arguments]
+    for variable, argument in zip([*jaxpr.constvars, *jaxpr.invars], inputs, strict=True):
+        values[variable] = np.asarray(argument, _dtype(variable))
     for number, equation in enumerate(jaxpr.eqns):
         operands = [value(atom) for atom in equation.invars]
         if (inner := _inner(equation)) is not None:
-            results = _run(inner, operands)
+            outputs = _run(inner, operands)
         else:
             rule = _rule(equation)
             assert rule is not None, equation.primitive.name
-            results = [rule(equation.params, *operands)]
-        for variable, result in zip(equation.outvars, results, strict=True):
-            known[variable] = np.asarray(result, _dtype(variable))
+            outputs = [rule(equation.params, *operands)]
+        for variable, output in zip(equation.outvars, outputs, strict=True):
+            values[variable] = np.asarray(output, _dtype(variable))
         for variable in last.get(number, ()):  # large intermediate arrays end where they were needed last
-            known.pop(variable, None)
+            values.pop(variable, None)
     return [value(atom) for atom in jaxpr.outvars]
 
 
@@ -67,9 +67,9 @@ def _last_uses(jaxpr: Jaxpr) -> dict[int, list[Var]]:
             if not isinstance(atom, Literal):
                 last[atom] = number
     out: dict[int, list[Var]] = {}
-    kept = {atom for atom in jaxpr.outvars if not isinstance(atom, Literal)}
+    returned = {atom for atom in jaxpr.outvars if not isinstance(atom, Literal)}
     for variable, number in last.items():
-        if variable not in kept:
+        if variable not in returned:
             out.setdefault(number, []).append(variable)
     return out
 
@@ -136,29 +136,33 @@ def _fourier(params: Mapping[str, Any], x: np.ndarray) -> np.ndarray:
 
 def _gathered(params: Mapping[str, Any], x: np.ndarray, indices: np.ndarray) -> np.ndarray:
     """Take one slice of `x` for each vector of `indices`, whose last axis is that of the vectors."""
-    about, sizes = params["dimension_numbers"], params["slice_sizes"]
+    dimensions, sizes = params["dimension_numbers"], params["slice_sizes"]
     lead, inside = indices.shape[:-1], np.ones(indices.shape[:-1], bool)
-    starts = {d: indices[..., k].astype(np.int64) for k, d in enumerate(about.start_index_map)}
-    for d, k in zip(about.operand_batching_dims, about.start_indices_batching_dims, strict=True):
+    starts = {d: indices[..., k].astype(np.int64) for k, d in enumerate(dimensions.start_index_map)}
+    for d, k in zip(dimensions.operand_batching_dims, dimensions.start_indices_batching_dims, strict=True):
         starts[d] = np.arange(lead[k]).reshape([-1 if i == k else 1 for i in range(len(lead))])
-    dropped = {*about.collapsed_slice_dims, *about.operand_batching_dims}
-    kept = [d for d in range(x.ndim) if d not in dropped]
+    dropped = {*dimensions.collapsed_slice_dims, *dimensions.operand_batching_dims}
+    window = [d for d in range(x.ndim) if d not in dropped]
     places: list[Any] = []
     for d, size in enumerate(sizes):
         start, most = starts.get(d, np.zeros((), np.int64)), x.shape[d] - size
         inside = inside & (start >= 0) & (start <= most)
-        start = np.broadcast_to(np.clip(start, 0, most), lead).reshape(*lead, *[1] * len(kept))
-        along = np.arange(size).reshape([size if d == other else 1 for other in kept])
+        start = np.broadcast_to(np.clip(start, 0, most), lead).reshape(*lead, *[1] * len(window))
+        along = np.arange(size).reshape([size if d == axis else 1 for axis in window])
         places.append(start + along)
-    found = x[tuple(np.broadcast_arrays(*places))]
+    picked = x[tuple(np.broadcast_arrays(*places))]
     if params["mode"].name == "FILL_OR_DROP":
         outside = params["fill_value"] if params["fill_value"] is not None else np.nan
-        found = (
-            np.where(inside.reshape(*lead, *[1] * len(kept)), found, outside) if not inside.all() else found
+        picked = (
+            np.where(inside.reshape(*lead, *[1] * len(window)), picked, outside)
+            if not inside.all()
+            else picked
         )
-    slices = iter(range(len(lead), found.ndim))
+    slices = iter(range(len(lead), picked.ndim))
     others = iter(range(len(lead)))
-    return found.transpose([next(slices if k in about.offset_dims else others) for k in range(found.ndim)])
+    return picked.transpose(
+        [next(slices if k in dimensions.offset_dims else others) for k in range(picked.ndim)]
+    )
 
 
 def _product(params: Mapping[str, Any], a: np.ndarray, b: np.ndarray) -> np.ndarray:

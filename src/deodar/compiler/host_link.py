@@ -110,46 +110,47 @@ class HostLinks:
 
     # ---------------------------------------------------------------------------------------------- exchanges
 
-    def exchange(self, what: str, said: Any) -> list[Any]:
-        """Return what every host says about `what` (plain data), in order of the hosts.
+    def exchange(self, subject: str, words: Any) -> list[Any]:
+        """Return what every host says about `subject` (plain data), in order of the hosts.
 
         Raises:
             HostsError: one does not answer, is somewhere else in its script, or has ended its run.
         """
         self._number += 1
-        own: HostMessage = {"n": self._number, "what": what, "said": said}
+        message: HostMessage = {"n": self._number, "what": subject, "said": words}
         try:
             if self.index:
-                self._send(0, own)
-                found = self._answer(what)
+                self._send(0, message)
+                messages = self._answer(subject)
             else:
-                found = [own, *self._answers(what)]
-                self._send_all({"n": self._number, "all": found})
+                messages = [message, *self._answers(subject)]
+                self._send_all({"n": self._number, "all": messages})
         except HostsError:
             self.failed = True
             raise
-        for k, one in enumerate(found):
-            if "left" in one:
+        for k, answer in enumerate(messages):
+            if "left" in answer:
                 self.failed = True
                 raise HostsError(
-                    f"host {k} has ended the run: {one['left']}", fix="The output of that host has the cause"
+                    f"host {k} has ended the run: {answer['left']}",
+                    fix="The output of that host has the cause",
                 )
-            if one["what"] != what:
+            if answer["what"] != subject:
                 self.failed = True
                 raise HostsError(
-                    f"host {k} is at {one['what']!r} of its script, host {self.index} at {what!r}",
+                    f"host {k} is at {answer['what']!r} of its script, host {self.index} at {subject!r}",
                     fix="Run the same script with the same arguments on all hosts",
                 )
-        return [one["said"] for one in found]
+        return [answer["said"] for answer in messages]
 
     def leave(self, reason: str) -> None:
         """Tell the others, at their next exchange, that the run has ended here."""
         self._number += 1
-        left: HostMessage = {"n": self._number, "left": reason}
+        message: HostMessage = {"n": self._number, "left": reason}
         if self.index:
-            self._send(0, left)
+            self._send(0, message)
         else:
-            self._send_all({"n": self._number, "all": [left]})
+            self._send_all({"n": self._number, "all": [message]})
 
     def lost_soon(self) -> None:
         """Wait a moment for the message that a host has ended, after an error of a program."""
@@ -157,31 +158,31 @@ class HostLinks:
         while not self.lost and time.monotonic() < until:
             time.sleep(0.01)
 
-    def _answers(self, what: str) -> list[HostMessage]:
+    def _answers(self, subject: str) -> list[HostMessage]:
         """Return on the first host what the others say."""
         until = time.monotonic() + self.timeout
         heard = {k: self._hear(k, until) for k in range(1, self.count)}
-        late = [k for k, one in heard.items() if one is None]
+        late = [k for k, message in heard.items() if message is None]
         if late:
             self._send_all({"n": self._number, "late": late})
-            raise self._late(late, what)
-        return [one for one in heard.values() if one is not None]
+            raise self._late(late, subject)
+        return [message for message in heard.values() if message is not None]
 
-    def _answer(self, what: str) -> list[HostMessage]:
+    def _answer(self, subject: str) -> list[HostMessage]:
         """Return on another host what all say, as the first one answers."""
         # longer than the first host waits, so that it is the one that says which host is late
-        found = self._hear(0, time.monotonic() + self.timeout + GRACE)
-        if found is None:
-            raise self._late([0], what)
-        if "late" in found:
-            raise self._late(found["late"], what)
-        return found["all"]
+        answer = self._hear(0, time.monotonic() + self.timeout + GRACE)
+        if answer is None:
+            raise self._late([0], subject)
+        if "late" in answer:
+            raise self._late(answer["late"], subject)
+        return answer["all"]
 
-    def _late(self, late: Sequence[int], what: str) -> HostsError:
+    def _late(self, late: Sequence[int], subject: str) -> HostsError:
         named, verb = ", ".join(map(str, late)), "has" if len(late) == 1 else "have"
         return HostsError(
             f"{'host' if len(late) == 1 else 'the hosts'} {named} {verb} not answered for {self.timeout:g} s",
-            where=what,
+            where=subject,
             fix="Its script may do something else; or give join_hosts a longer timeout",
         )
 
@@ -193,14 +194,14 @@ class HostLinks:
         """
         while True:
             try:
-                found = self._inbox[k].get(timeout=max(0.0, until - time.monotonic()))
+                message = self._inbox[k].get(timeout=max(0.0, until - time.monotonic()))
             except queue.Empty:
                 return None
-            if found is None:
+            if message is None:
                 self._inbox[k].put(None)  # also for the next one who asks
                 raise HostsError(lost_hosts(self.lost) or f"host {k} has ended", fix=CAUSE)
-            if found["n"] >= self._number:  # else it belongs to a run that has ended here
-                return found
+            if message["n"] >= self._number:  # else it belongs to a run that has ended here
+                return message
 
     def _send(self, k: int, message: HostMessage) -> None:
         with contextlib.suppress(OSError), self._sending:  # its reader finds that it has ended
@@ -215,13 +216,13 @@ class HostLinks:
     def _read(self, k: int) -> None:
         with contextlib.suppress(OSError, ValueError), self._links[k].makefile("r", encoding="utf-8") as file:
             for line in file:
-                found = codec.parse(line)
-                assert isinstance(found, dict)
+                message = codec.parse(line)
+                assert isinstance(message, dict)
                 self._heard[k] = time.monotonic()
-                if "lost" in found:
-                    self._lose(int(str(found["lost"])))
-                elif "n" in found:
-                    self._inbox[k].put(found)
+                if "lost" in message:
+                    self._lose(int(str(message["lost"])))
+                elif "n" in message:
+                    self._inbox[k].put(message)
         self._lose(k)
 
     def _live(self) -> None:
@@ -268,21 +269,21 @@ def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLink
         place = host.strip("[]"), int(port)
         link, answer = _call(place, hello, until, timeout)
         links = {0: link}
-        found = int(_said(answer, "port", link))
-        reason = _unreached((place[0], found))
+        jax_port = int(_word(answer, "port", link))
+        reason = _unreached((place[0], jax_port))
         _tell([link], {"reached": not reason, "reason": reason})
         # longer than the first host waits, so that it is the one that says which host has ended
-        _said(_next_words(link, 3 * REACH), "start", link)
+        _word(_next_words(link, 3 * REACH), "start", link)
     else:
         links = _welcome(int(port), count, hello, until, timeout)
-        found = _probed(links)
+        jax_port = _probed(links)
     for link in links.values():
         link.settimeout(None)
         link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    return HostLinks(links, index, count, timeout), found
+    return HostLinks(links, index, count, timeout), jax_port
 
 
-def _said(answer: HostMessage, name: str, link: socket.socket) -> Any:
+def _word(answer: HostMessage, name: str, link: socket.socket) -> Any:
     """Return what the first host says by this name.
 
     Raises:
@@ -303,8 +304,8 @@ def _probed(links: dict[int, socket.socket]) -> int:
         HostsError: one of them cannot reach it, or has ended.
     """
     with _opened(0, len(links)) as server:
-        found = int(server.getsockname()[1])
-        _tell(links.values(), {"port": found})
+        free_port = int(server.getsockname()[1])
+        _tell(links.values(), {"port": free_port})
         until = time.monotonic() + 2 * REACH
         # all are read: closing a link with words that are not read would also lose those that are sent
         answers = {k: _next_words(link, max(RETRY, until - time.monotonic())) for k, link in links.items()}
@@ -312,12 +313,12 @@ def _probed(links: dict[int, socket.socket]) -> int:
         if not answer.get("reached"):
             text, fix = f"host {k} has ended, or does not answer", CAUSE
             if reason := answer.get("reason"):
-                text, fix = f"host {k} cannot reach port {found} of host 0 ({reason})", FIREWALL
+                text, fix = f"host {k} cannot reach port {free_port} of host 0 ({reason})", FIREWALL
             _refuse(links.values(), text, fix)
             raise HostsError(text, fix=fix)
     # JAX opens the port again at once
     _tell(links.values(), {"start": True})
-    return found
+    return free_port
 
 
 def _unreached(place: tuple[str, int]) -> str:
@@ -340,9 +341,9 @@ def _next_words(link: socket.socket, seconds: float) -> HostMessage:
 
 def _opened(port: int, backlog: int) -> socket.socket:
     """Return a socket that listens at a port; 0: at one that is free."""
-    both = socket.has_dualstack_ipv6()
-    family = socket.AF_INET6 if both else socket.AF_INET
-    return socket.create_server(("", port), family=family, backlog=backlog, dualstack_ipv6=both)
+    dual = socket.has_dualstack_ipv6()
+    family = socket.AF_INET6 if dual else socket.AF_INET
+    return socket.create_server(("", port), family=family, backlog=backlog, dualstack_ipv6=dual)
 
 
 def _versions() -> dict[str, str]:
@@ -391,18 +392,18 @@ def _welcome(
             server.settimeout(max(0.01, until - time.monotonic()))
             with contextlib.suppress(TimeoutError):
                 link, _ = server.accept()
-                found = _next_words(link, HELLO_SECONDS)
+                greeting = _next_words(link, HELLO_SECONDS)
                 _drop_ended(links)
-                if not found:  # no host, or one that calls again
+                if not greeting:  # no host, or one that calls again
                     link.close()
                     continue
-                k = found.get("host")
+                k = greeting.get("host")
                 if not isinstance(k, int) or not 0 < k < count or k in links:
                     _refuse([link], f"host {show(k)} is not one of {count}, or has come already", ALIKE)
                     continue
                 links[k] = link
-                if found.get("about") != hello["about"]:
-                    text = f"host {k} differs from host 0: {found.get('about')} and {hello['about']}"
+                if greeting.get("about") != hello["about"]:
+                    text = f"host {k} differs from host 0: {greeting.get('about')} and {hello['about']}"
                     _refuse(links.values(), text, ALIKE)
                     raise HostsError(text, fix=ALIKE)
             if len(links) == count - 1:
@@ -448,12 +449,12 @@ def _line(link: socket.socket) -> HostMessage:
     text = b""
     while not text.endswith(b"\n") and len(text) < 2**16:
         # byte by byte: what follows belongs to the reader
-        one = link.recv(1)
-        if not one:
+        byte = link.recv(1)
+        if not byte:
             return {}
-        text += one
+        text += byte
     try:
-        found = codec.parse(text.decode())
+        message = codec.parse(text.decode())
     except ValueError:
         return {}
-    return found if isinstance(found, dict) else {}
+    return message if isinstance(message, dict) else {}

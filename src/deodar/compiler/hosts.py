@@ -73,11 +73,11 @@ def join_hosts(
             "JAX has started, and cannot use the devices of other hosts any more",
             fix="Call dd.join_hosts(...) before the first run",
         )
-    given = _found(timeout) if address == AUTO else (address, count or 1, index or 0, None)
-    place, number, own, local = given
+    place_of_host = _of_environment(timeout) if address == AUTO else (address, count or 1, index or 0, None)
+    place, number, index_here, local = place_of_host
     if number < 2:
         return
-    links, port = meet(place, number, own, timeout)
+    links, port = meet(place, number, index_here, timeout)
     links.begin()
     try:
         _start_jax(links, f"{place.rpartition(':')[0]}:{port}", local)
@@ -145,18 +145,18 @@ def _no_words_of_gloo() -> Generator[None]:
         os.close(before)
 
 
-def _found(timeout: float) -> tuple[str, int, int, Any]:
+def _of_environment(timeout: float) -> tuple[str, int, int, Any]:
     """Return address, count, index and own devices as the environment states them."""
     clusters: Any = sys.modules["jax._src.clusters"]  # JAX has no public function for this
-    found = clusters.ClusterEnv.auto_detect_unset_distributed_params(
+    parameters = clusters.ClusterEnv.auto_detect_unset_distributed_params(
         None, None, None, None, None, max(1, round(timeout))
     )
-    if None in found[:3]:
+    if None in parameters[:3]:
         raise HostsError(
             "neither SLURM nor Open MPI states the hosts in the environment",
             fix="Start with srun or mpirun, or give address, count and index",
         )
-    return found
+    return parameters
 
 
 def _require(address: str, count: int | None, index: int | None, timeout: float) -> None:
@@ -202,8 +202,8 @@ def span(devices: Sequence[Any]) -> bool:
 
 def own(devices: Sequence[T]) -> T:
     """Return the first of these devices that belongs to this host."""
-    here = _joined[0].index if _joined else 0
-    mine = [d for d in devices if getattr(d, "process_index", 0) == here]
+    index = _joined[0].index if _joined else 0
+    mine = [d for d in devices if getattr(d, "process_index", 0) == index]
     return (mine or devices)[0]
 
 
@@ -215,7 +215,7 @@ def topology(devices: Sequence[Any]) -> Hashable:
 # ------------------------------------------------------------------------------------------------- agreement
 
 
-def require_equal(what: str, value: Any) -> None:
+def require_equal(subject: str, value: Any) -> None:
     """Raise an error unless all hosts have an equal value (plain data).
 
     Raises:
@@ -224,13 +224,13 @@ def require_equal(what: str, value: Any) -> None:
     if not _joined:
         return
     text = codec.line(value, sort=True)
-    said = text if len(text) <= SHOWN else digest(value)
-    found = _joined[0].exchange(what, said)
-    for k, one in enumerate(found):
-        if one != found[0]:
-            shown = f" ({found[0]} on host 0, {one} on host {k})" if len(text) <= SHOWN else ""
+    compared = text if len(text) <= SHOWN else digest(value)
+    answers = _joined[0].exchange(subject, compared)
+    for k, answer in enumerate(answers):
+        if answer != answers[0]:
+            difference = f" ({answers[0]} on host 0, {answer} on host {k})" if len(text) <= SHOWN else ""
             raise HostsError(
-                f"the hosts 0 and {k} differ in {what}{shown}",
+                f"the hosts 0 and {k} differ in {subject}{difference}",
                 fix="Run the same script with the same files and versions on all hosts",
             )
 
@@ -240,14 +240,14 @@ def digest(value: Any) -> str:
     return hashlib.sha256(codec.line(value, sort=True).encode()).hexdigest()
 
 
-def of_first(what: str, value: T, across: bool) -> T:
+def of_first(subject: str, value: T, across: bool) -> T:
     """Return the value (plain data) of the first host; its own one where a run is not `across` hosts."""
-    return _joined[0].exchange(what, value)[0] if across and _joined else value
+    return _joined[0].exchange(subject, value)[0] if across and _joined else value
 
 
-def any_of(what: str, value: bool, across: bool) -> bool:
+def any_of(subject: str, value: bool, across: bool) -> bool:
     """Return whether a value is true on any host."""
-    return any(_joined[0].exchange(what, value)) if across and _joined else value
+    return any(_joined[0].exchange(subject, value)) if across and _joined else value
 
 
 @contextlib.contextmanager
@@ -263,14 +263,16 @@ def together(across: bool) -> Generator[None]:
         raise
 
 
-def require_one(what: str, across: bool) -> None:
+def require_one(subject: str, across: bool) -> None:
     """Raise an error if something that one host alone can do is asked of several.
 
     Raises:
         HostsError: the run is across hosts.
     """
     if across:
-        raise HostsError(f"{what} on {count()} hosts is not supported", fix="Leave it out, or use one host")
+        raise HostsError(
+            f"{subject} on {count()} hosts is not supported", fix="Leave it out, or use one host"
+        )
 
 
 # ---------------------------------------------------------------------------------------------------- arrays
@@ -292,8 +294,8 @@ def placed(array: Any, sharding: Sharding) -> Any:
         return jax.device_put(array, sharding)
     if isinstance(array, jax.Array) and not array.is_fully_addressable:
         return array
-    here = np.asarray(array)
-    return jax.make_array_from_callback(here.shape, sharding, lambda index: here[index])
+    host_array = np.asarray(array)
+    return jax.make_array_from_callback(host_array.shape, sharding, lambda index: host_array[index])
 
 
 @contextlib.contextmanager

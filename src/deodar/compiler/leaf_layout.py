@@ -63,17 +63,17 @@ class LeafLayout:
                 arrays[array_key(g, name)] = np.stack(
                     [self._part(name, c[name.removesuffix(LOW)]) for c in columns]
                 )
-        given = self.points(swept) if swept is not None else None
-        if given is None:
-            given = tuple(
+        points_of_sweep = self.points(swept) if swept is not None else None
+        if points_of_sweep is None:
+            points_of_sweep = tuple(
                 np.full(points, vector[places[0]] if places else 0, self.dtype) for places in self.swept
             )
-        return {"vector": vector, "arrays": arrays, "swept": given}
+        return {"vector": vector, "arrays": arrays, "swept": points_of_sweep}
 
     def points(self, swept: Sequence[np.ndarray]) -> tuple[np.ndarray, ...]:
         """Return the values of each entry of the sweep at its points as arguments of the program."""
-        given = [*swept, *(split(swept[k], self.dtype)[1] for k in self._rounded)]
-        return tuple(np.asarray(values, self.dtype) for values in given)
+        rows = [*swept, *(split(swept[k], self.dtype)[1] for k in self._rounded)]
+        return tuple(np.asarray(values, self.dtype) for values in rows)
 
     def put(self, vector: np.ndarray, leaf: Leaf, value: float) -> None:
         """Write the value of a scalar leaf into the parameter vector."""

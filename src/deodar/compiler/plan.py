@@ -150,9 +150,9 @@ class Plan:
         want: set[int] = set()
         todo: list[tuple[int, Sequence[str]]] = []
         for g, port in slots:
-            like = self.groups[g].like
-            if port in like.outs:  # all its outputs are computed together
-                todo.append((g, [p for out in like.outs for p in like.passes(out)]))
+            node = self.groups[g].like
+            if port in node.outs:  # all its outputs are computed together
+                todo.append((g, [p for out in node.outs for p in node.passes(out)]))
                 want.add(g)
             else:
                 todo.append((g, [port]))
@@ -220,13 +220,13 @@ def plan(
     still = _still(nodes, readings != "constant")
     shards = divided_axis(nodes, devices) if devices > 1 else None
     swept = _swept(nodes, lifted)
-    found = strategies(nodes, still, {n.id for n in nodes} if exact else swept, copies, shards)
+    strategy_of = strategies(nodes, still, {n.id for n in nodes} if exact else swept, copies, shards)
     if copies // trials >= MANY > trials:
         for i in {i for i, path in lifted if path.startswith("kernel.")} - swept:
-            found[i] = dc.replace(found[i], apart=True)
-    nodes = shared(nodes, found)
+            strategy_of[i] = dc.replace(strategy_of[i], apart=True)
+    nodes = shared(nodes, strategy_of)
     sensory = _sensory(nodes, still) if readings == "held" else dict.fromkeys(still, False)
-    groups, row = _groups(nodes, neutral, still, sensory, found)
+    groups, row = _groups(nodes, neutral, still, sensory, strategy_of)
     size = _place(groups, neutral)
     calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
     ports = [(g, port) for g, group in enumerate(groups) for port in group.like.reads]
@@ -257,21 +257,21 @@ def strategies_of(
     if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
         return {}
     shards = divided_axis(nodes, devices) if devices > 1 else None
-    found = strategies(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies, shards)
-    return {i: strategy for i, strategy in sorted(found.items()) if strategy != EXACT}
+    strategy_of = strategies(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies, shards)
+    return {i: strategy for i, strategy in sorted(strategy_of.items()) if strategy != EXACT}
 
 
 def _still(nodes: Sequence[Node], embodied: bool) -> dict[str, bool]:
     by = {n.id: n for n in nodes}
-    known: dict[str, bool] = {}
+    constant: dict[str, bool] = {}
 
     def still(n: Node) -> bool:
-        if n.id not in known:
-            known[n.id] = False
+        if n.id not in constant:
+            constant[n.id] = False
             alone = not n.element.stateful and n.element.steady() and n.element.noise_axes() is None
             alone = alone and not (embodied and bool(n.element.external))
-            known[n.id] = alone and all(still(by[s[0]]) for slots in n.reads.values() for s in slots)
-        return known[n.id]
+            constant[n.id] = alone and all(still(by[s[0]]) for slots in n.reads.values() for s in slots)
+        return constant[n.id]
 
     return {n.id: still(n) for n in nodes}
 
@@ -292,19 +292,19 @@ def _groups(
     neutral: Mapping[str, frozenset[str]],
     still: Mapping[str, bool],
     sensory: Mapping[str, bool],
-    found: Mapping[str, Strategy],
+    strategy_of: Mapping[str, Strategy],
 ) -> tuple[list[RowGroup], dict[str, tuple[int, int]]]:
     keys: dict[Hashable, int] = {}
     groups: list[RowGroup] = []
     row: dict[str, tuple[int, int]] = {}
     # by stored id, so that the order of declaration has no effect
     for n in sorted(nodes, key=lambda n: n.id):
-        key = (by_structure(n, still[n.id], neutral[n.id], found[n.id]), sensory[n.id])
+        key = (by_structure(n, still[n.id], neutral[n.id], strategy_of[n.id]), sensory[n.id])
         g = keys.setdefault(key, len(groups))
         if g == len(groups):
             # noise at its neutral strength 0 is omitted from the program, unless that value may change
             probe = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
-            group = RowGroup([], {}, (), {}, still[n.id], probe.noise_axes(), found[n.id])
+            group = RowGroup([], {}, (), {}, still[n.id], probe.noise_axes(), strategy_of[n.id])
             groups.append(dc.replace(group, sensory=sensory[n.id]))
         row[n.id] = (g, groups[g].rows)
         groups[g].nodes.append(n)
@@ -346,18 +346,18 @@ def cost(p: Parameter) -> str:
 def _reads(
     group: RowGroup, port: str, groups: Sequence[RowGroup], row: Mapping[str, tuple[int, int]]
 ) -> list[Read]:
-    found: dict[tuple[int, str, Instant], list[list[int]]] = {}
+    rows_of: dict[tuple[int, str, Instant], list[list[int]]] = {}
     for r, n in enumerate(group.nodes):
         for ident, source_port, instant in sorted(n.reads[port]):
             g, source_row = row[ident]
             key = (g, source_port, instant)
-            if key not in found:
-                found[key] = [[] for _ in group.nodes]
-            found[key][r].append(source_row)
+            if key not in rows_of:
+                rows_of[key] = [[] for _ in group.nodes]
+            rows_of[key][r].append(source_row)
     out: list[Read] = []
-    for key in sorted(found):
-        rows, nothing = found[key], groups[key[0]].rows
-        table, more = (
+    for key in sorted(rows_of):
+        rows, nothing = rows_of[key], groups[key[0]].rows
+        table, further = (
             _padded(rows, 0, min(COLUMNS, max(map(len, rows))), nothing),
             list[tuple[np.ndarray, np.ndarray]](),
         )
@@ -368,10 +368,10 @@ def _reads(
             block = _padded([rows[r] for r in longer], begin, end, nothing).T.reshape(
                 -1, COLUMNS, len(longer)
             )
-            more.append((np.asarray(longer, np.int32), block))
+            further.append((np.asarray(longer, np.int32), block))
             begin = end
-        whole = all(bool((part < nothing).all()) for part in (table, *(block for _, block in more)))
-        out.append(Read(key, table, whole, more))
+        whole = all(bool((part < nothing).all()) for part in (table, *(block for _, block in further)))
+        out.append(Read(key, table, whole, further))
     return out
 
 

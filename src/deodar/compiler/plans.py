@@ -90,8 +90,8 @@ def measure(case: Case) -> Iterator[Measured]:
     """Yield every possible strategy for a case, in ascending order of estimated cost."""
     key = " ".join([case.boundary] * len(case.samples))
     terms = interaction.spans(case.kernels, case.axes)[key]
-    found = candidates(case.axes, tuple(key.split()), interaction.covering(terms), len(terms), case.copies)
-    for k, choice in enumerate(sorted(found, key=lambda c: c.nanoseconds)):
+    choices = candidates(case.axes, tuple(key.split()), interaction.covering(terms), len(terms), case.copies)
+    for k, choice in enumerate(sorted(choices, key=lambda c: c.nanoseconds)):
         yield Measured(
             case,
             choice.method + (", folded" if any(w.classes > 1 for w in choice.waves) else ""),
@@ -108,7 +108,7 @@ def _seconds(case: Case, key: str, choice: Choice) -> float:
 
     def run(weights: interaction.Mixture, y: Array, n: Array) -> Array:
         def once(_: Array, y: Array) -> Array:
-            return 0.5 * y + 0.25 * jax.vmap(lambda one: interaction.apply(weights, axes, one, chosen))(y)
+            return 0.5 * y + 0.25 * jax.vmap(lambda row: interaction.apply(weights, axes, row, chosen))(y)
 
         return lax.fori_loop(0, n, once, y)
 

@@ -141,17 +141,17 @@ class Program:
         self.precision = precision
         self.dtype: np.dtype[np.floating] = np.dtype(precision)
         self.sweep = [tuple(s) for s in sweep]
-        self.noisy = [g for g, group in enumerate(plan.groups) if group.noise is not None]
-        self.kept = self._kept(copies)
-        self.slow = [
+        self.noisy_groups = [g for g, group in enumerate(plan.groups) if group.noise is not None]
+        self.paired_groups = self._paired_groups(copies)
+        self.slow_groups = [
             g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
         ]
-        self.still = [c for c in plan.calls if plan.groups[c.group].still]
-        self.pictured = self._pictured() if pictures else []
-        self.moving = [
+        self.constant_calls = [c for c in plan.calls if plan.groups[c.group].still]
+        self.picture_calls = self._picture_calls() if pictures else []
+        self.step_calls = [
             c for c in plan.calls if not (plan.groups[c.group].still or plan.groups[c.group].sensory)
         ]
-        self.sensory = self._by_period()
+        self.sensory_calls = self._sensory_calls()
         self.rebuilt = [self._swept_constants(group) for group in plan.groups]
         self.settings = [
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
@@ -160,9 +160,9 @@ class Program:
             functions(g.like, g.strategy, replaced.kernels, replaced.tapped) for g in plan.groups
         ]
 
-    def _kept(self, copies: int) -> list[int]:
+    def _paired_groups(self, copies: int) -> list[int]:
         """Return the groups whose noise is drawn for two ticks at once, where that is worth it."""
-        groups = {g: self.plan.groups[g] for g in self.noisy}
+        groups = {g: self.plan.groups[g] for g in self.noisy_groups}
         paired = [g for g, group in groups.items() if group.like.every == 1 and group.like.element.stateful]
         cells = copies * sum(groups[g].rows * _cells(groups[g]) for g in paired)
         return paired if cells >= (LEAST_NOISE if self.kernels is not None else BLOCKS_FROM) else []
@@ -194,11 +194,11 @@ class Program:
     def begin(self, values: ProgramValues) -> ProgramState:
         """Return the state at the start."""
         groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
-        return {"groups": groups, "held": {str(g): groups[g] for g in self.slow}}
+        return {"groups": groups, "held": {str(g): groups[g] for g in self.slow_groups}}
 
     def keys(self, seed: Array, trial: Array) -> NoiseKeys:
         """Return the noise keys of a trial."""
-        return {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
+        return {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy_groups}
 
     # -------------------------------------------------------------------------------------------------- steps
 
@@ -212,11 +212,11 @@ class Program:
         self, values: ProgramValues, constants: list[Constants], sensed: Mapping[str, EitherArray]
     ) -> Buffers:
         """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
-        known = {key: (g, port, 0) for key, (g, port) in self._keys(self.pictured).items()}
-        buffers: Buffers = {place: jnp.asarray(sensed[f"{SEEN}{key}"]) for key, place in known.items()}
+        places = {key: (g, port, 0) for key, (g, port) in self._keys(self.picture_calls).items()}
+        buffers: Buffers = {place: jnp.asarray(sensed[f"{SEEN}{key}"]) for key, place in places.items()}
         chunk = Chunk(values, constants, {}, sensed, cast("ProgramClock", {}), {})
-        for call in self.still:
-            if call not in self.pictured:
+        for call in self.constant_calls:
+            if call not in self.picture_calls:
                 self._output(call, buffers, chunk, {}, jnp.uint32(0))
         return buffers
 
@@ -230,30 +230,34 @@ class Program:
         """
         buffers: Buffers = {}
         chunk = Chunk(values, self.hoist(values, constants), {}, sensed, cast("ProgramClock", {}), {})
-        sensors = [c for c in self.still if self.plan.groups[c.group].like.id in self.pictures]
-        for call in (*sensors, *self.pictured):
+        sensors = [c for c in self.constant_calls if self.plan.groups[c.group].like.id in self.pictures]
+        for call in (*sensors, *self.picture_calls):
             self._output(call, buffers, chunk, {}, jnp.uint32(0))
-        return {f"{SEEN}{key}": buffers[g, port, 0] for key, (g, port) in self._keys(self.pictured).items()}
+        return {
+            f"{SEEN}{key}": buffers[g, port, 0] for key, (g, port) in self._keys(self.picture_calls).items()
+        }
 
     def unseen(self) -> dict[str, np.ndarray]:
         """Return the outputs of `look` before a picture is seen: zeros."""
-        return {f"{SEEN}{key}": np.zeros(of, self.dtype) for key, of in self._shapes(self.pictured).items()}
+        return {
+            f"{SEEN}{key}": np.zeros(of, self.dtype) for key, of in self._shapes(self.picture_calls).items()
+        }
 
     @functools.cached_property
     def pictures(self) -> list[str]:
         """The ids of the sensors whose readings `look` uses."""
-        pairs = [(c.group, port) for c in self.pictured for port in self.plan.groups[c.group].like.reads]
+        pairs = [(c.group, port) for c in self.picture_calls for port in self.plan.groups[c.group].like.reads]
         sources = {r.source[0] for pair in pairs for r in self.plan.reads[pair]}
         return [ident for ident in self.plan.sensors if self.plan.row[ident][0] in sources]
 
-    def _pictured(self) -> list[Call]:
+    def _picture_calls(self) -> list[Call]:
         """Return the calls, among those that stay the same, that follow from readings alone, at least one of
         which is as large as a picture.
         """
-        groups, found = self.plan.groups, list[Call]()
-        for call in self.still:
-            like, before = groups[call.group].like, {c.group for c in found}
-            sources = {r.source[0] for port in like.reads for r in self.plan.reads[call.group, port]}
+        groups, calls = self.plan.groups, list[Call]()
+        for call in self.constant_calls:
+            node, before = groups[call.group].like, {c.group for c in calls}
+            sources = {r.source[0] for port in node.reads for r in self.plan.reads[call.group, port]}
             large = {
                 g
                 for g in sources
@@ -262,29 +266,30 @@ class Program:
             }
             readings = {g for g in sources if groups[g].like.element.external}
             if call.role == "output" and sources <= readings | before and sources & (large | before):
-                found.append(call)
-        return found
+                calls.append(call)
+        return calls
 
     def undrawn(self) -> Arrays:
         """The blocks before the first is drawn."""
-        rows = {g: self.plan.groups[g].rows for g in self.kept}
-        empty = {g: no_block(self._drawn(g), self.dtype, self.kernels) for g in self.kept}
-        return {str(g): jnp.broadcast_to(empty[g], (rows[g], *empty[g].shape)) for g in self.kept}
+        rows = {g: self.plan.groups[g].rows for g in self.paired_groups}
+        empty = {g: no_block(self._drawn(g), self.dtype, self.kernels) for g in self.paired_groups}
+        return {str(g): jnp.broadcast_to(empty[g], (rows[g], *empty[g].shape)) for g in self.paired_groups}
 
     def draw(self, keys: NoiseKeys, tick: Array, start: Array, drawn: Arrays) -> Arrays:
         """The blocks that `tick` lies in: drawn at even ticks and at the tick `start` of the chunk."""
-        own = _since(keys, tick)
+        age = _since(keys, tick)
 
         def anew() -> Arrays:
             return {
-                str(g): jax.vmap(lambda key, g=g: self._block(g, key, own))(keys[str(g)]) for g in self.kept
+                str(g): jax.vmap(lambda key, g=g: self._block(g, key, age))(keys[str(g)])
+                for g in self.paired_groups
             }
 
-        if not self.kept:
+        if not self.paired_groups:
             return drawn
         if (kernels := self.kernels) is not None:  # a kernel contains the branch
             first = _since(keys, start)
-            rows = jax.vmap(lambda key, row: kernels.noise(key, own, first, row))
+            rows = jax.vmap(lambda key, row: kernels.noise(key, age, first, row))
             return {g: rows(keys[g], drawn[g]) for g in drawn}
         # the predicate is that of all copies; a branch is a computation of its own, which XLA fuses with no
         # other
@@ -292,7 +297,7 @@ class Program:
 
     def unperceived(self) -> Arrays:
         """Return what follows from readings before the first is made."""
-        shapes = self._shapes([call for calls in self.sensory.values() for call in calls])
+        shapes = self._shapes([call for calls in self.sensory_calls.values() for call in calls])
         return {key: jnp.zeros(of, self.dtype) for key, of in shapes.items()}
 
     def perceive(
@@ -301,22 +306,22 @@ class Program:
         """Return what follows from readings of the world: computed when the readings are new, and at the tick
         `start` of the chunk, since parameters may have changed before it.
         """
-        now = dict(perceived)
-        seeing = self._seeing(chunk, state) if self.sensory else chunk
-        for periods, calls in self.sensory.items():
-            held = {key: now[key] for key in self._keys(calls)}
+        outputs = dict(perceived)
+        seeing = self._seeing(chunk, state) if self.sensory_calls else chunk
+        for periods, calls in self.sensory_calls.items():
+            before = {key: outputs[key] for key in self._keys(calls)}
             period = jnp.uint32(periods) * jnp.maximum(chunk.clock["period"], jnp.uint32(1))
             # the predicate is that of all copies, like the one of `draw`
-            now |= lax.cond(
+            outputs |= lax.cond(
                 (tick % period == 0) | (tick == start),
-                functools.partial(self._perceive, calls, seeing, now, tick),
-                lambda held=held: held,
+                functools.partial(self._perceive, calls, seeing, outputs, tick),
+                lambda before=before: before,
             )
-        return now
+        return outputs
 
     def _perceive(self, calls: Sequence[Call], chunk: Chunk, perceived: Arrays, tick: Array) -> Arrays:
         buffers = {**chunk.still, **self._perceived(perceived)}
-        sensors = [c for c in self.moving if self.plan.groups[c.group].like.element.external]
+        sensors = [c for c in self.step_calls if self.plan.groups[c.group].like.element.external]
         for call in (*sensors, *calls):
             self._output(call, buffers, chunk, {}, tick)
         return {key: buffers[g, port, 0] for key, (g, port) in self._keys(calls).items()}
@@ -336,29 +341,29 @@ class Program:
 
     def _perceived(self, perceived: Arrays) -> Buffers:
         """Return what follows from readings as buffers."""
-        keys = self._keys([call for calls in self.sensory.values() for call in calls])
+        keys = self._keys([call for calls in self.sensory_calls.values() for call in calls])
         return {(g, port, 0): perceived[key] for key, (g, port) in keys.items()}
 
-    def _by_period(self) -> dict[int, list[Call]]:
+    def _sensory_calls(self) -> dict[int, list[Call]]:
         """Return the calls of sensory groups by the periods of the world after which they change, the longest
         first: what changes rarely comes before what reads it.
         """
-        groups, known = self.plan.groups, dict[int, int]()
+        groups, period_of = self.plan.groups, dict[int, int]()
 
         def periods(g: int) -> int:
-            if g not in known:
-                like = groups[g].like
-                sources = {r.source[0] for port in like.reads for r in self.plan.reads[g, port]}
-                known[g] = (
-                    self.body.periods(like.id)
-                    if self.body is not None and like.element.external
+            if g not in period_of:
+                node = groups[g].like
+                sources = {r.source[0] for port in node.reads for r in self.plan.reads[g, port]}
+                period_of[g] = (
+                    self.body.periods(node.id)
+                    if self.body is not None and node.element.external
                     else math.gcd(*(periods(source) for source in sources))
                 )
-            return known[g]
+            return period_of[g]
 
         calls = [c for c in self.plan.calls if groups[c.group].sensory]
-        found = sorted({periods(c.group) for c in calls}, reverse=True)
-        return {n: [c for c in calls if periods(c.group) == n] for n in found}
+        lengths = sorted({periods(c.group) for c in calls}, reverse=True)
+        return {n: [c for c in calls if periods(c.group) == n] for n in lengths}
 
     def step(
         self, chunk: Chunk, state: ProgramState, drawn: Arrays, tick: Array, perceived: Arrays
@@ -370,8 +375,8 @@ class Program:
         chunk = self._seeing(chunk, state)
         buffers, old = dict(chunk.still), state["groups"]
         buffers |= self._perceived(perceived)
-        new, held = list(old), dict(state["held"])
-        for call in self.moving:
+        new, coming = list(old), dict(state["held"])
+        for call in self.step_calls:
             group = self.plan.groups[call.group]
             if call.role == "output":
                 self._output(call, buffers, chunk, (new if call.instant else old)[call.group], tick)
@@ -386,15 +391,15 @@ class Program:
                     read = StepArguments(old[g], inputs, chunk.constants[g], noise)
                     return self._advance(g, chunk.values, read, time)
 
-                new[call.group] = self._gated(call.group, run, old, held, tick)
+                new[call.group] = self._gated(call.group, run, old, coming, tick)
         if self.body is None:
-            return {"groups": new, "held": held}
+            return {"groups": new, "held": coming}
         commands = {
             ident: buffers[g, "output", 0][r] for ident in self.body.motors for g, r in [self.plan.row[ident]]
         }
         assert "world" in state
         world = self.body.listen(state["world"], commands, tick, chunk.clock["period"])
-        return {"groups": new, "held": held, "world": world}
+        return {"groups": new, "held": coming, "world": world}
 
     def advance(self, chunk: Chunk, state: ProgramState, tick: Array) -> ProgramState:
         """The state with the world of `tick`, to which the model has advanced."""
@@ -414,10 +419,10 @@ class Program:
         self, g: int, row: int, values: ProgramValues, state: Arrays, amount: Array, dt: float
     ) -> Arrays:
         """Return the state of a group after a step in which an amount was added to the input of a row."""
-        given = {path: leaf[row] for path, leaf in self._leaves(g, values).items()}
-        element = bind(self.plan.groups[g].like.element, self._value(g, given))
-        own: Any = {name: rows[row] for name, rows in state.items()}
-        new = element.inject(own, cast("Any", amount), dt)
+        leaves_of_row = {path: leaf[row] for path, leaf in self._leaves(g, values).items()}
+        element = bind(self.plan.groups[g].like.element, self._value(g, leaves_of_row))
+        row_state: Any = {name: rows[row] for name, rows in state.items()}
+        new = element.inject(row_state, cast("Any", amount), dt)
         assert new is not None
         return {**state, **{name: state[name].at[row].set(value) for name, value in new.items()}}
 
@@ -435,7 +440,7 @@ class Program:
         buffers = dict(chunk.still)
         for call in self.plan.needed([(p.group, p.name) for p in ports]):
             if not self.plan.groups[call.group].still:
-                self._output(call, buffers, chunk, state["groups"][call.group], tick, now=True)
+                self._output(call, buffers, chunk, state["groups"][call.group], tick, present=True)
         return tuple(self._port(p, buffers) for p in ports)
 
     def finite(self, state: ProgramState) -> tuple[Array, list[Array]]:
@@ -454,12 +459,12 @@ class Program:
         return self._each(g, self.functions[g].prepare, values, only="rebuild")
 
     def _output(
-        self, call: Call, buffers: Buffers, chunk: Chunk, shown: Arrays, tick: Array, now: bool = False
+        self, call: Call, buffers: Buffers, chunk: Chunk, state: Arrays, tick: Array, present: bool = False
     ) -> None:
         g, group = call.group, self.plan.groups[call.group]
         time = self._time(chunk.clock, tick, group)
         passed = {port for out in group.like.outs for port in group.like.passes(out)}
-        inputs = self._inputs(g, buffers, passed, now)
+        inputs = self._inputs(g, buffers, passed, present)
         if port := group.like.element.external:
             inputs[port] = jnp.asarray(chunk.sensed[group.like.id], self.dtype)[None]
         noise = None if group.like.element.stateful else self._noise(g, chunk.keys, tick)
@@ -467,7 +472,7 @@ class Program:
             g,
             lambda e, at, read: self.functions[g].output(e, at, read, time),
             chunk.values,
-            self._refusing(g, StepArguments(shown, inputs, chunk.constants[g], noise)),
+            self._refusing(g, StepArguments(state, inputs, chunk.constants[g], noise)),
         )
         for port, axes in group.like.outs.items():
             buffers[g, port, call.instant] = jnp.broadcast_to(
@@ -486,19 +491,26 @@ class Program:
         return read._replace(state=self._refused(g, read.state), inputs=self._refused(g, read.inputs))
 
     def _refused(self, g: int, arrays: Arrays) -> Arrays:
-        like, names = self.plan.groups[g].like, self.jumps[g]
+        node, names = self.plan.groups[g].like, self.jumps[g]
         paths = ", ".join(node.path for node in self.plan.groups[g].nodes)
 
         def guarded(name: str, value: Array) -> Array:
             if name not in names:
                 return value
-            what = f"{paths} ({type(like.element).__name__}): jumps as {name} changes, and has no derivative"
-            return without_derivative(value, what)
+            refusal = (
+                f"{paths} ({type(node.element).__name__}): jumps as {name} changes, and has no derivative"
+            )
+            return without_derivative(value, refusal)
 
         return {name: guarded(name.removesuffix(LOW), value) for name, value in arrays.items()}
 
     def _gated(
-        self, g: int, run: Callable[[], Arrays], old: Sequence[Arrays], held: dict[str, Arrays], tick: Array
+        self,
+        g: int,
+        run: Callable[[], Arrays],
+        old: Sequence[Arrays],
+        coming_states: dict[str, Arrays],
+        tick: Array,
     ) -> Arrays:
         """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks
         later.
@@ -506,8 +518,8 @@ class Program:
         k = self.plan.groups[g].like.every
         if k == 1:
             return run()
-        coming = lax.cond(tick % jnp.uint32(k) == 0, run, lambda: held[str(g)])
-        held[str(g)] = coming
+        coming = lax.cond(tick % jnp.uint32(k) == 0, run, lambda: coming_states[str(g)])
+        coming_states[str(g)] = coming
         due = (tick + jnp.uint32(1)) % jnp.uint32(k) == 0
         return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
 
@@ -525,36 +537,38 @@ class Program:
         group = self.plan.groups[g]
         if group.noise is None:
             return None
-        cells, own = shape(group.noise), _since(keys, tick)
+        cells, age = shape(group.noise), _since(keys, tick)
         if drawn is not None:
-            return jax.vmap(lambda row: of_block(row, own))(drawn).reshape(group.rows, *cells)
-        own = own // jnp.uint32(group.like.every)
+            return jax.vmap(lambda row: of_block(row, age))(drawn).reshape(group.rows, *cells)
+        age = age // jnp.uint32(group.like.every)
         shaped = self.plan.shards is not None
-        return jax.vmap(lambda key: normal(cells, key, own, self.dtype, shaped))(keys[str(g)])
+        return jax.vmap(lambda key: normal(cells, key, age, self.dtype, shaped))(keys[str(g)])
 
     def _time(self, clock: ProgramClock, tick: Array, group: RowGroup) -> Time:
         if not clock:
             return Time.at(0.0, 0.0, self.dtype)
         return Time(clock["start"], tick - clock["origin"], clock["dt"], group.like.every)
 
-    def _inputs(self, g: int, buffers: Buffers, only: set[str] | None = None, now: bool = False) -> Arrays:
+    def _inputs(
+        self, g: int, buffers: Buffers, only: set[str] | None = None, present: bool = False
+    ) -> Arrays:
         ports = [p for p in self.plan.groups[g].like.reads if only is None or p in only]
-        return {p: self._sum(g, p, buffers, now) for p in ports}
+        return {p: self._sum(g, p, buffers, present) for p in ports}
 
-    def _sum(self, g: int, port: str, buffers: Buffers, now: bool) -> Array:
+    def _sum(self, g: int, port: str, buffers: Buffers, present: bool) -> Array:
         group = self.plan.groups[g]
         total: Array | None = None
         for read in self.plan.reads[g, port]:
             source, source_port, instant = read.source
-            part = gather(buffers[source, source_port, 0 if now else instant], read)
+            part = gather(buffers[source, source_port, 0 if present else instant], read)
             total = part if total is None else total + part
         if total is None:
             total = jnp.zeros((group.rows, *shape(group.like.ins[port])), self.dtype)
         return total
 
     def _port(self, p: Port, buffers: Buffers) -> Array:
-        shown = p.name in self.plan.groups[p.group].like.outs
-        rows = buffers[p.group, p.name, 0] if shown else self._sum(p.group, p.name, buffers, now=True)
+        is_output = p.name in self.plan.groups[p.group].like.outs
+        rows = buffers[p.group, p.name, 0] if is_output else self._sum(p.group, p.name, buffers, present=True)
         return rows if p.row is None else rows[p.row]
 
     def _each(self, g: int, fn: Callable[..., T], values: ProgramValues, *args: Any, only: str = "") -> T:
@@ -562,18 +576,18 @@ class Program:
         group, at = self.plan.groups[g], self.settings[g]
         if self.plan.shards is not None:
             fn = jax.named_scope(scope(group.like.id))(fn)
-        own = self._leaves(g, values)
+        parameters = self._leaves(g, values)
 
-        def one(own: Arrays, *args: Any) -> T:
-            return fn(bind(group.like.element, self._value(g, own, only)), at, *args)
+        def of_row(parameters: Arrays, *args: Any) -> T:
+            return fn(bind(group.like.element, self._value(g, parameters, only)), at, *args)
 
         if group.rows == 1:
-            out = one(*jax.tree.map(lambda a: a[0], (own, *args)))
+            out = of_row(*jax.tree.map(lambda a: a[0], (parameters, *args)))
             return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
-        return jax.vmap(one, axis_size=group.rows)(own, *args)
+        return jax.vmap(of_row, axis_size=group.rows)(parameters, *args)
 
     def _value(
-        self, g: int, given: Arrays, only: str = ""
+        self, g: int, leaves_of_row: Arrays, only: str = ""
     ) -> Callable[[str], Array | Exact | _NotHere | None]:
         """Return the function that gives the value of a leaf of a row by its path."""
         group = self.plan.groups[g]
@@ -581,8 +595,8 @@ class Program:
         def value(path: str) -> Array | Exact | _NotHere | None:
             if only and path in group.cost and group.cost[path] != only:
                 return _NotHere()
-            found = given.get(path)
-            return Exact(found, given[path + LOW]) if path in group.exact else found
+            leaf = leaves_of_row.get(path)
+            return Exact(leaf, leaves_of_row[path + LOW]) if path in group.exact else leaf
 
         return value
 
@@ -644,12 +658,12 @@ def gather(x: Array, read: Read) -> Array:
 
 def _jumps(group: RowGroup) -> frozenset[str]:
     """Return the names of inputs, states and parameters of a group in which it has no derivative."""
-    element, like = group.like.element, group.like
+    element, node = group.like.element, group.like
     names = {path for path, _, p in leaves(element) if p.role in ("moment", "duration")}
     names |= set(element.jumps_at())
     if any(isinstance(part, SigmoidFunction) and part.jumps for part in nested(element)):
-        setting = Setting(like.ins, like.outs, np.dtype("float32"))
-        names |= {*like.ins, *group.offset, *group.arrays, *jax.eval_shape(lambda: element.init(setting))}
+        setting = Setting(node.ins, node.outs, np.dtype("float32"))
+        names |= {*node.ins, *group.offset, *group.arrays, *jax.eval_shape(lambda: element.init(setting))}
     return frozenset(names)
 
 

@@ -62,17 +62,17 @@ def planned(plan: Plan, itemsize: int) -> list[Traffic]:
 
 def _of_group(group: RowGroup, shards: Shards, itemsize: int, read: bool) -> Iterator[Traffic]:
     """Yield the traffic of a group; `read`: whether others read its spectral modes."""
-    like = group.like
-    axes = convolved_axes(like)
+    node = group.like
+    axes = convolved_axes(node)
     if shards.index(axes) is not None:
         for key in _transformed(group, axes, read):
             yield _of_kernels(group, key, axes, shards, itemsize)
         return
-    reads = any(shards.index(like.ins[port]) is not None for port in like.reads if port in like.ins)
-    shows = any(shards.index(a) is not None for a in like.outs.values())
+    reads = any(shards.index(node.ins[port]) is not None for port in node.reads if port in node.ins)
+    shows = any(shards.index(a) is not None for a in node.outs.values())
     if reads and not shows:  # it sums over the axis
-        size = sum(math.prod(shape(a)) for a in like.outs.values())
-        yield Traffic(like.id, like.path, "sum", group.rows * size * itemsize)
+        size = sum(math.prod(shape(a)) for a in node.outs.values())
+        yield Traffic(node.id, node.path, "sum", group.rows * size * itemsize)
 
 
 def _transformed(group: RowGroup, axes: Axes, read: bool) -> list[str]:
@@ -89,25 +89,25 @@ def _transformed(group: RowGroup, axes: Axes, read: bool) -> list[str]:
 
 def _of_kernels(group: RowGroup, key: str, axes: Axes, shards: Shards, itemsize: int) -> Traffic:
     """Return the traffic of the kernels with one kind of boundaries."""
-    like, whole = group.like, math.prod(shape(axes)) * itemsize
+    node, whole = group.like, math.prod(shape(axes)) * itemsize
     choice = dict(group.strategy.choices).get(key)
     method = "matrices" if choice is None else choice.method
     size = whole
     if choice is not None and method in ("waves", "taps"):
-        kernels = [k for k in like.element.kernels() if interaction.boundaries(k, axes) == key]
+        kernels = [k for k in node.element.kernels() if interaction.boundaries(k, axes) == key]
         size = itemsize * exchanged(choice, axes, sum(len(k.widths()) for k in kernels), shards)
     if size >= whole:
         raise DeviceError(
             f"its kernel is applied by {method} along the axis {shards.axis!r}, which is divided among"
             f" {shards.devices} devices: a step would exchange {size * group.rows:,} bytes, a whole field"
             f" ({whole * group.rows:,} bytes) or more",
-            where=like.path,
+            where=node.path,
             fix=(
                 "Use Gaussian kernels of several samples' width, precision='float32' and"
                 " accuracy='default'; or one device"
             ),
         )
-    return Traffic(like.id, like.path, method, group.rows * size)
+    return Traffic(node.id, node.path, method, group.rows * size)
 
 
 class DividedFields:
@@ -125,17 +125,17 @@ class DividedFields:
         self._mesh = distribution.mesh
         self.traffic = planned(plan, itemsize)
 
-    def shardings(self, given: ProgramArguments) -> ProgramArguments:
+    def shardings(self, arguments: ProgramArguments) -> ProgramArguments:
         """Return the sharding of every array of these arguments."""
         everywhere = self._sharding(PartitionSpec())
         arrays = {
             key: self._sharding(self._spec(int(key.partition(":")[0]), np.shape(a)))
-            for key, a in given.values["arrays"].items()
+            for key, a in arguments.values["arrays"].items()
         }
-        rest = jax.tree.map(lambda _: everywhere, given)
-        return rest._replace(
-            values={**rest.values, "arrays": arrays},  # pyright: ignore[reportArgumentType]
-            state=self.placed(given.state, lambda _, spec: self._sharding(spec)),
+        shardings = jax.tree.map(lambda _: everywhere, arguments)
+        return shardings._replace(
+            values={**shardings.values, "arrays": arrays},  # pyright: ignore[reportArgumentType]
+            state=self.placed(arguments.state, lambda _, spec: self._sharding(spec)),
         )
 
     def divided(self, function: Callable[..., Any]) -> Callable[..., Any]:
@@ -162,8 +162,8 @@ class DividedFields:
 
     def recorded(self, g: int, port: str, record: Array) -> Array:
         """Return the values of a port, in parts."""
-        like = self._plan.groups[g].like
-        axes = like.outs[port] if port in like.outs else like.ins[port]
+        node = self._plan.groups[g].like
+        axes = node.outs[port] if port in node.outs else node.ins[port]
         index = self.shards.index(axes)
         if index is None:
             return record
@@ -178,10 +178,10 @@ class DividedFields:
         spec = PartitionSpec(*[None] * index, DEVICES)
         function = self._tapped_part if d == index else convolution.tapped
         part = functools.partial(function, boundary=boundary, axis=d)
-        each = jax.shard_map(
+        divided = jax.shard_map(
             part, mesh=self._mesh, in_specs=(PartitionSpec(), spec), out_specs=spec, check_vma=False
         )
-        return each(weights, y)
+        return divided(weights, y)
 
     def _tapped_part(self, weights: Array, y: Array, boundary: str, axis: int) -> Array:
         reach, n, count = weights.shape[0] - 1, y.shape[axis], self.shards.devices
@@ -192,8 +192,8 @@ class DividedFields:
         after = lax.ppermute(first, DEVICES, [((k + 1) % count, k) for k in ring])
         if boundary != "periodic":
             at = lax.axis_index(DEVICES)
-            own = boundary == "reflect"
-            outside = [lax.rev(a, (axis,)) if own else jnp.zeros_like(a) for a in (first, last)]
+            mirrored = boundary == "reflect"
+            outside = [lax.rev(a, (axis,)) if mirrored else jnp.zeros_like(a) for a in (first, last)]
             before = jnp.where(at == 0, outside[0], before)
             after = jnp.where(at == count - 1, outside[1], after)
         return convolution.lagged(weights, before, after, y, axis)
@@ -207,9 +207,9 @@ class DividedFields:
         Raises:
             DeviceError: elements whose functions cannot be divided along the axis; they are named.
         """
-        found = collectives(text)
+        exchanges = collectives(text)
         planned = sum(t.bytes for t in self.traffic)
-        counted = sum(c.bytes for c in found)
+        counted = sum(c.bytes for c in exchanges)
         if counted <= AGREEMENT * planned + SCALARS * len(self._plan.groups):
             return
         by = {n.id: n.path for group in self._plan.groups for n in group.nodes}
@@ -217,7 +217,7 @@ class DividedFields:
         for t in self.traffic:
             expected[t.element] += t.bytes
         sums: dict[str, int] = {}
-        for c in found:
+        for c in exchanges:
             sums[c.element] = sums.get(c.element, 0) + c.bytes
         above = {i: size for i, size in sums.items() if size > AGREEMENT * expected.get(i, 0) + SCALARS}
         named = [i for i in sorted(above, key=lambda i: -above[i]) if i in by]
@@ -231,8 +231,8 @@ class DividedFields:
 
     def _spec(self, g: int, size: Sequence[int]) -> PartitionSpec:
         """Return the parts of an array of a group: those of its last axes, if they are axes of the group."""
-        like = self._plan.groups[g].like
-        for axes in (*like.outs.values(), *like.ins.values()):
+        node = self._plan.groups[g].like
+        for axes in (*node.outs.values(), *node.ins.values()):
             index = self.shards.index(axes)
             if index is not None and tuple(size[len(size) - len(axes) :]) == shape(axes):
                 return PartitionSpec(*[None] * (len(size) - len(axes) + index), DEVICES)

@@ -50,29 +50,30 @@ def plain_ports(ports: Mapping[str, T]) -> dict[str, T]:
     return {name: value for name, value in ports.items() if not name.endswith((WAVES, REST))}
 
 
-def shared(nodes: Sequence[Node], found: dict[str, Strategy]) -> list[Node]:
+def shared(nodes: Sequence[Node], strategy_of: dict[str, Strategy]) -> list[Node]:
     """The nodes, with the second parts of ports where they share waves.
 
-    What cannot share after all takes back its choice in `found`.
+    What cannot share after all takes back its choice in `strategy_of`.
     """
     by = {n.id: n for n in nodes}
     smooth: set[str] = set()
     """Nodes whose output is complete as waves: a field's own is not, before a kernel has been applied to it.
     """
-    for n in _upstream_first([n for n in nodes if found[n.id].shared and role(n) != "source"]):
+    for n in _upstream_first([n for n in nodes if strategy_of[n.id].shared and role(n) != "source"]):
         if role(n) == "filter" or (
-            n.reads["input"] and all(s[0] in smooth and _joined(by[s[0]], n, found) for s in n.reads["input"])
+            n.reads["input"]
+            and all(s[0] in smooth and _joined(by[s[0]], n, strategy_of) for s in n.reads["input"])
         ):
             smooth.add(n.id)
         else:
-            found[n.id] = EXACT
-    return [_with_waves(n, by, found, smooth) if found[n.id].shared else n for n in nodes]
+            strategy_of[n.id] = EXACT
+    return [_with_waves(n, by, strategy_of, smooth) if strategy_of[n.id].shared else n for n in nodes]
 
 
 def _with_waves(
-    n: Node, by: Mapping[str, Node], found: Mapping[str, Strategy], smooth: Collection[str]
+    n: Node, by: Mapping[str, Node], strategy_of: Mapping[str, Strategy], smooth: Collection[str]
 ) -> Node:
-    strategy = found[n.id]
+    strategy = strategy_of[n.id]
     waves = tuple(
         w.axis(a) for w, a in zip(dict(strategy.choices)[strategy.shared].waves, acted_axes(n), strict=True)
     )
@@ -80,7 +81,7 @@ def _with_waves(
 
     def comes(slot: Slot) -> bool:
         source = by[slot[0]]
-        if slot[1] != "output" or not _joined(source, n, found):
+        if slot[1] != "output" or not _joined(source, n, strategy_of):
             return False
         if role(source) == "source":
             return through
@@ -108,13 +109,13 @@ def _with_waves(
     )
 
 
-def _joined(a: Node, b: Node, found: Mapping[str, Strategy]) -> bool:
+def _joined(a: Node, b: Node, strategy_of: Mapping[str, Strategy]) -> bool:
     """Return whether both nodes share the same spectral modes."""
-    one, other = found[a.id], found[b.id]
+    first, second = strategy_of[a.id], strategy_of[b.id]
     same = (
-        bool(one.shared)
-        and one.shared == other.shared
-        and dict(one.choices)[one.shared] == dict(other.choices)[other.shared]
+        bool(first.shared)
+        and first.shared == second.shared
+        and dict(first.choices)[first.shared] == dict(second.choices)[second.shared]
     )
     return same and a.every == b.every and acted_axes(a) == acted_axes(b)
 
@@ -153,15 +154,15 @@ class SharingSource(_Sharing):
         return out | {"output" + WAVES: to_waves(self.waves, out["output"], self.kernels)}
 
     def advance(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
-        given, calls = read.inputs, list[Any]()
+        ports, calls = read.inputs, list[Any]()
 
         def convolve(y: Array) -> Array:
             calls.append(y)
-            modes = interaction.SharedModes(self.key, given["output" + WAVES], given["input" + WAVES])
-            mixture, own = read.constants.kernels, (modes, self.kernels, self.tapped)
-            return interaction.apply(mixture, self.axes, y, self.choices, *own)
+            modes = interaction.SharedModes(self.key, ports["output" + WAVES], ports["input" + WAVES])
+            mixture, shared_parts = read.constants.kernels, (modes, self.kernels, self.tapped)
+            return interaction.apply(mixture, self.axes, y, self.choices, *shared_parts)
 
-        inputs = plain_ports(given) | {"input": given["input" + REST]}
+        inputs = plain_ports(ports) | {"input": ports["input" + REST]}
         new = run_advance(element, dc.replace(at, convolve=convolve), read._replace(inputs=inputs), time)
         if len(calls) != 1:
             raise ModelError(

@@ -108,12 +108,12 @@ def strategies(
     alike = Counter(_likeness(n) for n in nodes)
     out: dict[str, Strategy] = {}
     for n in nodes:
-        own = (
+        choices = (
             {}
             if n.id in exact
             else interaction.choices(n.element.kernels(), acted_axes(n), copies * alike[_likeness(n)], shards)
         )
-        out[n.id] = Strategy(_sorted(own))
+        out[n.id] = Strategy(_sorted(choices))
     free = [n for n in nodes if role(n) and not still[n.id] and n.id not in exact and acted_axes(n)]
     for members, key, choice in _merged(list(_cycles(free, out, copies, shards)), free, out, copies, shards):
         for n in members:
@@ -135,8 +135,8 @@ def _merged(
     for cycle in cycles:
         first = cycle[0][0]
         places.setdefault((acted_axes(first), first.every, cycle[1]), []).append(cycle)
-    for (axes, every, key), found in places.items():
-        inside = {n.id for members, _, _ in found for n in members}
+    for (axes, every, key), alike in places.items():
+        inside = {n.id for members, _, _ in alike for n in members}
         beside = [
             n
             for n in free
@@ -145,13 +145,13 @@ def _merged(
         beside = [n for n in beside if getattr(dict(alone[n.id].choices).get(key), "method", "") == "waves"]
         everyone = [n for n in free if n.id in inside | {n.id for n in beside}]
         choice = _waves_of(everyone, key, copies, shards)
-        apart = sum(_shared_cost(members, key, own) for members, _, own in found) + sum(
+        apart = sum(_shared_cost(members, key, cycle_choice) for members, _, cycle_choice in alike) + sum(
             _alone(n, key, alone, axes, copies) for n in beside
         )
         if _shared_cost(everyone, key, choice) <= WORTH * apart:
             yield everyone, key, choice
         else:
-            yield from found
+            yield from alike
 
 
 def _cycles(
@@ -165,14 +165,14 @@ def _cycles(
     for first, key in keys.items():
         if not key or first in taken:
             continue
-        other = {i for i, own in keys.items() if own != key}
-        members = _reached(first, [n for n in free if n.id not in taken | other])
+        other_keys = {i for i, boundaries in keys.items() if boundaries != key}
+        members = _reached(first, [n for n in free if n.id not in taken | other_keys])
         taken |= members
-        found = [n for n in free if n.id in members]
-        choice = _waves_of(found, key, copies, shards)
-        apart = sum(_alone(n, key, alone, acted_axes(n), copies) for n in found if role(n) != "gain")
-        if any(role(n) == "source" for n in found) and _shared_cost(found, key, choice) < apart:
-            yield found, key, choice
+        cycle = [n for n in free if n.id in members]
+        choice = _waves_of(cycle, key, copies, shards)
+        apart = sum(_alone(n, key, alone, acted_axes(n), copies) for n in cycle if role(n) != "gain")
+        if any(role(n) == "source" for n in cycle) and _shared_cost(cycle, key, choice) < apart:
+            yield cycle, key, choice
 
 
 def _reached(first: str, nodes: Sequence[Node]) -> set[str]:
@@ -209,19 +209,19 @@ def _shared_cost(members: Sequence[Node], key: str, choice: Choice) -> float:
     and half for each inverse transform.
     """
     axes = acted_axes(members[0])
-    there = {s[0] for n in members if role(n) == "filter" for s in n.reads["input"]}
+    transformed = {s[0] for n in members if role(n) == "filter" for s in n.reads["input"]}
     total = 0.0
     for n in members:
         if role(n) == "source":
             lateral = key in interaction.spans(n.element.kernels(), axes)
-            total += choice.nanoseconds * (0.5 * (lateral or n.id in there) + 0.5)
+            total += choice.nanoseconds * (0.5 * (lateral or n.id in transformed) + 0.5)
     return total
 
 
 def _alone(n: Node, key: str, alone: Mapping[str, Strategy], axes: Axes, copies: int) -> float:
-    own = dict(alone[n.id].choices).get(key)
-    if own is not None:
-        return own.nanoseconds
+    choice = dict(alone[n.id].choices).get(key)
+    if choice is not None:
+        return choice.nanoseconds
     terms = interaction.spans(n.element.kernels(), axes).get(key)
     return by_matrices(axes, len(terms), copies).nanoseconds if terms else 0.0
 

@@ -70,7 +70,12 @@ def collectives(text: str) -> list[Collective]:
         if name in computations and name not in inside:
             inside.add(name)
             todo += [called for line in computations[name] for called in _called(line)]
-    return [found for name in sorted(inside) for line in computations[name] for found in _operation(line)]
+    return [
+        collective
+        for name in sorted(inside)
+        for line in computations[name]
+        for collective in _operation(line)
+    ]
 
 
 def scope(ident: str) -> str:

@@ -247,7 +247,7 @@ def _alone(
     plan, precision = at.program.plan, at.program.precision
     group, count = plan.groups[g], len(plan.groups)
     program = Program(dc.replace(plan, calls=[c for c in plan.calls if c.group == g]), precision)
-    program.kept = [g] if g in at.program.program.kept else []
+    program.paired_groups = [g] if g in at.program.program.paired_groups else []
     alone = Program(Plan([group], [], {}, {}, {}, plan.size, 1), precision)
     arrays = {array_key(0, path): at.values["arrays"][array_key(g, path)] for path in group.arrays}
     sources = sorted({r.source[:2] for port in group.like.reads for r in plan.reads[g, port]})

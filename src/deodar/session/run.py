@@ -249,7 +249,7 @@ class Run:
 
         That is computed again where a picture or a parameter is new.
         """
-        if not self.program.program.pictured:
+        if not self.program.program.picture_calls:
             return self.sensed
         known, now = self._looked, self.sensed
         if (

@@ -76,7 +76,10 @@ def test_a_sensor_of_a_longer_period_has_couplings_of_that_period() -> None:
     )
     body = embodied(m.document, arena)
     program = executable(m, body=body).program
-    paths = {n: [program.plan.groups[c.group].like.path for c in program.sensory[n]] for n in program.sensory}
+    paths = {
+        n: [program.plan.groups[c.group].like.path for c in program.sensory_calls[n]]
+        for n in program.sensory_calls
+    }
     assert paths[4] == ["colours"] and {"nearest", "product"} <= set(paths[1])
     watch = ["colours.output", "product.output", "u.activation"]
     [inside] = run_together(m, 800.0, [0], watch, world=arena, every=5.0)
