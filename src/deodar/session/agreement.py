@@ -30,12 +30,14 @@ def judge(doc: Document, world: World | None) -> list[Problem]:
     if not isinstance(world, World):
         return []
     with errors_of(world, "validate"):
-        found = list(world.validate())
-    found += [p for e in doc.entries if e.element.sensor_name() for p in _axes(e.path, e.element, world)]
+        problems_of_world = list(world.validate())
+    problems_of_world += [
+        p for e in doc.entries if e.element.sensor_name() for p in _axes(e.path, e.element, world)
+    ]
     if _exchanges_positions(doc, world):
         nodes, problems = resolve(doc)
-        found += [] if problems else _Tracer(nodes, world).judge()
-    return found
+        problems_of_world += [] if problems else _Tracer(nodes, world).judge()
+    return problems_of_world
 
 
 def warn(doc: Document, world: World | None, stacklevel: int) -> None:
@@ -52,17 +54,17 @@ def _axes(path: str, sensor: Element, world: World) -> Iterator[Problem]:
     if signal is None:  # a user's world may accept any name
         return
     with errors_of(world, "validate_axes"):
-        found = list(world.validate_axes(name, axes))
-    yield from (dc.replace(p, where=path) for p in found)
-    given = units.parse(signal.unit)
+        problems = list(world.validate_axes(name, axes))
+    yield from (dc.replace(p, where=path) for p in problems)
+    unit = units.parse(signal.unit)
     for axis in axes if signal.shape is not None else ():
         stated = units.parse(axis.unit)
-        if given is not None and stated is not None and given.quantity == stated.quantity and given != stated:
-            what = (
+        if unit is not None and stated is not None and unit.quantity == stated.quantity and unit != stated:
+            problem = (
                 f"its axis {axis.name!r} states the unit {axis.unit}, and the world gives {name!r}"
                 f" in {signal.unit}"
             )
-            yield Problem(path, what, _choose(world, stated) or f"Write unit={signal.unit!r} for the axis")
+            yield Problem(path, problem, _choose(world, stated) or f"Write unit={signal.unit!r} for the axis")
 
 
 def _exchanges_positions(doc: Document, world: World) -> bool:
@@ -78,9 +80,9 @@ def _units(signal: Signal) -> tuple[MetricUnit | None, ...]:
     """Return the unit of each sample of a signal; empty if it has no unit of length or angle."""
     if signal.shape is None:
         return ()
-    found = [units.parse(text) for text in signal.unit.split(",")]
+    sample_units = [units.parse(text) for text in signal.unit.split(",")]
     count = math.prod(signal.shape)
-    every = found * count if len(found) == 1 else found
+    every = sample_units * count if len(sample_units) == 1 else sample_units
     return tuple(every) if len(every) == count and any(every) else ()
 
 
@@ -90,7 +92,7 @@ class _Tracer:
     def __init__(self, nodes: Sequence[Node], world: World) -> None:
         self.nodes = {n.id: n for n in nodes}
         self.world = world
-        self._found: dict[str, Mapping[str, PositionUnits]] = {}
+        self._positions: dict[str, Mapping[str, PositionUnits]] = {}
 
     def judge(self) -> list[Problem]:
         """Return the problems and warnings of all elements that receive a position of the world."""
@@ -108,24 +110,24 @@ class _Tracer:
         source = self._source(arriving)
         if source is None or len(arriving) != len(code.axes) or not source.element.sensor_name():
             return
-        there = [p and p.scaled(float(g)) for p, g in zip(arriving, code.gains, strict=True)]
+        scaled = [p and p.scaled(float(g)) for p, g in zip(arriving, code.gains, strict=True)]
         wrong = [
             (axis, ratio)
-            for axis, p in zip(code.axes, there, strict=True)
+            for axis, p in zip(code.axes, scaled, strict=True)
             if p is not None and (ratio := _ratio(p, axis.unit)) is not None
         ]
         if wrong:
             yield self._problem(n, source, code, wrong)
             return
         offsets = code.offsets
-        for axis, p, offset in zip(code.axes, there, offsets or (), strict=offsets is not None):
+        for axis, p, offset in zip(code.axes, scaled, offsets or (), strict=offsets is not None):
             if p is not None and p.bounds is not None and not axis.periodic:
                 low, high = (b + offset for b in p.bounds)
                 read = f"the positions that {source.path} reads"
                 unit = units.of_size(p.quantity, p.size)
                 symbol = "" if axis.unit or unit is None else unit.symbol
-                for what, fix in barely_overlap(axis, (low, high), read, symbol):
-                    yield Problem(n.path, what, fix, "warning")
+                for problem, fix in barely_overlap(axis, (low, high), read, symbol):
+                    yield Problem(n.path, problem, fix, "warning")
 
     def _problem(
         self, n: Node, source: Node, code: PositionCode, wrong: Sequence[tuple[Axis, float]]
@@ -133,20 +135,22 @@ class _Tracer:
         axis, ratio = wrong[0]
         signal = self.world.sensors[source.element.sensor_name()]
         name, names = code.parameter, " and ".join(repr(a.name) for a, _ in wrong)
-        given = ", ".join(f"{g:g}" for g in dict.fromkeys(map(float, code.gains)))
-        what = (
-            f"uses {source.path}, which is read in {signal.unit}, with a {name} of {given} on"
+        gains = ", ".join(f"{g:g}" for g in dict.fromkeys(map(float, code.gains)))
+        problem = (
+            f"uses {source.path}, which is read in {signal.unit}, with a {name} of {gains} on"
             f" {'the axis' if len(wrong) == 1 else 'the axes'} {names} in {axis.unit}: all values are"
             f" {_times(ratio)}"
         )
         factors = [dict(wrong).get(a, 1.0) for a in code.axes]
         new = [f"{g * f:.6g}" for g, f in zip(code.gains, factors, strict=True)]
-        value = new[0] if len(set(new)) == 1 else f"[{', '.join(new)}]"
-        change = f"Set its {name}: model.set({f'{n.path}.{name}'!r}, {value})"
+        gain = new[0] if len(set(new)) == 1 else f"[{', '.join(new)}]"
+        change = f"Set its {name}: model.set({f'{n.path}.{name}'!r}, {gain})"
         read = units.parse(signal.unit)
         fitting = None if read is None else units.of_size(read.quantity, read.size / ratio)
         choose = "" if fitting is None else _choose(self.world, fitting)
-        return Problem(n.path, what, f"{choose}. Or: {change[0].lower()}{change[1:]}" if choose else change)
+        return Problem(
+            n.path, problem, f"{choose}. Or: {change[0].lower()}{change[1:]}" if choose else change
+        )
 
     def _commanded(self, n: Node, name: str) -> Iterator[Problem]:
         """Yield the problem of an element whose inputs are a command in another unit than the motor's."""
@@ -156,49 +160,49 @@ class _Tracer:
             source = self._source(arriving)
             if signal is None or source is None or source.element.sensor_name():
                 continue
-            for wanted, p in zip(_units(signal), arriving, strict=False):
-                ratio = None if wanted is None or p is None else _ratio(p, wanted.symbol)
-                if wanted is not None and ratio is not None:
-                    what = (
-                        f"the motor {name!r} takes {wanted.symbol}, and the position that {source.path} reads"
+            for unit, p in zip(_units(signal), arriving, strict=False):
+                ratio = None if unit is None or p is None else _ratio(p, unit.symbol)
+                if unit is not None and ratio is not None:
+                    problem = (
+                        f"the motor {name!r} takes {unit.symbol}, and the position that {source.path} reads"
                         f" out makes all commands {_times(ratio)}"
                     )
-                    yield Problem(n.path, what, f"Connect it through a gain: dd.Gain({ratio:.6g})")
+                    yield Problem(n.path, problem, f"Connect it through a gain: dd.Gain({ratio:.6g})")
                     return
 
-    def _source(self, found: PositionUnits) -> Node | None:
+    def _source(self, positions: PositionUnits) -> Node | None:
         """Return the element that positions come from; None if there are none."""
-        return next((self.nodes[p.source] for p in found if p is not None), None)
+        return next((self.nodes[p.source] for p in positions if p is not None), None)
 
     def arriving(self, n: Node, port: str) -> PositionUnits:
         """Return the positions at an input port: those of all sources that have the same unit."""
         if port == n.element.external:
             return self._reading(n)
         slots = n.reads.get(port, [])
-        known = [found for source, p, _ in slots if (found := self._leaving(self.nodes[source], p))]
-        if not known or any(not _alike(known[0], other) for other in known[1:]):
+        positions = [p for source, name, _ in slots if (p := self._leaving(self.nodes[source], name))]
+        if not positions or any(not _alike(positions[0], other) for other in positions[1:]):
             return ()
         # the sum of several inputs has other bounds
-        return known[0] if len(slots) == 1 else tuple(p and p.unbounded() for p in known[0])
+        return positions[0] if len(slots) == 1 else tuple(p and p.unbounded() for p in positions[0])
 
     def _leaving(self, n: Node, port: str) -> PositionUnits:
         """Return the positions at an output port."""
-        if n.id not in self._found:
-            self._found[n.id] = {}  # for loops
-            self._found[n.id] = n.element.position_units(n.ins, _Arriving(self, n))
-        found = self._found[n.id].get(port, ())
-        return tuple(p and dc.replace(p, source=p.source or n.id) for p in found)
+        if n.id not in self._positions:
+            self._positions[n.id] = {}  # for loops
+            self._positions[n.id] = n.element.position_units(n.ins, _Arriving(self, n))
+        positions = self._positions[n.id].get(port, ())
+        return tuple(p and dc.replace(p, source=p.source or n.id) for p in positions)
 
     def _reading(self, n: Node) -> PositionUnits:
         """Return the positions in the reading of a sensor."""
         signal = self.world.sensors.get(n.element.sensor_name())
-        found = () if signal is None else _units(signal)
-        if signal is None or not found:
+        sample_units = () if signal is None else _units(signal)
+        if signal is None or not sample_units:
             return ()
-        bounds = signal.bounds or [None] * len(found)
+        bounds = signal.bounds or [None] * len(sample_units)
         return tuple(
             None if unit is None else PositionUnit(unit.quantity, unit.size, b)
-            for unit, b in zip(found, bounds, strict=False)
+            for unit, b in zip(sample_units, bounds, strict=False)
         )
 
 
@@ -218,9 +222,11 @@ class _Arriving(Mapping[str, PositionUnits]):
         return len(self.node.ins)
 
 
-def _alike(one: PositionUnits, other: PositionUnits) -> bool:
+def _alike(first: PositionUnits, second: PositionUnits) -> bool:
     """Return whether two ports have the same units, whatever their bounds and their sources."""
-    plain = [[p and dc.replace(p, bounds=None, source="") for p in found] for found in (one, other)]
+    plain = [
+        [p and dc.replace(p, bounds=None, source="") for p in positions] for positions in (first, second)
+    ]
     return plain[0] == plain[1]
 
 

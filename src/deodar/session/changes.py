@@ -43,10 +43,10 @@ def _of_element(old: Element, new: Element) -> list[tuple[str, float | np.ndarra
     )
     if not plain and structure(old) != structure(new):
         return None
-    was = {path: value for path, value, _ in leaves(old, only=moved)}
-    now = [(path, value, p) for path, value, p in leaves(new, only=moved) if path in was]
+    old_values = {path: value for path, value, _ in leaves(old, only=moved)}
+    new_leaves = [(path, value, p) for path, value, p in leaves(new, only=moved) if path in old_values]
     return [
         (path, value, cost(p), p.off and value == p.neutral)
-        for path, value, p in now
-        if value is not was[path] and np.any(value != was[path])
+        for path, value, p in new_leaves
+        if value is not old_values[path] and np.any(value != old_values[path])
     ]

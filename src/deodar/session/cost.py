@@ -169,8 +169,8 @@ def costs(at: StepInputs, seconds: float = SECONDS) -> StepCost:
     Raises:
         TimeError: `seconds` is not above 0.
     """
-    given = real(seconds)
-    if given is None or not 0 < given < math.inf:
+    budget = real(seconds)
+    if budget is None or not 0 < budget < math.inf:
         raise TimeError(f"the time for measuring is {show(seconds)}; expected a number of seconds above 0")
     plan, used = at.program.plan, _read_ports(at)
     buffers = _buffers(at, used)
@@ -179,11 +179,11 @@ def costs(at: StepInputs, seconds: float = SECONDS) -> StepCost:
         for g, group in enumerate(plan.groups)
         if not group.still and (group.like.element.stateful or used[g])
     ]
-    each = given / (len(groups) + 1)
-    us = {g: _timed(_alone(at, g, used[g], buffers), plan.groups[g].like.every, each) for g in groups}
-    step = _timed(_together(at), plan.ticks, each)
+    share = budget / (len(groups) + 1)
+    us = {g: _timed(_alone(at, g, used[g], buffers), plan.groups[g].like.every, share) for g in groups}
+    step = _timed(_together(at), plan.ticks, share)
     by = at.document.by_id()
-    found = [
+    element_costs = [
         ElementCost(
             n.id,
             by[n.id].path if n.id in by else n.path,
@@ -195,7 +195,7 @@ def costs(at: StepInputs, seconds: float = SECONDS) -> StepCost:
         for g, group in enumerate(plan.groups)
         for n in group.nodes
     ]
-    return StepCost(tuple(sorted(found, key=lambda c: (-c.us, c.path))), step)
+    return StepCost(tuple(sorted(element_costs, key=lambda c: (-c.us, c.path))), step)
 
 
 # ------------------------------------------------------------------------------------------- timed functions
@@ -234,8 +234,8 @@ def _together(at: StepInputs) -> Callable[[int], ChunkResult]:
     chunk, _ = at.program.chunk(())
 
     def call(n: int) -> ChunkResult:
-        now = packed({**at.clock, "head": n}, at.program.program.dtype)
-        return at.program.call(chunk, at.values, at.constants, at.state, at.keys, at.sensed, *now)
+        clock = packed({**at.clock, "head": n}, at.program.program.dtype)
+        return at.program.call(chunk, at.values, at.constants, at.state, at.keys, at.sensed, *clock)
 
     return call
 
@@ -252,32 +252,32 @@ def _alone(
     arrays = {array_key(0, path): at.values["arrays"][array_key(g, path)] for path in group.arrays}
     sources = sorted({r.source[:2] for port in group.like.reads for r in plan.reads[g, port]})
 
-    def only(one: Any) -> list[Any]:
-        return [one if k == g else None for k in range(count)]
+    def only(part: Any) -> list[Any]:
+        return [part if k == g else None for k in range(count)]
 
-    def run(given: _GroupArguments, n: Array) -> GroupCarry:
-        values, clock, keys = given.values, given.clock, given.keys
-        settled = only(alone.hoist({**values, "arrays": given.arrays}, [given.constants])[0])
+    def run(arguments: _GroupArguments, n: Array) -> GroupCarry:
+        values, clock, keys = arguments.values, arguments.clock, arguments.keys
+        settled = only(alone.hoist({**values, "arrays": arguments.arrays}, [arguments.constants])[0])
 
         def step(tick: Array, state: ProgramState, drawn: Arrays) -> tuple[ProgramState, tuple[Array, ...]]:
             # without the barrier XLA would compute all that depends on the inputs alone once, before the loop
-            now, tick = lax.optimization_barrier((given.inputs, tick))
+            rows_read, tick = lax.optimization_barrier((arguments.inputs, tick))
             buffers = {
                 (*source, instant): rows
-                for source, rows in zip(sources, now, strict=True)
+                for source, rows in zip(sources, rows_read, strict=True)
                 for instant in (0, 1)
             }
-            chunk = Chunk(values, settled, keys, given.sensed, clock, buffers)
-            shown = program.observe(ports, chunk, state, tick)
-            return program.step(chunk, state, drawn, tick, {}), shown
+            chunk = Chunk(values, settled, keys, arguments.sensed, clock, buffers)
+            observed = program.observe(ports, chunk, state, tick)
+            return program.step(chunk, state, drawn, tick, {}), observed
 
         def body(_: Array, carry: tuple[GroupCarry, Arrays]) -> tuple[GroupCarry, Arrays]:
-            (tick, state, shown), drawn = carry
+            (tick, state, observed), drawn = carry
             drawn = program.draw(keys, tick, clock["tick"], drawn)
-            state, shown = step(tick, state, drawn)
-            return (tick + jnp.uint32(1), state, shown), drawn
+            state, observed = step(tick, state, drawn)
+            return (tick + jnp.uint32(1), state, observed), drawn
 
-        begun = (clock["tick"], given.state, given.shown)
+        begun = (clock["tick"], arguments.state, arguments.shown)
         return lax.fori_loop(0, n, body, (begun, program.undrawn()))[0]
 
     state: ProgramState = {
@@ -285,7 +285,7 @@ def _alone(
         "held": {k: v for k, v in at.state["held"].items() if k == str(g)},
     }
     keys = {k: v for k, v in at.keys.items() if k == str(g)}
-    inputs, shown = [held_by[source] for source in sources], tuple(held_by[g, p.name] for p in ports)
+    inputs, observed = [held_by[source] for source in sources], tuple(held_by[g, p.name] for p in ports)
     args = _GroupArguments(
         at.values,
         arrays,
@@ -293,7 +293,7 @@ def _alone(
         state,
         keys,
         inputs,
-        shown,
+        observed,
         at.sensed,
         unpacked(*packed(at.clock, at.program.program.dtype)),
     )

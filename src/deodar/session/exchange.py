@@ -116,16 +116,16 @@ class Exchange:
     def reset(self, seed: int, trials: TrialNumbers, batch: Batch, precision: str) -> None:
         """Reset the world to its start, for a batch of copies."""
         if self.world is not None:
-            own = trials if batch.own_noise else [trials] * (batch.points or 1)
-            copies = np.ravel(np.asarray(own, np.uint32)).tolist()
+            numbers = trials if batch.own_noise else [trials] * (batch.points or 1)
+            copies = np.ravel(np.asarray(numbers, np.uint32)).tolist()
             if (
                 batch.size > 1
                 and not self.inside
-                and (each := [s.sensor for s in self.sensors.values() if self._each(s)])
+                and (different := [s.sensor for s in self.sensors.values() if self._each(s)])
             ):
                 raise WorldError(
-                    f"{', '.join(sorted(set(each)))} differ from copy to copy, and a batch of copies cannot"
-                    " be run in this world",
+                    f"{', '.join(sorted(set(different)))} differ from copy to copy, and a batch of copies"
+                    " cannot be run in this world",
                     fix="Run them one by one: dd.Trials(..., together=False), or an experiment",
                 )
             with errors_of(self.world, "reset"):
@@ -148,33 +148,40 @@ class Exchange:
         return self._due - tick
 
     def read(
-        self, now: ExchangeInstant, period: int, dt: float, dtype: DTypeLike, sensed: dict[str, np.ndarray]
+        self,
+        instant: ExchangeInstant,
+        period: int,
+        dt: float,
+        dtype: DTypeLike,
+        sensed: dict[str, np.ndarray],
     ) -> None:
         """Advance the world to the present, and write the sensors' values to `sensed` if they are due."""
         if self.world is None or not self.live:
             return
-        back = now.tick < self._last  # after the restore of a snapshot
-        if not self.unread and not back and (not period or now.tick < self._due):
+        back = instant.tick < self._last  # after the restore of a snapshot
+        if not self.unread and not back and (not period or instant.tick < self._due):
             return
         requests = [(sensor.sensor, tuple(sensor.axes)) for sensor in self.sensors.values()]
         readings: Sequence[np.ndarray] | None = None
-        if period and (back or now.tick >= self._due):
-            late = (now.tick - self._origin) % period
+        if period and (back or instant.tick >= self._due):
+            late = (instant.tick - self._origin) % period
             if not back and self._commands is not None:
                 with errors_of(self.world, "act"):
                     if isinstance(self.world, PureWorld) and self.world.exchanges:
                         before = None if self.unread else self._readings
                         readings = self.world.exchange(self._commands, requests, before)
                     else:
-                        self.world.act(self._commands, (now.time - (now.tick - self._last) * dt) * now.unit)
+                        self.world.act(
+                            self._commands, (instant.time - (instant.tick - self._last) * dt) * instant.unit
+                        )
             self._commands = None
-            self._last, self._due = now.tick - late, now.tick - late + period
+            self._last, self._due = instant.tick - late, instant.tick - late + period
         if readings is None:
             with errors_of(self.world, "sense"):
-                moment = (now.time - (now.tick - self._last) * dt) * now.unit
+                moment = (instant.time - (instant.tick - self._last) * dt) * instant.unit
                 readings = self.world.sense_all(requests, moment)
-        for (ident, sensor), given in zip(self.sensors.items(), readings, strict=True):
-            sensed[ident] = self._checked(sensor, given, dtype)
+        for (ident, sensor), reading in zip(self.sensors.items(), readings, strict=True):
+            sensed[ident] = self._checked(sensor, reading, dtype)
         self.unread, self._readings = False, readings
 
     def read_motors(self, tick: int, period: int, read: MotorReader) -> None:
@@ -187,9 +194,9 @@ class Exchange:
             or self._commands is not None
         ):
             return
-        found = read(list(self.motors))
+        values = read(list(self.motors))
         commands: dict[str, np.ndarray] = {}
-        for motor, command in zip(self.motors.values(), found, strict=True):
+        for motor, command in zip(self.motors.values(), values, strict=True):
             if not np.isfinite(command).all():
                 raise NotFinite(
                     f"the motor {motor.motor!r} received {show(command.ravel()[0])}",
@@ -212,44 +219,44 @@ class Exchange:
         if self.world is None:
             return None
         with errors_of(self.world, "keep"):
-            kept = self.world.keep()
+            world_state = self.world.keep()
             moves = type(self.world).arrangement is not World.arrangement
             objects = self.world.arrangement() if moves else None
         times = self._last, self._due, self._origin
-        return WorldState(type(self.world), kept, *times, self._commands, objects)
+        return WorldState(type(self.world), world_state, *times, self._commands, objects)
 
-    def put_now(self, now: Any) -> None:
+    def put_now(self, arrays: Any) -> None:
         """Set the state of a world that was computed inside the step: all copies, with an axis of one row."""
         if self.world is not None:
             with errors_of(self.world, "put"):
-                self.world.put(jax.tree.map(lambda a: a[:, 0], now))
+                self.world.put(jax.tree.map(lambda a: a[:, 0], arrays))
 
-    def put(self, kept: WorldState | None) -> None:
+    def put(self, world_state: WorldState | None) -> None:
         """Restore a state that `keep` returned; the sensors are read again."""
         self.unread = True
-        if kept is not None and self.world is not None and isinstance(self.world, kept.kind):
-            state = kept.world
+        if world_state is not None and self.world is not None and isinstance(self.world, world_state.kind):
+            state = world_state.world
             if isinstance(state, StoredLeaves):
                 name = f"the world {type(self.world).__name__}"
                 with errors_of(self.world, "keep"):
                     structure = self.world.keep()
                 state = stored.filled(structure, state.leaves, name)
             with errors_of(self.world, "put"):
-                if kept.objects is not None:
-                    self.world.arrange(kept.objects)
+                if world_state.objects is not None:
+                    self.world.arrange(world_state.objects)
                 self.world.put(state)
-            self._last, self._due, self._origin = kept.last, kept.due, kept.origin
-            self._commands = kept.commands
+            self._last, self._due, self._origin = world_state.last, world_state.due, world_state.origin
+            self._commands = world_state.commands
 
     def _each(self, sensor: Sensor) -> bool:
-        known = {} if self.world is None else self.world.sensors  # a user's world may accept any name
-        return sensor.sensor in known and known[sensor.sensor].each
+        signals = {} if self.world is None else self.world.sensors  # a user's world may accept any name
+        return sensor.sensor in signals and signals[sensor.sensor].each
 
-    def _checked(self, sensor: Sensor, given: object, dtype: DTypeLike) -> np.ndarray:
+    def _checked(self, sensor: Sensor, numbers: object, dtype: DTypeLike) -> np.ndarray:
         """Return a reading for a single copy, if it has the shape of the sensor and is finite."""
         axes = tuple(sensor.axes)
         try:
-            reading = np.asarray(given, dtype)
+            reading = np.asarray(numbers, dtype)
         except (TypeError, ValueError):  # not numbers
             reading = np.asarray(np.nan)
         if self._each(sensor) and reading.ndim:
@@ -327,10 +334,10 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
     return sensors, motors
 
 
-def _fit(path: str, name: str, world: World, known: Mapping[str, Signal], axes: Axes) -> None:
+def _fit(path: str, name: str, world: World, signals: Mapping[str, Signal], axes: Axes) -> None:
     try:
-        if name in known:  # a user's world may accept any name
-            fitting(name, known[name], axes)
+        if name in signals:  # a user's world may accept any name
+            fitting(name, signals[name], axes)
     except WorldError as error:
         fix = world.alternative(name, shape(axes)) or "Give the element such axes, or choose another world"
         raise WorldError(error.problems[0].what, where=path, fix=fix) from None

@@ -51,9 +51,9 @@ def first_steps(
 
 def not_finite(names: Sequence[str], clock: Clock, unit: str) -> NotFinite:
     """Make the error that names the elements and the step."""
-    shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
+    listed = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
     return NotFinite(
-        f"{shown} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt"
+        f"{listed} became infinite or undefined in step {clock.tick} (time {clock.time:g} {unit}, dt"
         f" {clock.dt:g})",
         names,
         fix=(

@@ -24,10 +24,10 @@ def stoppable(across: bool = False) -> Generator[Callable[[], None]]:
     Outside the main thread, the only one that receives signals, the function does nothing. In a run `across`
     hosts it raises on all of them, whichever was interrupted.
     """
-    asked: list[int] = []
+    signals: list[int] = []
 
     def check() -> None:
-        stop = bool(asked)
+        stop = bool(signals)
         if across:
             # start-up time: this brings JAX
             from deodar.compiler import hosts
@@ -37,9 +37,9 @@ def stoppable(across: bool = False) -> Generator[Callable[[], None]]:
             raise KeyboardInterrupt
 
     def ask(number: int, frame: FrameType | None) -> None:
-        if asked:
+        if signals:
             raise SecondInterrupt
-        asked.append(number)
+        signals.append(number)
 
     if threading.current_thread() is not threading.main_thread():
         yield check

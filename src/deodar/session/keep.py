@@ -19,12 +19,12 @@ def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:
     The keys are the id of the element and the parameter for which the value is an initial value:
     `ID.PARAMETER`.
     """
-    found: dict[str, np.ndarray] = {}
+    learned_values: dict[str, np.ndarray] = {}
     for entry in snapshot.document.entries:
         if entry.element.stateful:
             for name, value in entry.element.learned_parameters(snapshot.states[entry.id][0]).items():
-                found[f"{entry.id}.{name}"] = np.array(value)
-    return found
+                learned_values[f"{entry.id}.{name}"] = np.array(value)
+    return learned_values
 
 
 def learned_states(element: Element, state: StateRow) -> list[str]:
@@ -40,17 +40,17 @@ def learned_states(element: Element, state: StateRow) -> list[str]:
 
 def with_learned(
     doc: Document,
-    now: Mapping[str, tuple[StateRow, StateRow]],
+    learned_rows: Mapping[str, tuple[StateRow, StateRow]],
     states: Mapping[str, tuple[StateRow, StateRow]],
 ) -> dict[str, tuple[StateRow, StateRow]]:
-    """Return states of elements, with those in place of them that elements have learned `now`."""
+    """Return states of elements, with those in place of them that elements have learned: `learned_rows`."""
     out = dict(states)
     for entry in doc.entries:
-        if entry.id in out and entry.id in now:
-            names = learned_states(entry.element, now[entry.id][0])
-            pairs = zip(out[entry.id], now[entry.id], strict=True)
-            shown, held = ({**old, **{name: new[name] for name in names}} for old, new in pairs)
-            out[entry.id] = shown, held
+        if entry.id in out and entry.id in learned_rows:
+            names = learned_states(entry.element, learned_rows[entry.id][0])
+            pairs = zip(out[entry.id], learned_rows[entry.id], strict=True)
+            visible, coming = ({**old, **{name: new[name] for name in names}} for old, new in pairs)
+            out[entry.id] = visible, coming
     return out
 
 
@@ -63,14 +63,14 @@ def keep(snapshot: SessionSnapshot, model: Model) -> list[str]:
         ParameterError: the model no longer has one of the elements.
     """
     by = model.document.by_id()
-    here = snapshot.document.by_id()
+    entries = snapshot.document.by_id()
     values: dict[str, np.ndarray] = {}
     for place, value in learned(snapshot).items():
         ident, name = place.split(".", 1)
         if ident not in by:
             raise ParameterError(
                 "was learned, and is no longer in the model",
-                where=here[ident].path,
+                where=entries[ident].path,
                 fix="Undo its removal: model.undo()",
             )
         values[f"{by[ident].path}.{name}"] = value

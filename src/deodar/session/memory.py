@@ -49,8 +49,8 @@ def require(
         workers: number of worker processes; they keep their records until this process has received them.
     """
     constants = sum(_constants(n) * (points - 1) for n in nodes if n.id in rebuilt)
-    one = run_bytes(nodes, precision, copies) + _size(precision) * constants
-    need = max(1, workers) * one + _size(precision) * recorded + workers * PROCESS
+    bytes_of_run = run_bytes(nodes, precision, copies) + _size(precision) * constants
+    need = max(1, workers) * bytes_of_run + _size(precision) * recorded + workers * PROCESS
     free = psutil.virtual_memory().available
     if need > SHARE * free:
         largest = max(nodes, key=lambda n: _cells(n) * copies + _constants(n))
@@ -117,11 +117,11 @@ def _constants(n: Node) -> int:
         not is_neutral(getattr(e, name, 0.0)) for name in ("noise_length", "length", "amount")
     )
     arrays = sum(int(np.size(value)) for _, value, _ in leaves(e) if np.ndim(value))
-    there = {a.name: a.samples for axes in n.ins.values() for a in axes}
+    samples_of = {a.name: a.samples for axes in n.ins.values() for a in axes}
     between = sum(
-        a.samples * there[a.name]
+        a.samples * samples_of[a.name]
         for axes in n.outs.values()
         for a in axes
-        if there.get(a.name, a.samples) != a.samples
+        if samples_of.get(a.name, a.samples) != a.samples
     )
     return 2 * (square * sum(a.samples**2 for a in _axes(n)) + between) + arrays

@@ -51,8 +51,8 @@ class Meter:
         return dc.asdict(self) | {"drift": self.drift}
 
     def __str__(self) -> str:
-        asked = "as fast as possible" if self.speed is None else f"asked for {self.speed:g}"
-        parts = [f"{self.factor:.4g} times real time ({asked}), {self.steps} steps in {self.wall:.3f} s"]
+        speed = "as fast as possible" if self.speed is None else f"asked for {self.speed:g}"
+        parts = [f"{self.factor:.4g} times real time ({speed}), {self.steps} steps in {self.wall:.3f} s"]
         if self.speed is not None:
             parts.append(f"behind by {self.lag:.2f} ms at the end, {self.worst:.2f} ms at most")
             parts.append(

@@ -81,14 +81,14 @@ class Pace:
         steps: achieved number of steps per second of wall time.
     """
 
-    def __init__(self, now: Callable[[], float] = time.perf_counter) -> None:
-        self._now = now
+    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
+        self._now = clock
         self.speed: float | None = 1.0
         self.longest: float | None = None
         self.factor = 0.0
         self.steps = 0.0
         self._cost = 0.0
-        self._planned = self._asked = 0.0
+        self._planned = self._set_step = 0.0
         self._of: Paced | None = None
         self._program: Executable | None = None
         self.restart()
@@ -138,8 +138,8 @@ class Pace:
     def took(self, session: Paced, n: int, passed: float, seconds: float) -> None:
         """Record that `n` steps were taken, `passed` in document time, `seconds` in wall time."""
         self._follow(session)
-        each = seconds / n
-        self._cost = each if not self._cost else 0.7 * self._cost + 0.3 * each
+        step_cost = seconds / n
+        self._cost = step_cost if not self._cost else 0.7 * self._cost + 0.3 * step_cost
         self._passed += passed
         self._taken += n
         step = passed / n
@@ -149,11 +149,11 @@ class Pace:
             self._late(self._owed(session), session)
         began, time_passed, steps = self._since
         time_passed, steps = time_passed + passed, steps + n
-        now = self._now()
-        if now - began >= MEASURED:
-            self.factor = time_passed * self._unit / (now - began)
-            self.steps = steps / (now - began)
-            began, time_passed, steps = now, 0.0, 0
+        moment = self._now()
+        if moment - began >= MEASURED:
+            self.factor = time_passed * self._unit / (moment - began)
+            self.steps = steps / (moment - began)
+            began, time_passed, steps = moment, 0.0, 0
         self._since = (began, time_passed, steps)
 
     def lengthen(self, session: Paced) -> None:
@@ -163,22 +163,22 @@ class Pace:
         whole number of steps, and the step is within the limit of every time constant.
         """
         # the step was set from outside: it is the planned one from now on
-        if session is not self._of or session.next_dt != self._asked:
-            self._of, self._planned, self._asked = session, session.next_dt, session.next_dt
+        if session is not self._of or session.next_dt != self._set_step:
+            self._of, self._planned, self._set_step = session, session.next_dt, session.next_dt
         if self.longest is None or self.speed is None or not self._cost:
-            wanted = 1
+            multiple = 1
         else:
             wall = self._planned * self._unit / self.speed
             needed = max(RESERVE * self._cost / wall, self._lag / (self.most(session) * wall))
-            wanted = max(1, math.ceil(needed - 1e-6))
-        factor = round(self._asked / self._planned)
-        if wanted < factor and self._now() - self._changed < MEASURED:
+            multiple = max(1, math.ceil(needed - 1e-6))
+        factor = round(self._set_step / self._planned)
+        if multiple < factor and self._now() - self._changed < MEASURED:
             return
-        self._take(session, self._allowed(session, wanted))
+        self._take(session, self._allowed(session, multiple))
 
     def shorten(self, session: Paced) -> None:
         """Return to the planned step."""
-        if session is self._of and session.next_dt == self._asked:
+        if session is self._of and session.next_dt == self._set_step:
             self._take(session, self._planned)
 
     def meter(self, session: Paced) -> Meter:
@@ -220,22 +220,22 @@ class Pace:
         """Record a lag: the delay of the oldest step that is due, or of the newest that was taken."""
         self._lag = max(0.0, lag)
         self._worst = max(self._worst, self._lag)
-        now = self._now()
+        moment = self._now()
         if self._lag > max(EXCHANGE, self._wall(session)):
             if self._late_since is None:
-                self._late_since = now - self._lag  # the time at which the step was due
+                self._late_since = moment - self._lag  # the time at which the step was due
                 self._overruns += 1
         elif self._late_since is not None:
-            self._longest = max(self._longest, now - self._late_since)
+            self._longest = max(self._longest, moment - self._late_since)
             self._late_since = None
 
-    def _allowed(self, session: Paced, wanted: int) -> float:
+    def _allowed(self, session: Paced, multiple: int) -> float:
         """Return the longest step that the bound, the time constants and the world allow.
 
-        It is a whole multiple of the planned step, at most `wanted` times as long.
+        It is a whole multiple of the planned step, at most `multiple` times as long.
         """
         bound = self._planned if self.longest is None else self.longest
-        for k in range(min(wanted, int(bound / self._planned + 1e-9)), 1, -1):
+        for k in range(min(multiple, int(bound / self._planned + 1e-9)), 1, -1):
             step = k * self._planned
             try:
                 require_step(session.document, step)
@@ -247,20 +247,20 @@ class Pace:
         return self._planned
 
     def _take(self, session: Paced, step: float) -> None:
-        if step != self._asked:
-            self._asked, self._changed = step, self._now()
+        if step != self._set_step:
+            self._set_step, self._changed = step, self._now()
             session.dt = step
 
 
 def require_speed(speed: object) -> float | None:
     """Return a speed above 0, or None (as fast as possible); raise TimeError for any other value."""
-    given = None if speed is None else real(speed)
-    if speed is not None and (given is None or not 0 < given < math.inf):
+    number = None if speed is None else real(speed)
+    if speed is not None and (number is None or not 0 < number < math.inf):
         raise TimeError(
             f"a speed is a number above 0, or None for as fast as possible, not {show(speed)}",
             fix="1.0 is real time, 0.1 slow motion",
         )
-    return given
+    return number
 
 
 def require_longest(session: Paced, longest: object) -> float | None:
@@ -271,12 +271,12 @@ def require_longest(session: Paced, longest: object) -> float | None:
     """
     if longest is None:
         return None
-    given = real(longest)
-    if given is None or given < session.next_dt:
+    number = real(longest)
+    if number is None or number < session.next_dt:
         raise TimeError(
             f"the longest step is {show(longest)}; expected a number, not below the planned step of"
             f" {session.next_dt:g}",
             fix="Leave it out to keep the step",
         )
-    require_step(session.document, given)
-    return given
+    require_step(session.document, number)
+    return number

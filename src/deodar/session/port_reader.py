@@ -58,7 +58,7 @@ def whole(program: Executable, places: Iterable[PortKey]) -> set[Port]:
     for ident, name in places:
         if ident in program.plan.row:
             port = program.port(ident, name)
-            like = program.plan.groups[port.group].like
-            if name in like.outs or name in like.ins:
+            node = program.plan.groups[port.group].like
+            if name in node.outs or name in node.ins:
                 out.add(dc.replace(port, row=None))
     return out

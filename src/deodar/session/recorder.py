@@ -56,21 +56,21 @@ class Recorder:
 
         self.path, self.ended = path, ""
         doc = run.doc
-        found = [find.shown(doc, probe.path) for probe in probes]
-        if len(set(found)) < len(found):
+        ports = [find.shown(doc, probe.path) for probe in probes]
+        if len(set(ports)) < len(ports):
             raise ParameterError("a port is recorded twice", fix="Record each port once")
-        self._places = [(entry.id, port) for entry, port in found]
+        self._places = [(entry.id, port) for entry, port in ports]
         self._every = [every if probe.every is None else probe.every for probe in probes]
         steps = gaps(self._every, run.clock.dt)
         self._gap = math.gcd(*steps)
         self._axes = [run.program.axes(port) for port in self._ports(run.program)]
-        self._selector = selector(found, [n // self._gap for n in steps], [probe.when for probe in probes])
+        self._selector = selector(ports, [n // self._gap for n in steps], [probe.when for probe in probes])
         self.names = list(self._selector.thresholds)
         self._taken, self._next = 0, run.clock.tick
         self._journal, self._reader, self._changes = journal, JournalReader(journal), list[JsonObject]()
         variables: list[Any] = [
             (entry, port, axes, np.empty((0, *shape(axes)), run.program.program.dtype))
-            for (entry, port), axes in zip(found, self._axes, strict=True)
+            for (entry, port), axes in zip(ports, self._axes, strict=True)
         ]
         settings: dict[str, Any] = {
             "session": {"tick": run.clock.tick, "time": run.clock.time},
@@ -78,12 +78,12 @@ class Recorder:
             "record": list(map(str, probes)),
             "every": every,
         }
-        about = provenance.provenance(doc, run, **settings)
-        empty = record.dataset(doc, variables, np.empty(0), None, {}, about)
+        description = provenance.provenance(doc, run, **settings)
+        empty = record.dataset(doc, variables, np.empty(0), None, {}, description)
         self._writer: GrowingRecord | None = GrowingRecord(
             folder.begin(doc, path, force),
             record.with_times(empty, self._selector.found),
-            [one.dimension for one in self._selector.found],
+            [series.dimension for series in self._selector.found],
         )
         try:
             self.compile(run.program)
@@ -145,7 +145,7 @@ class Recorder:
             return
         self._gap = math.gcd(*steps)
         strides = {name: n // self._gap for name, n in zip(self.names, steps, strict=True)}
-        new = [one._replace(stride=strides[one.names[0]]) for one in self._selector.found]
+        new = [series._replace(stride=strides[series.names[0]]) for series in self._selector.found]
         if new != self._selector.found:  # some interval is a time, another one a step
             self._selector.found, self._taken = new, 0
         self._next = run.clock.tick + math.ceil((self._next - run.clock.tick) * factor - 1e-6)
@@ -193,8 +193,8 @@ class Recorder:
         assert self._writer is not None
         named = dict(zip(self.names, values, strict=True))
         try:
-            for one in self._selector.choose(self._taken, times, named):
-                self._writer.put(one.dimension, one.times, one.values)
+            for chosen in self._selector.choose(self._taken, times, named):
+                self._writer.put(chosen.dimension, chosen.times, chosen.values)
         except DeodarError as error:
             writer, self._writer = self._writer, None
             writer.abandon()

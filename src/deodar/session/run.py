@@ -211,8 +211,8 @@ class Run:
         begun = self._starts
         begun.keys[BEGUN][rows] = self.clock.tick % 2**32
 
-        def taken(now: Array, start: np.ndarray) -> np.ndarray:
-            values = np.array(now)
+        def taken(array: Array, start: np.ndarray) -> np.ndarray:
+            values = np.array(array)
             values[rows] = start[rows]
             return values
 
@@ -251,17 +251,17 @@ class Run:
         """
         if not self.program.program.picture_calls:
             return self.sensed
-        known, now = self._looked, self.sensed
+        looked, sensed = self._looked, self.sensed
         if (
-            known is None
-            or known.values is not self.values
-            or known.constants is not self.constants
-            or any(not np.array_equal(known.pictures[ident], now[ident]) for ident in known.pictures)
+            looked is None
+            or looked.values is not self.values
+            or looked.constants is not self.constants
+            or any(not np.array_equal(looked.pictures[ident], sensed[ident]) for ident in looked.pictures)
         ):
-            seen = self.program.look(self.values, self.constants, now)
-            pictures = {ident: now[ident] for ident in self.program.program.pictures}
-            self._looked = known = _Looked(self.values, self.constants, pictures, seen)
-        return {**now, **known.seen}
+            seen = self.program.look(self.values, self.constants, sensed)
+            pictures = {ident: sensed[ident] for ident in self.program.program.pictures}
+            self._looked = looked = _Looked(self.values, self.constants, pictures, seen)
+        return {**sensed, **looked.seen}
 
     @property
     def world(self) -> World | None:
@@ -306,12 +306,12 @@ class Run:
                 records = 1 + min((steps - due) // every, capacity - 1, max(0, room) // every)
                 used = gap + (records - 1) * every
                 seen = self._chunk(chunk, {"head": gap, "every": every, "records": records}, used)
-                kept = tuple(
+                samples = tuple(
                     hosts.gathered(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)]
                     for a in seen
                 )
-                self.require_finite(ports, kept, every)
-                collect(taken, kept)
+                self.require_finite(ports, samples, every)
+                collect(taken, samples)
                 taken, done, due = taken + records, done + used, due + records * every
             if progress is not None:
                 progress(done)
@@ -354,13 +354,19 @@ class Run:
         self.clock = self.clock.after(used)
         seconds = time.perf_counter() - began
         if used:
-            now = used / max(seconds, 1e-9)
-            self.pace = 0.5 * (self.pace + now) if self.pace else now
+            speed = used / max(seconds, 1e-9)
+            self.pace = 0.5 * (self.pace + speed) if self.pace else speed
         return seen
 
     def _call(self, chunk: Compiled, state: ProgramState, counts: dict[str, int]) -> ChunkResult:
         return self.program.call(
-            chunk, self._values(), self.constants, state, self.keys, self.readings(), *self._now(counts)
+            chunk,
+            self._values(),
+            self.constants,
+            state,
+            self.keys,
+            self.readings(),
+            *self._clock_arrays(counts),
         )
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
@@ -371,7 +377,13 @@ class Run:
         """Return the values of a compiled reader in the present state."""
         self.sense()
         return self.program.call(
-            reader, self._values(), self.constants, self.state, self.keys, self.readings(), *self._now()
+            reader,
+            self._values(),
+            self.constants,
+            self.state,
+            self.keys,
+            self.readings(),
+            *self._clock_arrays(),
         )
 
     def row(self, group: int, row: int) -> dict[str, np.ndarray]:
@@ -394,13 +406,13 @@ class Run:
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
         self.forget()
 
-    def _now(self, counts: Mapping[str, int] | None = None) -> tuple[np.ndarray, np.ndarray]:
+    def _clock_arrays(self, counts: Mapping[str, int] | None = None) -> tuple[np.ndarray, np.ndarray]:
         period = self._period() if self.exchange.inside else 1
         # the origin of copies that begin again is their own
         origin = {"start": self.clock.t0} if self.program.batch.restarts else self.clock.origin
-        about = {**origin, "tick": self.clock.tick % 2**32, "period": period, "dt": self.clock.dt}
+        numbers = {**origin, "tick": self.clock.tick % 2**32, "period": period, "dt": self.clock.dt}
         return packed(
-            about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype
+            numbers | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype
         )
 
     def _values(self) -> ProgramValues:
@@ -433,8 +445,10 @@ class Run:
     def sense(self) -> None:
         """Advance the world to the present tick and read the sensors; a second call changes nothing."""
         if self.exchange.live:
-            now = ExchangeInstant(self.clock.tick, self.clock.time, self._unit())
-            self.exchange.read(now, self._period(), self.clock.dt, self.program.program.dtype, self.sensed)
+            instant = ExchangeInstant(self.clock.tick, self.clock.time, self._unit())
+            self.exchange.read(
+                instant, self._period(), self.clock.dt, self.program.program.dtype, self.sensed
+            )
 
     def _commands(self, motors: Sequence[str]) -> list[np.ndarray]:
         return self.read([self.program.port(ident, "output") for ident in motors]) if motors else []
@@ -452,10 +466,10 @@ class Run:
             if place not in self.lost or self.lost[place].step > after
         ]
 
-    def _lose(self, found: Mapping[tuple[int, ...], NotFinite]) -> None:
+    def _lose(self, errors: Mapping[tuple[int, ...], NotFinite]) -> None:
         """Continue without some copies; raise the error of the first one if more are lost than tolerated."""
         # keep the earlier error, so that the result does not depend on chunks
-        for place, error in found.items():
+        for place, error in errors.items():
             if place not in self.lost or error.step < self.lost[place].step:
                 self.lost[place] = error
         if len(self.lost) > self.tolerated:
@@ -477,12 +491,12 @@ class Run:
         self, before: ProgramState, used: int, copies: Sequence[tuple[int, ...]]
     ) -> dict[tuple[int, ...], NotFinite]:
         """Return for each of these copies an error with the first step at which a value was not finite."""
-        found = self._search(before, used, copies)
+        bad_steps = self._search(before, used, copies)
         out: dict[tuple[int, ...], NotFinite] = {}
         state, clock = self.state, self.clock
-        for step in sorted({step for step, _ in found.values()}):
+        for step in sorted({step for step, _ in bad_steps.values()}):
             self._go(before, step - 1)
-            for copy, (first, names) in found.items():
+            for copy, (first, names) in bad_steps.items():
                 if first == step:
                     out[copy] = not_finite(
                         self._without_state(copy) or names, self.clock.after(1), self.doc.time_unit
@@ -504,10 +518,10 @@ class Run:
             return [~hosts.gathered(f) for f in finite[1]]
 
         groups = self.program.plan.groups
-        found = first_steps(bad, 0, max(used, 1), copies)
+        bad_steps = first_steps(bad, 0, max(used, 1), copies)
         return {
             copy: (n, [self._path(node) for g, r in rows for node in [groups[g].nodes[r]]])
-            for copy, (n, rows) in found.items()
+            for copy, (n, rows) in bad_steps.items()
         }
 
     def _without_state(self, copy: tuple[int, ...] | EllipsisType) -> list[str]:
@@ -536,10 +550,10 @@ class Run:
                 return names
         return []
 
-    def require_finite(self, ports: Sequence[Port], kept: Sequence[np.ndarray], every: int) -> None:
+    def require_finite(self, ports: Sequence[Port], samples: Sequence[np.ndarray], every: int) -> None:
         """Raise NotFinite for records that are not finite although all states are: outputs of couplings."""
         lead = len(self.program.batch.shape)
-        for port, values in zip(ports, kept, strict=True):
+        for port, values in zip(ports, samples, strict=True):
             good = np.isfinite(values)
             if good.all():
                 continue
@@ -579,8 +593,8 @@ class Run:
         def bad(n: int) -> list[np.ndarray]:
             after, _, _ = self._call(chunk, before, {"head": n, "every": 0, "records": 0})
             assert "world" in after
-            now = after["world"]["now"]
-            return [~np.isfinite(now[name]).reshape(*shape, -1).all(-1, keepdims=True) for name in sensors]
+            sensed = after["world"]["now"]
+            return [~np.isfinite(sensed[name]).reshape(*shape, -1).all(-1, keepdims=True) for name in sensors]
 
         def error(step: int, rows: RowSpans) -> NotFinite:
             clock, names = self.clock.after(step), [sensors[k] for k, _ in rows]
@@ -598,8 +612,8 @@ class Run:
             [~np.isfinite(value).reshape(*shape, -1).all(-1) for value in state["world"]["now"].values()],
             axis=0,
         )
-        found = first_steps(bad, 0, max(used, 1), self._new(spoilt, self.clock.tick))
-        self._lose({copy: error(step, rows) for copy, (step, rows) in found.items()})
+        bad_steps = first_steps(bad, 0, max(used, 1), self._new(spoilt, self.clock.tick))
+        self._lose({copy: error(step, rows) for copy, (step, rows) in bad_steps.items()})
 
     def _path(self, node: Node) -> str:
         """Return the path of a node in the present document, where it may have been renamed."""
@@ -628,10 +642,10 @@ def require_step(doc: Document, dt: float) -> None:
 
 def require_duration(duration: float, what: str) -> float:
     """Return a duration as a float; raise TimeError unless it is finite and 0 or above."""
-    given = real(duration)
-    if given is None or not 0 <= given < math.inf:
+    number = real(duration)
+    if number is None or not 0 <= number < math.inf:
         raise TimeError(f"{what} is {show(duration)}; expected a number, 0 or above")
-    return given
+    return number
 
 
 def whole(duration: float, dt: float, what: str) -> int:
@@ -643,19 +657,20 @@ def whole(duration: float, dt: float, what: str) -> int:
             f"{what} of {duration:g} is {n:.3g} steps of dt = {dt:g}; at most {MOST_STEPS:.3g} can be counted"
         )
     if abs(n - round(n)) > 1e-6 + 1e-14 * n:
-        near = [k * dt for k in (int(n), int(n) + 1)]
+        neighbours = [k * dt for k in (int(n), int(n) + 1)]
         raise TimeError(
-            f"{what} of {duration:g} is not a multiple of dt = {dt:g}", fix=f"Use {near[0]:g} or {near[1]:g}"
+            f"{what} of {duration:g} is not a multiple of dt = {dt:g}",
+            fix=f"Use {neighbours[0]:g} or {neighbours[1]:g}",
         )
     return round(n)
 
 
 def gaps(every: Sequence[float | None], dt: float) -> list[int]:
     """Return the steps between two samples for each interval; None: every step."""
-    found = [1 if time is None else whole(time, dt, "every") for time in every]
-    if 0 in found:
+    counts = [1 if time is None else whole(time, dt, "every") for time in every]
+    if 0 in counts:
         raise TimeError("every is 0; expected at least one step")
-    return found
+    return counts
 
 
 def host(tree: PyTree) -> PyTree:

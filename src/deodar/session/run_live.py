@@ -62,15 +62,15 @@ def run_live(
     pace.restart()
     try:
         with stoppable() as check:
-            while (left := _steps(end - session.time, session.dt)) > 0:
+            while (steps_left := _steps(end - session.time, session.dt)) > 0:
                 check()
                 together = session.program.plan.ticks
-                if session.dt > planned and left <= 2 * together:
+                if session.dt > planned and steps_left <= 2 * together:
                     pace.shorten(session)  # a longer step would not stop exactly at the end
-                    left = together
+                    steps_left = together
                 elif session.dt > planned:
-                    left -= 2 * together
-                n = min(pace.due(session), left)
+                    steps_left -= 2 * together
+                n = min(pace.due(session), steps_left)
                 if n == 0:
                     sleep(pace.rest(session))
                     continue
@@ -91,6 +91,6 @@ def run_live(
     return pace.meter(session)
 
 
-def _steps(left: float, dt: float) -> int:
+def _steps(time_left: float, dt: float) -> int:
     """Return the number of steps left; a rest that is shorter than a step counts as one."""
-    return 0 if left < 0.5e-6 * dt else max(1, math.floor(left / dt + 1e-6))
+    return 0 if time_left < 0.5e-6 * dt else max(1, math.floor(time_left / dt + 1e-6))

@@ -91,9 +91,9 @@ class Session:
         across = distribution is not None and distribution.across
         hosts.require_one("a world", across and world is not None)
         if across:
-            about = {"dt": dt, "seed": seed, "trial": trial, "precision": precision}
+            arguments = {"dt": dt, "seed": seed, "trial": trial, "precision": precision}
             hosts.require_equal("the model", stored(doc))
-            hosts.require_equal("the arguments of the session", about)
+            hosts.require_equal("the arguments of the session", arguments)
         model.require()
         memory.require(resolve(doc)[0], numbers, 1, 0)
         step = doc.step if dt is None else dt
@@ -108,20 +108,20 @@ class Session:
         """Advance by `n` Euler steps."""
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 0:
             raise TimeError(f"a number of steps is a whole number, 0 or above, not {show(n)}")
-        left = int(n)
-        while left:
-            left -= self._to_new_dt(left)
-            if left:
-                self._advance(left if self._coming_dt is None else 0)
-                left = 0 if self._coming_dt is None else left
+        steps_left = int(n)
+        while steps_left:
+            steps_left -= self._to_new_dt(steps_left)
+            if steps_left:
+                self._advance(steps_left if self._coming_dt is None else 0)
+                steps_left = 0 if self._coming_dt is None else steps_left
 
     def run(self, duration: float) -> None:
         """Advance by a duration in document time: a whole number of steps of the present dt."""
-        waiting, rest = 0, require_duration(duration, "a duration")
+        waiting, time_left = 0, require_duration(duration, "a duration")
         if self._coming_dt is not None:  # the old step is valid up to the tick common to all parts
-            waiting = min(-self.tick % self._run.program.plan.ticks, math.floor(rest / self.dt + 1e-9))
-            rest -= waiting * self.dt
-        self.step(waiting + whole(rest, self.next_dt, "a duration"))
+            waiting = min(-self.tick % self._run.program.plan.ticks, math.floor(time_left / self.dt + 1e-9))
+            time_left -= waiting * self.dt
+        self.step(waiting + whole(time_left, self.next_dt, "a duration"))
 
     def run_live(
         self,
@@ -174,7 +174,7 @@ class Session:
         self.require_injection(entry.id)
         frozen = FrozenArray(amount)
         # as the journal has it, so that a repetition has the same bits
-        given = frozen.data if frozen.shape else float(frozen.data)
+        exact_amount = frozen.data if frozen.shape else float(frozen.data)
         if self.program.across:
             hosts.require_equal("what is injected", [entry.path, n, frozen.digest])
         self.journal.append(Change(self.tick, "inject", (entry.path, frozen, n)))
@@ -185,7 +185,9 @@ class Session:
                 self.step()
             finally:
                 self._recorder = recorder
-            self._run.put_row(g, r, entry.element.inject(state := self._run.row(g, r), given, dt) or state)
+            self._run.put_row(
+                g, r, entry.element.inject(state := self._run.row(g, r), exact_amount, dt) or state
+            )
             if recorder is not None:  # a sample at this tick contains the injected input
                 recorder.note()
                 recorder.sample(self._run)
@@ -401,8 +403,8 @@ class Session:
             WorldError: it does not fit at the position, or cannot be moved.
         """
         world, scene = self._seen()
-        item = scene.entry(name)
-        scene.require_room(name, center, item.size if isinstance(item, SceneBox) else None)
+        entry = scene.entry(name)
+        scene.require_room(name, center, entry.size if isinstance(entry, SceneBox) else None)
         with errors_of(world, "move"):
             world.move(name, center)
         self._note("move", name, tuple(center))
@@ -460,8 +462,8 @@ class Session:
             )
         return self.world, scene
 
-    def _note(self, method: str, name: str, *rest: Any) -> None:
-        new = Change(self.tick, method, (name, *rest))
+    def _note(self, method: str, name: str, *arguments: Any) -> None:
+        new = Change(self.tick, method, (name, *arguments))
         if self.journal:  # only the last of several moves between two steps has an effect
             last = self.journal[-1]
             if (last.tick, last.method, last.arguments[0]) == (new.tick, method, name):
@@ -540,8 +542,10 @@ class Session:
         )
 
     def _repr_html_(self) -> str:
-        d, how = self.document, f"dt {self.dt:g}, seed {self.seed}, {self.precision}"
-        return f"<b>{html.escape(d.name)}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), {how}"
+        d, settings = self.document, f"dt {self.dt:g}, seed {self.seed}, {self.precision}"
+        return (
+            f"<b>{html.escape(d.name)}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), {settings}"
+        )
 
     # ------------------------------------------------------------------------------------------------- inside
 
@@ -567,8 +571,8 @@ class Session:
         with hosts.together(True):
             if self._agreed is None or self._agreed[0] is not doc:
                 self._agreed = doc, hosts.digest(stored(doc))
-            said = {"steps": steps, "seed": self.seed, "model": self._agreed[1]}
-            hosts.require_equal("the calls of the session", said)
+            call = {"steps": steps, "seed": self.seed, "model": self._agreed[1]}
+            hosts.require_equal("the calls of the session", call)
             self._run.advance(steps)
 
     def _end_record(self, reason: str) -> None:

@@ -56,15 +56,15 @@ def session_at(
     from deodar.recording.repeat import request, world_of
 
     tell = use_resources(on, "dd.session_at", "progress").told("dd.session_at")
-    data = files.open_record(Path(path))
-    made = about(data)
+    stored = files.open_record(Path(path))
+    description = about(stored)
     changes: list[Change] = []
-    if "session" in made:
-        model, settings = _of_session(data, made, trust)
-        given: Any = codec.parse(str(data.attrs.get("changes", "[]")))
-        changes = list(map(from_file, given))
+    if "session" in description:
+        model, settings = _of_session(stored, description, trust)
+        entries: Any = codec.parse(str(stored.attrs.get("changes", "[]")))
+        changes = list(map(from_file, entries))
     else:
-        model, settings = request(data, trust)
+        model, settings = request(stored, trust)
     if settings.get("trials") is not None or settings.get("sweep"):
         raise RecordError(
             "has several trials or points of a sweep, which were computed together; a session of one of them"
@@ -72,37 +72,39 @@ def session_at(
             where=str(path),
             fix="Record a single run",
         )
-    world = world or world_of(data)
-    there = dc.replace(settings["on"], workers=None, batch=None)
-    session = Session(model, settings["dt"], settings["seed"], settings["precision"], world, on=there)
+    world = world or world_of(stored)
+    resources = dc.replace(settings["on"], workers=None, batch=None)
+    session = Session(model, settings["dt"], settings["seed"], settings["precision"], world, on=resources)
     tick = whole(time - session.time, session.dt, "the time from the start")
-    _require_recorded(data, time, made, session.time + settings.get("duration", 0.0), str(path))
-    stops = _comparisons(session, data, time, str(path))
+    _require_recorded(stored, time, description, session.time + settings.get("duration", 0.0), str(path))
+    stops = _comparisons(session, stored, time, str(path))
     repeat_changes(session, until(changes, tick), tick, tell, stops)
     return session
 
 
-def _of_session(data: xarray.Dataset, made: Any, trust: bool) -> tuple[Model, dict[str, Any]]:
+def _of_session(data: xarray.Dataset, description: Any, trust: bool) -> tuple[Model, dict[str, Any]]:
     from deodar.recording import provenance  # start-up time: this imports xarray
 
-    if made["session"]["tick"] != 0:
+    if description["session"]["tick"] != 0:
         raise RecordError(
-            f"began at step {made['session']['tick']} of a session, whose state it does not contain",
+            f"began at step {description['session']['tick']} of a session, whose state it does not contain",
             fix="Start recording before the first step, or save a snapshot",
         )
-    settings = {key: made[key] for key in ("dt", "seed", "precision")}
-    several = (devices := provenance.devices_of(made)) > 1
-    settings["on"] = Resources(made["made_by"]["device"].split()[0], devices) if several else Resources()
-    return Model(document=provenance.document(made), trusted=trust), settings
+    settings = {key: description[key] for key in ("dt", "seed", "precision")}
+    several = (devices := provenance.devices_of(description)) > 1
+    settings["on"] = (
+        Resources(description["made_by"]["device"].split()[0], devices) if several else Resources()
+    )
+    return Model(document=provenance.document(description), trusted=trust), settings
 
 
-def _require_recorded(data: xarray.Dataset, time: float, made: Any, end: float, where: str) -> None:
+def _require_recorded(data: xarray.Dataset, time: float, description: Any, end: float, where: str) -> None:
     """Raise TimeError for a time of which the record does not describe the run.
 
     A complete run is described up to its `end`; a session, and a run that is still written, up to its last
     sample, because later changes may be missing.
     """
-    if "session" in made or not made.get("complete", True):
+    if "session" in description or not description.get("complete", True):
         end = max((times[-1] for _, _, times in _samples(data) if len(times)), default=0.0)
     if time > end:
         raise TimeError(f"the record ends at {end:g}, before {time:g}", where=where)

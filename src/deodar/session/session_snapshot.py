@@ -50,13 +50,13 @@ def rows(
     the index of a copy in a batch.
     """
     out: dict[str, tuple[StateRow, StateRow]] = {}
-    here: Any = state
+    arrays_of: Any = state
     for ident, (g, r) in program.plan.row.items():
-        shown, held = (
+        visible, coming = (
             {name: values[(*copy, r)] for name, values in arrays.items()}
-            for arrays in (here["groups"][g], here["held"].get(str(g), here["groups"][g]))
+            for arrays in (arrays_of["groups"][g], arrays_of["held"].get(str(g), arrays_of["groups"][g]))
         )
-        out[ident] = (shown, held)
+        out[ident] = (visible, coming)
     return out
 
 

@@ -44,23 +44,23 @@ def save_snapshot(snapshot: SessionSnapshot, path: str | Path, force: bool = Fal
     place = output.claim(path, force)
     arrays: list[np.ndarray] = []
 
-    def kept(row: StateRow) -> list[str]:
+    def append(row: StateRow) -> list[str]:
         arrays.extend(np.asarray(values) for values in row.values())
         return list(row)
 
-    rows = {ident: [kept(shown), kept(held)] for ident, (shown, held) in snapshot.states.items()}
-    document, own = document_files.to_data(snapshot.document)
-    world, found = world_to_file(snapshot.world)
-    about = {
+    rows = {ident: [append(visible), append(coming)] for ident, (visible, coming) in snapshot.states.items()}
+    document, document_arrays = document_files.to_data(snapshot.document)
+    world, world_arrays = world_to_file(snapshot.world)
+    header = {
         "document": document,
-        "arrays": base64.b64encode(document_files.pack(own)).decode() if own else "",
+        "arrays": base64.b64encode(document_files.pack(document_arrays)).decode() if document_arrays else "",
         "rows": rows,
         "clock": dc.asdict(snapshot.clock),
         "seed": snapshot.seed,
         "precision": snapshot.precision,
         "world": world,
     }
-    stored.write(place, about, [*arrays, *found], KIND)
+    stored.write(place, header, [*arrays, *world_arrays], KIND)
     return place
 
 
@@ -78,17 +78,17 @@ def load_snapshot(path: str | Path, trust: bool = False) -> SessionSnapshot:
         RecordError: there is no such file, it is damaged, or of a newer version.
         Untrusted: its document names a function, and `trust` is not given.
     """
-    about: Any
-    about, arrays = stored.read(Path(path), KIND)
+    header: Any
+    header, arrays = stored.read(Path(path), KIND)
     try:
-        document = Model(document=provenance.document(about), trusted=trust).document
-        rest = iter(arrays)
+        document = Model(document=provenance.document(header), trusted=trust).document
+        unread = iter(arrays)
         states = {
-            ident: tuple({name: next(rest) for name in names} for names in pair)
-            for ident, pair in about["rows"].items()
+            ident: tuple({name: next(unread) for name in names} for names in pair)
+            for ident, pair in header["rows"].items()
         }
-        world = world_from_file(about["world"], list(rest))
-        clock, seed, precision = Clock(**about["clock"]), int(about["seed"]), str(about["precision"])
+        world = world_from_file(header["world"], list(unread))
+        clock, seed, precision = Clock(**header["clock"]), int(header["seed"]), str(header["precision"])
     except (KeyError, TypeError, ValueError, StopIteration, RuntimeError) as error:
         raise RecordError(
             f"is damaged: its content cannot be read ({type(error).__name__}: {error})", where=str(path)
