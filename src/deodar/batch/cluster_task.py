@@ -26,12 +26,12 @@ def run(payload: bytes, precision: str) -> tuple[dict[str, str], bytes]:
     # start-up time: these bring JAX
     from deodar.batch import pool
 
-    about = description(precision)
+    description_here = description(precision)
     try:
         function, arguments = pickle.loads(payload)
     except Exception as error:  # an import may raise any exception
-        return about, pickle.dumps((False, _lacks(error)))
-    return about, pool.done(function, arguments)
+        return description_here, pickle.dumps((False, _lacks(error)))
+    return description_here, pool.done(function, arguments)
 
 
 def description(precision: str) -> dict[str, str]:

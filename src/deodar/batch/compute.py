@@ -90,33 +90,33 @@ def _in_one(plan: RunPlan, part: RecordedPiece | None) -> pieces.PieceResult:
         run = Run(dynamics, filled, plan.sampling.dt, plan.request.seed, noise, plan.world, values)
         program = run.program
         run.tolerated = filled.size - 1
-        found = [program.port(i, port) for i, port in plan.ports]
-        about = provenance(plan.doc, run, **plan.settings, **plan.stated, batch=plan.cut.batch)
+        ports = [program.port(i, port) for i, port in plan.ports]
+        description = provenance(plan.doc, run, **plan.settings, **plan.stated, batch=plan.cut.batch)
         sink = _Store(filled) if part is None else part
-        sink.begin(plan, program, found, about)
+        sink.begin(plan, program, ports, description)
         try:
-            with bar(plan.steps, plan.request.on.progress) as shown:
-                sink.record(run, check, shown)
+            with bar(plan.steps, plan.request.on.progress) as show:
+                sink.record(run, check, show)
         except KeyboardInterrupt:
             stopped = True
         except NotFinite as error:
             if len(run.lost) < filled.size or not filled.shape:
                 raise
             nothing = error
-    data = sink.end(_reasons(plan, run), not stopped, nothing is not None)
+    record = sink.end(_reasons(plan, run), not stopped, nothing is not None)
     if stopped:
         end = f"{run.clock.time:g} of {plan.request.duration:g} {plan.doc.time_unit}"
-        raise Interrupted(f"stopped at {end}", data)
-    return pieces.PieceResult(data, True, nothing)
+        raise Interrupted(f"stopped at {end}", record)
+    return pieces.PieceResult(record, True, nothing)
 
 
 def _reasons(plan: RunPlan, run: Run) -> dict[tuple[int, ...], str]:
     """Return why copies diverged, without those that only fill a piece up."""
-    own = plan.copies.shape
+    axis_lengths = plan.copies.shape
     return {
         plan.points.place(copy, plan.labels is not None): error.problems[0].what
         for copy, error in run.lost.items()
-        if all(k < n for k, n in zip(copy, own, strict=True))
+        if all(k < n for k, n in zip(copy, axis_lengths, strict=True))
     }
 
 
@@ -127,23 +127,23 @@ class _Store:
         self._batch, self._taken = batch.shape, 0
 
     def begin(
-        self, plan: RunPlan, program: Executable, ports: Sequence[Port], about: Mapping[str, Any]
+        self, plan: RunPlan, program: Executable, ports: Sequence[Port], description: Mapping[str, Any]
     ) -> None:
         """Set what is recorded, as `RecordedPiece.begin` does."""
-        self._plan, self._ports, self._about = plan, ports, about
+        self._plan, self._ports, self._about = plan, ports, description
         self._axes = [program.axes(port) for port in ports]
         self._arrays = [
             np.empty((*self._batch, plan.sampling.most, *shape(axes)), program.program.dtype)
             for axes in self._axes
         ]
 
-    def record(self, run: Run, check: Callable[[], None], shown: Callable[[int], object]) -> None:
+    def record(self, run: Run, check: Callable[[], None], show: Callable[[int], object]) -> None:
         """Advance a run to its end, as `RecordedPiece.record` does."""
         plan = self._plan
 
         def between(done: int) -> None:
             check()
-            shown(done)
+            show(done)
 
         run.record(plan.steps, self._ports, plan.sampling.start, plan.sampling.gap, self._collect, between)
 
@@ -164,15 +164,17 @@ class _Store:
         taken = plan.sampling.most if lost else self._taken
         for array in self._arrays if lost else ():
             array[...] = np.nan
-        own = *map(slice, plan.copies.shape), slice(taken)
+        region = *map(slice, plan.copies.shape), slice(taken)
         variables = [
-            (doc.by_id()[ident], port, axes, array[own])
+            (doc.by_id()[ident], port, axes, array[region])
             for (ident, port), axes, array in zip(plan.ports, self._axes, self._arrays, strict=True)
         ]
-        times, about = plan.sampling.times(doc, 0, taken), {**self._about, "complete": complete}
-        data = dataset(doc, variables, times, plan.labels, plan.points.grid, about, plan.points.beside)
+        times, description = plan.sampling.times(doc, 0, taken), {**self._about, "complete": complete}
+        record = dataset(
+            doc, variables, times, plan.labels, plan.points.grid, description, plan.points.beside
+        )
         trials = ["trial"] if plan.labels is not None else []
-        return marked(data, [*plan.points.grid, *trials], reasons)
+        return marked(record, [*plan.points.grid, *trials], reasons)
 
 
 # -------------------------------------------------------------------------------------------------- in pieces
@@ -181,11 +183,11 @@ class _Store:
 @contextlib.contextmanager
 def _watched(across: bool, steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
     """Return a function that receives the number of completed steps, shows it and checks for Ctrl-C."""
-    with stoppable(across) as check, bar(steps, progress) as shown:
+    with stoppable(across) as check, bar(steps, progress) as show:
 
         def between(done: int) -> None:
             check()
-            shown(done)
+            show(done)
 
         yield between
 
@@ -214,9 +216,11 @@ def _one_by_one(
 
 def _whole(plan: RunPlan, parts: Sequence[pieces.PieceResult | None]) -> pieces.PieceResult:
     """Return the result of all pieces; raise Interrupted if some are not complete."""
-    data = pieces.joined(plan.cut, parts, plan.stated)
+    record = pieces.joined(plan.cut, parts, plan.stated)
     complete = sum(part is not None and part.complete for part in parts)
     if complete < len(parts):
-        raise Interrupted(f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data)
+        raise Interrupted(
+            f"stopped when {complete} of {len(parts)} pieces of the batch were complete", record
+        )
     errors = [part.lost for part in parts if part is not None]
-    return pieces.PieceResult(data, True, errors[0] if all(error is not None for error in errors) else None)
+    return pieces.PieceResult(record, True, errors[0] if all(error is not None for error in errors) else None)

@@ -31,9 +31,9 @@ def pieces_driven(
             that the piece has not told yet.
         check: as in `driven`, with the records until then.
     """
-    known = set() if out is None else set(out.done)
-    parts: list[PieceResult | None] = [EMPTY if k in known else None for k in range(count)]
-    tasks = (task(k) for k in range(count) if k not in known)
+    complete = set() if out is None else set(out.done)
+    parts: list[PieceResult | None] = [EMPTY if k in complete else None for k in range(count)]
+    tasks = (task(k) for k in range(count) if k not in complete)
 
     def heard(number: int, message: PieceMessage) -> None:
         assert out is not None

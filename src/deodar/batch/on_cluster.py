@@ -125,8 +125,8 @@ class ClusterPool:
         self._failed: BaseException | None = None
         self._class: dict[str, str] = {}
         self._kinds: dict[str, str] = {}
-        self._here: dict[str, str] = {}
-        self._known: dict[str, str] = {}
+        self._description: dict[str, str] = {}
+        self._accepted: dict[str, str] = {}
         self._stack = contextlib.ExitStack()
 
     def __enter__(self) -> Self:
@@ -223,10 +223,10 @@ class ClusterPool:
                 raise _unable(answer, f"the worker {address}")
             self._accept(answer[0], f"the worker {address}")
             self._kinds[address] = answer[0]["machine"]
-            good, result = pickle.loads(answer[1])
+            good, answer_value = pickle.loads(answer[1])
             if not good:
-                raise result
-            out.append(result)
+                raise answer_value
+            out.append(answer_value)
         return out
 
     # ------------------------------------------------------------------------------------------------ connect
@@ -238,18 +238,18 @@ class ClusterPool:
             return await self._client.scheduler.versions()
 
         answer = self._wait_for(ask(), scheduler.CONNECT_SECONDS, "the scheduler does not answer")
-        there = answer["packages"].get("distributed")
-        if there != self._version:
+        version = answer["packages"].get("distributed")
+        if version != self._version:
             raise WorkerError(
-                f"the scheduler at {self.cluster.address} has distributed {there}, and this process"
+                f"the scheduler at {self.cluster.address} has distributed {version}, and this process"
                 f" distributed {self._version}",
                 fix="Install the same versions everywhere",
             )
 
     def _await_workers(self) -> None:
         """Wait for all processes of `local:N`, or for the first worker of another cluster."""
-        wanted = self.cluster.processes or 1
-        while self.workers < wanted:
+        processes = self.cluster.processes or 1
+        while self.workers < processes:
             time.sleep(0.05)
             self.look()
             self._check()
@@ -280,14 +280,14 @@ class ClusterPool:
 
     async def _follow(self, key: Hashable, attempt: int, future: Any) -> None:
         try:
-            about, result = await future
+            description, payload = await future
         except asyncio.CancelledError as error:
             self._inbox.put(_TaskAnswer(key, attempt, {}, b"", error))
             raise
         except BaseException as error:
             self._inbox.put(_TaskAnswer(key, attempt, {}, b"", error))
         else:
-            self._inbox.put(_TaskAnswer(key, attempt, about, result))
+            self._inbox.put(_TaskAnswer(key, attempt, description, payload))
 
     def _arrived(self, seconds: float) -> list[_TaskAnswer]:
         out: list[_TaskAnswer] = []
@@ -305,15 +305,15 @@ class ClusterPool:
         if error is None:
             del self._tasks[answer.key]
             self._accept(answer.about, "a worker")
-            good, result = pickle.loads(answer.result)
+            good, outcome = pickle.loads(answer.result)
             if not good:
-                raise result
-            out.append((answer.key, result))
+                raise outcome
+            out.append((answer.key, outcome))
         elif type(error).__name__ == "KilledWorker":
             count = getattr(error, "allowed_failures", scheduler.ALLOWED_FAILURES) + 1
             raise WorkerError(
                 f"the same task has ended {count} worker processes, one after another; its key is"
-                f" {_shown(answer.key)}",
+                f" {_key_text(answer.key)}",
                 fix="The system may have stopped them for lack of memory: use fewer workers on a machine, or"
                 " smaller pieces. What was completed is stored",
             )
@@ -326,7 +326,7 @@ class ClusterPool:
         """Submit a task under a new name; its former attempt no longer counts."""
         if task.attempt + 1 >= MOST_ATTEMPTS:
             raise WorkerError(
-                f"the task {_shown(task.key)} was submitted {MOST_ATTEMPTS} times without a result",
+                f"the task {_key_text(task.key)} was submitted {MOST_ATTEMPTS} times without a result",
                 fix="Look at the network and at the logs of the workers. What was completed is stored",
             )
         if self._client.status != "running":
@@ -353,15 +353,15 @@ class ClusterPool:
 
     def _check(self) -> None:
         """Raise an error if nothing can come any more, and submit again what was lost."""
-        now, seen = time.monotonic(), self._seen
-        if now - seen.time > SILENT_SECONDS:
+        moment, seen = time.monotonic(), self._seen
+        if moment - seen.time > SILENT_SECONDS:
             raise WorkerError(
                 f"the scheduler of {self.cluster.address} has not answered for {SILENT_SECONDS:g} s",
                 fix="Start it again, with its workers, and repeat the call: it resumes",
             )
         if seen.workers:
-            self._staffed = now
-        elif now - self._staffed > self.cluster.patience:
+            self._staffed = moment
+        elif moment - self._staffed > self.cluster.patience:
             raise WorkerError(
                 f"{self.cluster.address} has had no worker for {self.cluster.patience:g} s",
                 fix="Start workers (dask worker ADDRESS --nthreads 1), or wait longer for them:"
@@ -375,70 +375,70 @@ class ClusterPool:
                 fix="Start them with one: dask worker ADDRESS --nthreads 1 --nworkers N",
             )
         for task in self._tasks.values():
-            self._check_task(task, now, len(seen.processing) < len(seen.workers))
+            self._check_task(task, moment, len(seen.processing) < len(seen.workers))
 
-    def _check_task(self, task: _Task, now: float, idle: bool) -> None:
+    def _check_task(self, task: _Task, moment: float, idle: bool) -> None:
         status = task.future.status
         arriving = status in ("finished", "cancelled", "lost", "error")
         missing = status == "pending" and idle and str(task.future.key) not in self._seen.processing
-        task.fetching = (task.fetching or now) if arriving else 0.0
-        task.lost = (task.lost or now) if missing else 0.0
+        task.fetching = (task.fetching or moment) if arriving else 0.0
+        task.lost = (task.lost or moment) if missing else 0.0
         allowed = CANCELLED_SECONDS if status in ("cancelled", "lost") else FETCH_SECONDS
-        late = task.fetching and now - task.fetching > allowed
-        if late or (task.lost and now - task.lost > LOST_SECONDS):
+        late = task.fetching and moment - task.fetching > allowed
+        if late or (task.lost and moment - task.lost > LOST_SECONDS):
             self._submit_again(task)
 
-    def _accept(self, about: Mapping[str, str], who: str) -> None:
+    def _accept(self, worker: Mapping[str, str], who: str) -> None:
         """Raise an error if rows of this worker cannot be stored with those of the others."""
-        if about == self._known:
+        if worker == self._accepted:
             return
-        here = self._here = self._here or _made_here(self._precision)
-        named = sorted({*here, *about} - {*OWN})
-        differ = [name for name in named if here.get(name) != about.get(name)]
+        here_made = self._description = self._description or _made_here(self._precision)
+        named = sorted({*here_made, *worker} - {*OWN})
+        differ = [name for name in named if here_made.get(name) != worker.get(name)]
         if differ:
             there, mine = (
                 ", ".join(f"{name} {found.get(name, 'missing')}" for name in differ)
-                for found in (about, here)
+                for found in (worker, here_made)
             )
             raise WorkerError(
                 f"{who} has {there}, and this process {mine}", fix="Install the same versions everywhere"
             )
-        if about.get("cores") != "1":
+        if worker.get("cores") != "1":
             raise WorkerError(
-                f"{who} computes with {about.get('cores')} cores, which changes the last digits",
+                f"{who} computes with {worker.get('cores')} cores, which changes the last digits",
                 fix="Start workers with NPROC=1 in the environment",
             )
-        own = {name: about.get(name, "") for name in ("machine", "device", INSTRUCTIONS)}
-        self._class = self._class or own
-        if own != self._class and not self.cluster.mixed:
-            name = next(name for name in own if own[name] != self._class[name])
+        machine_class = {name: worker.get(name, "") for name in ("machine", "device", INSTRUCTIONS)}
+        self._class = self._class or machine_class
+        if machine_class != self._class and not self.cluster.mixed:
+            name = next(name for name in machine_class if machine_class[name] != self._class[name])
             raise WorkerError(
-                f"workers differ in their {name}: {self._class[name]!r} and {own[name]!r}, so that the last"
-                " digits of their rows may differ",
+                f"workers differ in their {name}: {self._class[name]!r} and {machine_class[name]!r}, so that"
+                " the last digits of their rows may differ",
                 fix="Use workers of one kind, or allow it: mixed=True, on the command line --mixed, in the"
                 " studio the box Mixed machines",
             )
-        known = {name: text for name, text in about.items() if name != INSTRUCTIONS}
-        self._known = dict(about)
-        self.made_by = known | ({"machine": "mixed"} if self.cluster.mixed else {})
+        stated = {name: text for name, text in worker.items() if name != INSTRUCTIONS}
+        self._accepted = dict(worker)
+        self.made_by = stated | ({"machine": "mixed"} if self.cluster.mixed else {})
 
-    def _wait_for(self, coroutine: Coroutine[Any, Any, Any], seconds: float, what: str) -> Any:
+    def _wait_for(self, coroutine: Coroutine[Any, Any, Any], seconds: float, failure: str) -> Any:
         """Return the result of a coroutine of the client's loop, after at most `seconds`."""
-        asked = asyncio.run_coroutine_threadsafe(asyncio.wait_for(coroutine, seconds), self._loop)
+        future = asyncio.run_coroutine_threadsafe(asyncio.wait_for(coroutine, seconds), self._loop)
         end = time.monotonic() + seconds + 5
         try:
             while True:
                 try:
-                    return asked.result(0.2)
+                    return future.result(0.2)
                 except TimeoutError:
-                    if asked.done() or time.monotonic() > end:
+                    if future.done() or time.monotonic() > end:
                         raise WorkerError(
-                            f"{what}, at {self.cluster.address}, within {seconds:g} s",
+                            f"{failure}, at {self.cluster.address}, within {seconds:g} s",
                             fix="Look at the logs of the scheduler and of the workers",
                         ) from None
                 self.look()
         finally:
-            asked.cancel()
+            future.cancel()
 
 
 def _made_here(precision: str) -> dict[str, str]:
@@ -478,5 +478,5 @@ def _unable(error: BaseException, who: str) -> WorkerError:
     )
 
 
-def _shown(key: Hashable) -> str:
+def _key_text(key: Hashable) -> str:
     return ", ".join(map(str, key[:2])) if isinstance(key, tuple) else str(key)

@@ -44,13 +44,13 @@ class PackedModel:
         Raises:
             WorkerError: a part of them cannot be sent to another process.
         """
-        data, arrays = document_files.to_data(model.document)
-        outside = _outside(data)
+        plain, arrays = document_files.to_data(model.document)
+        outside = _outside(plain)
         _require_module([*outside, *([type(world)] if world is not None else [])])
-        held = document_files.pack(arrays) if arrays else b""
+        packed_arrays = document_files.pack(arrays) if arrays else b""
         return cls(
-            codec.line(data),
-            held,
+            codec.line(plain),
+            packed_arrays,
             model.trusted,
             _pickled(outside, "an element"),
             _pickled(world, f"the world {type(world).__name__}"),
@@ -83,28 +83,28 @@ def require_portable(world: World | None) -> None:
 @functools.lru_cache(maxsize=1)
 def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
     pickle.loads(kinds)
-    held = document_files.unpack(arrays, "the document") if arrays else {}
-    return Model(document=document_files.from_data(codec.parse(document), held), trusted=trusted)
+    unpacked = document_files.unpack(arrays, "the document") if arrays else {}
+    return Model(document=document_files.from_data(codec.parse(document), unpacked), trusted=trusted)
 
 
-def _outside(data: Mapping[str, Any]) -> list[type]:
+def _outside(document: Mapping[str, Any]) -> list[type]:
     """Return the classes outside deodar that the document names."""
-    used = {name: registry.kind(name) for name in kinds_in(data["elements"])}
+    used = {name: registry.kind(name) for name in kinds_in(document["elements"])}
     return [cls for _, cls in sorted(used.items()) if not registry.own(cls)]
 
 
 def _require_module(classes: Sequence[type]) -> None:
-    here = [cls.__name__ for cls in classes if cls.__module__ == "__main__"]
-    if here:
+    of_script = [cls.__name__ for cls in classes if cls.__module__ == "__main__"]
+    if of_script:
         raise WorkerError(
-            f"{', '.join(here)} is written in the script itself, which worker processes do not run",
+            f"{', '.join(of_script)} is written in the script itself, which worker processes do not run",
             fix="Put it into a module of its own and import it, or run without workers",
         )
 
 
-def _pickled(what: Any, name: str) -> bytes:
+def _pickled(part: Any, name: str) -> bytes:
     try:
-        return pickle.dumps(what)
+        return pickle.dumps(part)
     except Exception as error:  # a class may raise any exception
         raise WorkerError(
             f"{name} cannot be sent to other processes ({type(error).__name__}: {error})",

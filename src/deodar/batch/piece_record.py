@@ -101,41 +101,41 @@ class RecordedPiece:
         self._saved_at = self._taken = 0
 
     def begin(
-        self, plan: RunPlan, program: Executable, ports: Sequence[Port], about: Mapping[str, Any]
+        self, plan: RunPlan, program: Executable, ports: Sequence[Port], description: Mapping[str, Any]
     ) -> None:
         """Set what is recorded: the ports of the program, and what the record states of the run."""
-        self.plan, self.program, self.ports, self.about = plan, program, ports, about
+        self.plan, self.program, self.ports, self.about = plan, program, ports, description
         # the identity of the run of this piece, apart from its duration and its machine
-        same = {k: v for k, v in about.items() if k not in ("duration", "made_by")}
+        same = {k: v for k, v in description.items() if k not in ("duration", "made_by")}
         self.digest = hashlib.sha256(codec.line(same, sort=True).encode()).hexdigest()
         by = plan.doc.by_id()
-        found = [(by[ident], port) for ident, port in plan.ports]
-        self.selector = probe.selector(found, *zip(*plan.sampling.probes, strict=True))
+        recorded = [(by[ident], port) for ident, port in plan.ports]
+        self.selector = probe.selector(recorded, *zip(*plan.sampling.probes, strict=True))
         self.names = list(self.selector.thresholds)
 
     def _collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
         """Tell samples from number `k` on."""
-        own = [part.stop - part.start for part in self.part.region]
+        lengths = [part.stop - part.start for part in self.part.region]
         lead = len(self.program.batch.shape)
         n = seen[0].shape[lead]
-        copies = self._copies(own)
+        copies = self._copies(lengths)
         values = {
-            name: a[tuple(map(slice, copies))].reshape(*own, *a.shape[lead:])
+            name: a[tuple(map(slice, copies))].reshape(*lengths, *a.shape[lead:])
             for name, a in zip(self.names, seen, strict=True)
         }
         self._require_begun()
         times = self.plan.sampling.times(self.plan.doc, k, n)
-        for one in self.selector.choose(k, times, values, len(own)):
-            self._tell(one)
+        for chosen in self.selector.choose(k, times, values, len(lengths)):
+            self._tell(chosen)
         self._taken = k + n
 
-    def record(self, run: Run, check: Callable[[], None], shown: Callable[[int], object]) -> None:
+    def record(self, run: Run, check: Callable[[], None], show: Callable[[int], object]) -> None:
         """Advance a run that has just begun to its end, from the stored state if one is resumed.
 
         Args:
             run: the run.
             check: raises KeyboardInterrupt to stop; called between chunks.
-            shown: called with the number of completed steps; may raise it, too.
+            show: called with the number of completed steps; may raise it, too.
 
         Raises:
             OutputError: samples cannot be written; those before are in the file.
@@ -152,7 +152,7 @@ class RecordedPiece:
         def between(done: int) -> None:
             self._save_if_due(run, begun + done)
             try:
-                shown(begun + done)
+                show(begun + done)
                 check()
             except KeyboardInterrupt:
                 self._save(run, begun + done)
@@ -167,38 +167,38 @@ class RecordedPiece:
     def _save_if_due(self, run: Run, done: int) -> None:
         due = self.part.snapshots
         passed = (done - self._saved_at) * self.plan.sampling.dt
-        now = passed >= due if due is not None else time.monotonic() - self._saved >= CHECKPOINT_SECONDS
+        due_now = passed >= due if due is not None else time.monotonic() - self._saved >= CHECKPOINT_SECONDS
         # all hosts read a state together, so the clock of the first one decides
-        if hosts.of_first("a stored state", now, run.program.across):
+        if hosts.of_first("a stored state", due_now, run.program.across):
             self._save(run, done)
 
     def _save(self, run: Run, done: int) -> None:
         """Tell the state of the run after `done` steps."""
         self._saved, self._saved_at = time.monotonic(), done
-        about = {
+        header = {
             "piece": self.part.number,
             "steps": done,
             "above": self.selector.above,
             "taken": self._taken,
             "of": self.digest,
         }
-        self._tell(PieceState(checkpoint.taken(run, about)))
+        self._tell(PieceState(checkpoint.taken(run, header)))
 
     def _resumed(self, run: Run) -> int:
         """Set the run to the stored state of this piece; return the number of its steps, 0 without one."""
         if self.part.state is None:
             return 0
-        about, arrays = self.part.state
-        if about.get("of") != self.digest:
+        header, arrays = self.part.state
+        if header.get("of") != self.digest:
             raise RecordError(
                 "the stored state is of another run",
                 where=self.part.state_file,
                 fix="Remove it; the run then begins again",
             )
-        checkpoint.put(run, about, arrays)
-        self._taken, self._saved_at = int(about["taken"]), int(about["steps"])
-        self.selector.above = dict(about["above"])
-        return int(about["steps"])
+        checkpoint.put(run, header, arrays)
+        self._taken, self._saved_at = int(header["taken"]), int(header["steps"])
+        self.selector.above = dict(header["above"])
+        return int(header["steps"])
 
     def end(self, reasons: Mapping[tuple[int, ...], str], complete: bool, lost: bool) -> None:
         """Tell which copies of a complete piece diverged, with their reasons."""
@@ -209,11 +209,11 @@ class RecordedPiece:
         whole = {tuple(k + s for k, s in zip(place, starts, strict=True)): r for place, r in reasons.items()}
         self._tell(PieceEnded(whole))
 
-    def _copies(self, own: Sequence[int]) -> list[int]:
+    def _copies(self, lengths: Sequence[int]) -> list[int]:
         """Return the lengths of the batch axes without the copies that only fill the piece up."""
         part = self.part
-        points = int(np.prod(own[: len(part.grid)], dtype=int))
-        return ([points] if part.grid else []) + ([own[-1]] if part.labels is not None else [])
+        points = int(np.prod(lengths[: len(part.grid)], dtype=int))
+        return ([points] if part.grid else []) + ([lengths[-1]] if part.labels is not None else [])
 
     def _require_begun(self) -> None:
         """Tell a record without samples, unless the record exists."""
@@ -228,8 +228,8 @@ class RecordedPiece:
             axes = self.program.axes(place)
             array = np.empty((*copies, 0, *shape(axes)), self.program.program.dtype)
             variables.append((by[ident], port, axes, array))
-        about = {**self.about, **part.settings}
-        data = record.dataset(
-            self.plan.doc, variables, np.empty(0), part.labels, part.grid, about, part.beside
+        description = {**self.about, **part.settings}
+        empty = record.dataset(
+            self.plan.doc, variables, np.empty(0), part.labels, part.grid, description, part.beside
         )
-        self._tell(PieceBegun(record.with_times(data, self.selector.found)))
+        self._tell(PieceBegun(record.with_times(empty, self.selector.found)))

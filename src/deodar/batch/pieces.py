@@ -83,15 +83,15 @@ class Pieces:
         on = dc.replace(whole.on, workers=None, cluster=None, progress=None, batch=self.batch)
         for first in range(0, self.total, self.length):
             part = slice(first, first + self.length)
-            own = list(trials) if trials is not None else None
+            numbers = list(trials) if trials is not None else None
             grid: Sweep = sweep
             if self.dimension == POINT and isinstance(sweep, Points):
                 grid = dc.replace(sweep, values=sweep.values[part])
             elif isinstance(sweep, Mapping) and self.dimension in sweep:
                 grid = {**sweep, self.dimension: list(sweep[self.dimension][part])}
             else:
-                own = own[part] if own is not None else None
-            piece = dc.replace(whole, trials=own, sweep=grid or None, on=on)
+                numbers = numbers[part] if numbers is not None else None
+            piece = dc.replace(whole, trials=numbers, sweep=grid or None, on=on)
             at = first if self.dimension == POINT else 0
             out.append(dc.replace(piece, width=(self.dimension, self.length), first=at))
         return out
@@ -116,14 +116,14 @@ def cut(
     """
     dimension = max(lengths, key=lambda name: lengths[name], default="")
     total = lengths.get(dimension, 1)
-    rest = math.prod(lengths.values()) // total
-    fitting = devices * (BATCH_BYTES // bytes_a_copy) if bytes_a_copy else total * rest
+    others = math.prod(lengths.values()) // total
+    fitting = devices * (BATCH_BYTES // bytes_a_copy) if bytes_a_copy else total * others
     most = int(batch) if batch is not None else fitting
-    length = max(1, min(total, most // rest))
+    length = max(1, min(total, most // others))
     if batch is None:
         count = math.ceil(math.ceil(total / length) / workers) * workers
         length = math.ceil(total / count)
-    return Pieces(dimension, total, length, rest)
+    return Pieces(dimension, total, length, others)
 
 
 def joined(
@@ -149,11 +149,11 @@ def joined(
     complete, all_begun = ([p.data for p in some if p.data is not None] for some in (whole, begun))
     trials = ["trial"] if settings.get("trials") is not None else []
     copies = [*dimensions(settings.get("sweep")), *trials]
-    kept = diverged.alike(complete or _abreast(all_begun), copies)
-    data = kept[0] if kept else xarray.Dataset()
-    if len(kept) > 1:
-        data = xarray.concat(
-            kept,
+    records = diverged.alike(complete or _abreast(all_begun), copies)
+    record = records[0] if records else xarray.Dataset()
+    if len(records) > 1:
+        record = xarray.concat(
+            records,
             pieces.dimension,
             data_vars="all",
             coords="minimal",
@@ -161,21 +161,21 @@ def joined(
             join="override",
             combine_attrs="override",
         )
-    if KEY in data.attrs:
-        about = (
-            codec.parse(data.attrs[KEY])
+    if KEY in record.attrs:
+        description = (
+            codec.parse(record.attrs[KEY])
             | settings
             | {
                 "batch": pieces.batch,
                 "complete": len(whole) == len(parts),
             }
         )
-        data.attrs[KEY] = codec.line(about)
-    return diverged.counted(data)
+        record.attrs[KEY] = codec.line(description)
+    return diverged.counted(record)
 
 
 def _abreast(records: Sequence[xarray.Dataset]) -> list[xarray.Dataset]:
     """Return records cut to one length, without the shorter ones, so that most values are kept."""
-    lengths = [data.sizes["time"] for data in records]
-    most = max(lengths, key=lambda n: n * sum(other >= n for other in lengths), default=0)
-    return [data.isel(time=slice(most)) for data, n in zip(records, lengths, strict=True) if n >= most]
+    lengths = [record.sizes["time"] for record in records]
+    most = max(lengths, key=lambda n: n * sum(length >= n for length in lengths), default=0)
+    return [record.isel(time=slice(most)) for record, n in zip(records, lengths, strict=True) if n >= most]

@@ -38,21 +38,21 @@ class SweepPoints:
 
     def __init__(self, doc: Document, sweep: Sweep | None, first: int = 0) -> None:
         self.doc = doc
-        given = checked(sweep)
-        self.listed = isinstance(given, Points)
-        self.own_noise = isinstance(given, Points) and given.own_noise
-        by_path = given.by_path() if isinstance(given, Points) else given
+        points = checked(sweep)
+        self.listed = isinstance(points, Points)
+        self.own_noise = isinstance(points, Points) and points.own_noise
+        by_path = points.by_path() if isinstance(points, Points) else points
         self.paths = list(by_path)
         self.leaves: list[list[Leaf]] = []
         lists: list[list[float]] = []
         for path, values in by_path.items():
-            given = [] if isinstance(values, (str, bytes)) or not np.iterable(values) else list(values)
-            found = [number for number in map(real, given) if number is not None]
-            if not given or len(found) < len(given):
+            entries = [] if isinstance(values, (str, bytes)) or not np.iterable(values) else list(values)
+            reals = [number for number in map(real, entries) if number is not None]
+            if not entries or len(reals) < len(entries):
                 raise ParameterError(f"needs a list of numbers, not {show(values)}", where=f"sweep of {path}")
             self.leaves.append(driven(doc, path))
             _require_on(doc, path, self.leaves[-1], values)
-            lists.append(found)
+            lists.append(reals)
         self.lists = lists
         columns = dict(zip(self.paths, lists, strict=True))
         numbers = range(first, first + len(lists[0])) if lists else range(0)
@@ -78,7 +78,7 @@ class SweepPoints:
     def asked(self) -> dict[str, list[float]] | list[dict[str, float]]:
         """The sweep as plain data."""
         if self.listed:
-            return [dict(zip(self.paths, own, strict=True)) for own in zip(*self.lists, strict=True)]
+            return [dict(zip(self.paths, point, strict=True)) for point in zip(*self.lists, strict=True)]
         return dict(zip(self.paths, self.lists, strict=True))
 
     def documents(self) -> Iterator[Document]:
@@ -86,9 +86,9 @@ class SweepPoints:
         each entry, one by one.
         """
         if self.listed:
-            for own in zip(*self.lists, strict=True):
+            for point in zip(*self.lists, strict=True):
                 doc = self.doc
-                for path, value in zip(self.paths, own, strict=True):
+                for path, value in zip(self.paths, point, strict=True):
                     doc = edit.change(doc, path, value)
                 yield doc
             return
@@ -101,10 +101,10 @@ class SweepPoints:
         by = self.doc.by_id()
         costs = {
             (i, path): cost(p)
-            for i in {i for found in self.leaves for i, _ in found}
+            for i in {i for leafs in self.leaves for i, _ in leafs}
             for path, _, p in leaves(by[i].element)
         }
-        return {i for found in self.leaves for i, path in found if costs[i, path] == "rebuild"}
+        return {i for leafs in self.leaves for i, path in leafs if costs[i, path] == "rebuild"}
 
 
 def dimensions(sweep: Any) -> list[str]:

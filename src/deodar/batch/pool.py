@@ -132,10 +132,10 @@ class Pool:
         ends = {worker.process.sentinel: pipe for pipe, (worker, _) in self._busy.items()}
         ready = multiprocessing.connection.wait([*self._busy, *ends], seconds)
         out: list[tuple[Any, Any]] = []
-        for pipe in dict.fromkeys(ends.get(one, one) for one in ready):  # type: ignore[call-overload]
+        for pipe in dict.fromkeys(ends.get(source, source) for source in ready):  # type: ignore[call-overload]
             worker, key = self._busy[pipe]
             try:
-                good, result = pickle.loads(pipe.recv_bytes())
+                good, message = pickle.loads(pipe.recv_bytes())
             except (EOFError, OSError):
                 raise WorkerError(
                     "a worker process ended unexpectedly; the system may have stopped it for lack of memory",
@@ -143,24 +143,24 @@ class Pool:
                 ) from None
             if good is None:
                 assert heard is not None
-                heard(key, result)
+                heard(key, message)
                 continue
             if not good:
-                raise result
+                raise message
             del self._busy[pipe]
             worker.worked += time.monotonic() - worker.began
             self._idle.append(worker)
-            out.append((key, result))
+            out.append((key, message))
         return out
 
 
 def _started(talks: bool) -> _Worker:
     context = multiprocessing.get_context("spawn")
-    here, there = context.Pipe()
-    process = context.Process(target=_serve, args=(there, talks))
+    parent, child = context.Pipe()
+    process = context.Process(target=_serve, args=(child, talks))
     process.start()
-    there.close()  # so that the worker's end is the only one, and its death is detected
-    return _Worker(process, here)
+    child.close()  # so that the worker's end is the only one, and its death is detected
+    return _Worker(process, parent)
 
 
 @contextlib.contextmanager
@@ -228,29 +228,29 @@ def _keep_freed_memory() -> None:
 def done(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:
     """Return whether the task succeeded, and its result or error, pickled."""
     try:
-        result = function(*arguments)
+        outcome = function(*arguments)
     except Exception as error:
         if not isinstance(error, DeodarError):  # the messages of deodar's own errors are sufficient
             error.add_note(f"In a worker process:\n{traceback.format_exc()}")
         return _failed(error, f"the error {type(error).__name__} ({error})")
     try:
-        return pickle.dumps((True, result))
+        return pickle.dumps((True, outcome))
     except Exception as error:  # a class may raise any exception
         return _failed(_unsendable("the result", error), "the result")
 
 
-def _failed(error: Exception, what: str) -> bytes:
+def _failed(error: Exception, part: str) -> bytes:
     try:
         packed = pickle.dumps((False, error))
         pickle.loads(packed)  # an error may need more arguments to be restored than it stores
     except Exception as reason:
-        return pickle.dumps((False, _unsendable(what, reason)))
+        return pickle.dumps((False, _unsendable(part, reason)))
     return packed
 
 
-def _unsendable(what: str, reason: Exception) -> WorkerError:
+def _unsendable(part: str, reason: Exception) -> WorkerError:
     return WorkerError(
-        f"{what} of a worker cannot be sent to another process ({type(reason).__name__}: {reason})",
+        f"{part} of a worker cannot be sent to another process ({type(reason).__name__}: {reason})",
         fix="Run without workers",
     )
 

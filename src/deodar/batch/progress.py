@@ -26,21 +26,22 @@ number of completed steps.
 """
 
 
-def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:
+def lines(steps: int, clock: Callable[[], float]) -> Callable[[int], None]:
     """Return a function that prints progress as lines, for files.
 
     The first line follows after LINE_AFTER, each next one after twice the time, so that a day makes about a
     dozen.
     """
-    began = now()
+    began = clock()
     due = [began + LINE_AFTER]
 
     def shown(done: int) -> None:
-        if (moment := now()) < due[0] or not done:
+        if (moment := clock()) < due[0] or not done:
             return
-        left = (moment - began) / done * (steps - done)
+        seconds_left = (moment - began) / done * (steps - done)
         sys.stderr.write(
-            f"simulating: {done} of {steps} steps after {moment - began:.0f} s, about {left:.0f} s left\n"
+            f"simulating: {done} of {steps} steps after {moment - began:.0f} s,"
+            f" about {seconds_left:.0f} s left\n"
         )
         sys.stderr.flush()
         due[0] = began + 2 * (moment - began)
@@ -48,18 +49,18 @@ def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:
     return shown
 
 
-def drawn(steps: int, now: Callable[[], float], after: float) -> Callable[[int], None]:
+def drawn(steps: int, clock: Callable[[], float], after: float) -> Callable[[int], None]:
     """Return a function that draws progress in the last line of a terminal, after a number of seconds."""
-    began = now()
+    began = clock()
     due = [began + after]
 
     def shown(done: int) -> None:
-        if (moment := now()) < due[0]:
+        if (moment := clock()) < due[0]:
             return
         whole = round(BAR_CELLS * done / steps) if steps else 0
         bar = "#" * whole + "." * (BAR_CELLS - whole)
-        left = f", about {(moment - began) / done * (steps - done):.0f} s left" if done else ""
-        _replace_line(f"simulating [{bar}] {done}/{steps} steps{left}")
+        time_left = f", about {(moment - began) / done * (steps - done):.0f} s left" if done else ""
+        _replace_line(f"simulating [{bar}] {done}/{steps} steps{time_left}")
         due[0] = moment + REDRAW_AFTER
 
     return shown

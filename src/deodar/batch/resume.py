@@ -73,57 +73,59 @@ def resume(
 
     use_resources(on, "dd.resume", "cluster", "progress")
     path = Path(path)
-    data = files.open_record(path)
+    record = files.open_record(path)
     if not files.grows(path):
         raise RecordError(
             "was written as a whole, without the states of its run, so it cannot be resumed",
             where=str(path),
             fix="Run its model again, with `out`",
         )
-    made = about(data)
-    model, settings = request(data, trust)
+    description = about(record)
+    model, settings = request(record, trust)
     whole = settings["duration"] if duration is None else float(duration)
     if whole < settings["duration"]:
         raise RecordError(
             f"the run is {settings['duration']:g} long; resuming cannot make it shorter", where=str(path)
         )
-    if made.get("complete", True) and whole == settings["duration"]:
+    if description.get("complete", True) and whole == settings["duration"]:
         raise RecordError(
             "is complete", where=str(path), fix="Give a longer duration, for example --duration 1000"
         )
     hosts.require_one("resuming a run", hosts.count() > 1)
-    asked = dc.replace(SimulationRequest(**settings), duration=whole)
-    there = None if on.cluster is None or _pieces(asked) == 1 else Cluster.of(on.cluster)
-    workers = asked.on.workers if there is None else None
-    asked = dc.replace(asked, on=dc.replace(asked.on, workers=workers, progress=on.progress))
-    world = world or world_of(data)
-    with _connected(there, asked, world) as pool:
+    run_request = dc.replace(SimulationRequest(**settings), duration=whole)
+    resumed_on = None if on.cluster is None or _pieces(run_request) == 1 else Cluster.of(on.cluster)
+    workers = run_request.on.workers if resumed_on is None else None
+    run_request = dc.replace(
+        run_request, on=dc.replace(run_request.on, workers=workers, progress=on.progress)
+    )
+    world = world or world_of(record)
+    with _connected(resumed_on, run_request, world) as pool:
         if pool is None:
-            device = devices.several(asked.on.devices, asked.on.device)[0]
-            used = provenance.devices_of(made)  # it follows from the request
-            made_by = provenance.made_by(device, Arithmetic.of(asked.precision).precision, used)
+            device = devices.several(run_request.on.devices, run_request.on.device)[0]
+            used = provenance.devices_of(description)  # it follows from the request
+            made_by = provenance.made_by(device, Arithmetic.of(run_request.precision).precision, used)
         else:
             made_by = pool.made_by
-        found = differences(made, {**made, "made_by": made_by})
+        changes = differences(description, {**description, "made_by": made_by})
         if workers is not None:  # a worker process uses one core, however many this one uses
-            found = tuple(d for d in found if d.what != "cores")
-        if found and (accept is None or not accept(found)):
+            changes = tuple(d for d in changes if d.what != "cores")
+        if changes and (accept is None or not accept(changes)):
             raise RecordError(
                 "was made by other versions or on another machine, so the rest would not have the same bits: "
-                + "; ".join(map(str, found)),
+                + "; ".join(map(str, changes)),
                 where=str(path),
                 fix="Accept the differences: --yes, or accept=lambda differences: True",
             )
-        out = RunOutput(Output(path), resume=True, cut=bool(found))
+        out = RunOutput(Output(path), resume=True, cut=bool(changes))
         if whole > settings["duration"]:
             out.lengthen(whole)
         spread = None if pool is None else functools.partial(in_pool, pool)
-        return warned(model, asked, world, out, spread)
+        return warned(model, run_request, world, out, spread)
 
 
 @contextlib.contextmanager
 def _connected(
-    cluster: Cluster | None, asked: SimulationRequest, world: World | None
+    cluster: Cluster | None, run_request: SimulationRequest, world: World | None
 ) -> Generator[ClusterPool | None]:
     """Connect to a cluster whose workers can run the pieces; None without a cluster.
 
@@ -133,26 +135,28 @@ def _connected(
     if cluster is None:
         yield None
         return
-    used = {"devices": asked.on.devices, "device": asked.on.device}
-    given = next((f"{name} = {value}" for name, value in used.items() if value not in (None, "cpu")), "")
-    if given:
+    used = {"devices": run_request.on.devices, "device": run_request.on.device}
+    device = next((f"{name} = {value}" for name, value in used.items() if value not in (None, "cpu")), "")
+    if device:
         raise WorkerError(
-            f"the workers of a cluster use one core each, and the run has {given}",
+            f"the workers of a cluster use one core each, and the run has {device}",
             fix="Resume it without a cluster",
         )
     require_one_kind(cluster, world)
-    with ClusterPool(cluster, Arithmetic.of(asked.precision).precision) as pool:
+    with ClusterPool(cluster, Arithmetic.of(run_request.precision).precision) as pool:
         yield pool
 
 
-def _pieces(asked: SimulationRequest) -> int:
+def _pieces(run_request: SimulationRequest) -> int:
     """Return the number of pieces of a recorded run."""
     lengths: dict[str, int] = {}
-    if asked.trials is not None:
-        lengths = {"trial": asked.trials if isinstance(asked.trials, int) else len(asked.trials)}
-    sweep = checked(asked.sweep)
+    if run_request.trials is not None:
+        lengths = {
+            "trial": run_request.trials if isinstance(run_request.trials, int) else len(run_request.trials)
+        }
+    sweep = checked(run_request.sweep)
     if isinstance(sweep, Mapping):
         lengths |= {path: len(values) for path, values in sweep.items()}
     else:
         lengths |= {POINT: len(sweep.values)}
-    return cut(lengths, 0, batch=asked.on.batch).count
+    return cut(lengths, 0, batch=run_request.on.batch).count

@@ -50,9 +50,9 @@ class Output:
     snapshots: float | None = None
 
     @classmethod
-    def of(cls, given: Output | str | Path) -> Output:
+    def of(cls, output: Output | str | Path) -> Output:
         """Return an output by its path, or the output itself."""
-        return cls(given) if isinstance(given, (str, Path)) else instance_of(Output, given, "out")
+        return cls(output) if isinstance(output, (str, Path)) else instance_of(Output, output, "out")
 
 
 class RunOutput:
@@ -106,12 +106,12 @@ class RunOutput:
         self.longer = {"duration": duration}
         self.done.clear()
 
-    def kept(self, data: xarray.Dataset, error: DeodarError) -> str:
+    def kept(self, record: xarray.Dataset, error: DeodarError) -> str:
         """Return what to say of the record of a run that ended with an error."""
-        ends = [v.values[-1] for d, v in data.coords.items() if probe.is_time(str(d)) and v.size]
+        ends = [v.values[-1] for d, v in record.coords.items() if probe.is_time(str(d)) and v.size]
         end = f"up to time {max(ends):g} is" if ends else "has no samples, but is"
-        again = "" if isinstance(error, NotFinite) else f". deodar run {self.path} --resume continues it"
-        return f"The record {end} kept: {self.path}{again}"
+        advice = "" if isinstance(error, NotFinite) else f". deodar run {self.path} --resume continues it"
+        return f"The record {end} kept: {self.path}{advice}"
 
     def plan(self, points: SweepPoints, cut: Pieces, settings: Mapping[str, Any]) -> None:
         """Set the copies of the whole run, how they are cut into pieces, and what the record states of it."""
@@ -121,8 +121,8 @@ class RunOutput:
         self.sizes = {path: len(values) for path, values in points.grid.items()} | trials
         whole = {dimension: slice(0, n) for dimension, n in self.sizes.items()}
         mine = [slice(k, min(k + cut.length, cut.total)) for k in range(0, cut.total, cut.length)]
-        own = [{cut.dimension: part} if cut.dimension else {} for part in mine]
-        self.regions: list[Region] = [tuple((whole | one).values()) for one in own]
+        parts = [{cut.dimension: part} if cut.dimension else {} for part in mine]
+        self.regions: list[Region] = [tuple((whole | place).values()) for place in parts]
 
     def part(self, number: int) -> RecordPart:
         """Return the part of the record that a piece of the run writes, wherever it runs."""
@@ -165,7 +165,7 @@ class RunOutput:
             beside: whether other pieces run at the same time, so that its state has a file of its own until
                 it is complete.
         """
-        own = PIECE_CHECKPOINT.format(number)
+        state_name = PIECE_CHECKPOINT.format(number)
         if isinstance(message, probe.Chosen):
             m = message
             self._continued().put(m.dimension, m.times, m.values, m.first, self.regions[number])
@@ -173,13 +173,13 @@ class RunOutput:
             self._create(message.empty)
         elif isinstance(message, PieceState):
             if self.writer is not None:
-                self._store(message.state, own if beside else CHECKPOINT)
+                self._store(message.state, state_name if beside else CHECKPOINT)
         else:
             self.reasons.update(message.reasons)
             self.done.append(number)
             if beside:
                 self._store(({"piece": -1}, []), CHECKPOINT)
-                (self.record / own).unlink(missing_ok=True)
+                (self.record / state_name).unlink(missing_ok=True)
 
     def _create(self, empty: xarray.Dataset) -> None:
         """Create the record from one without samples; the first piece that begins does."""
@@ -205,14 +205,18 @@ class RunOutput:
         # start-up time: this imports xarray
         from deodar.recording.growing import GrowingRecord
 
-        about: dict[str, Any] = {"lengths": {}, "piece": -1} if self.state is None else self.state[0]
+        header: dict[str, Any] = {"lengths": {}, "piece": -1} if self.state is None else self.state[0]
         states = [state[0] for k in range(self.cut.count) if (state := self._piece_state(k)[1]) is not None]
-        lengths = dict(about["lengths"])
-        for one in states:
-            lengths = {d: max(n, lengths.get(d, 0)) for d, n in one["lengths"].items()}
+        lengths = dict(header["lengths"])
+        for header_of_piece in states:
+            lengths = {d: max(n, lengths.get(d, 0)) for d, n in header_of_piece["lengths"].items()}
         writer = GrowingRecord.resumed(self.record, lengths, self.longer, self.cuts)
         if self.cuts:  # other pieces may be longer than these
-            taken = {int(one["piece"]): int(one["taken"]) for one in (about, *states) if one["piece"] >= 0}
+            taken = {
+                int(header_of_piece["piece"]): int(header_of_piece["taken"])
+                for header_of_piece in (header, *states)
+                if header_of_piece["piece"] >= 0
+            }
             for k in (k for k in range(self.cut.count) if k not in self.done):
                 writer.erase(self.regions[k], taken.get(k, 0))
         return writer
@@ -222,8 +226,8 @@ class RunOutput:
         writer = self._continued()
         writer.commit()
         reasons = [[list(copy), reason] for copy, reason in self.reasons.items()]
-        about = {"lengths": writer.lengths, "done": self.done, "reasons": reasons}
-        checkpoint.write(({**state[0], **about, "pieces": self.cut.count}, state[1]), self.record / name)
+        header = {"lengths": writer.lengths, "done": self.done, "reasons": reasons}
+        checkpoint.write(({**state[0], **header, "pieces": self.cut.count}, state[1]), self.record / name)
 
     def close(self) -> xarray.Dataset:
         """Complete the record and return it, opened; where another host writes it, a Dataset without samples.

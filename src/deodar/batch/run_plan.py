@@ -117,35 +117,37 @@ class RunPlan:
         """What the record states of the copies, and of where they are computed."""
         on, points = self.request.on, self.points
         labels = None if self.labels is None else list(self.numbers)
-        about = {"trials": labels, "sweep": points.asked, "workers": on.workers, "device": on.device}
-        about |= {"devices": len(self.devices)} if on.devices is not None else {}
-        return about | ({"own_noise": True} if points.own_noise else {})
+        copies = {"trials": labels, "sweep": points.asked, "workers": on.workers, "device": on.device}
+        copies |= {"devices": len(self.devices)} if on.devices is not None else {}
+        return copies | ({"own_noise": True} if points.own_noise else {})
 
     @property
     def settings(self) -> dict[str, Any]:
         """Further parts of the request that the record states; others are known only after the start."""
-        asked = {name: getattr(self.request, name) for name in ("duration", "seed", "every")}
-        return {**asked, "accuracy": self.arithmetic.accuracy, "record": self.request.record}
+        settings = {name: getattr(self.request, name) for name in ("duration", "seed", "every")}
+        return {**settings, "accuracy": self.arithmetic.accuracy, "record": self.request.record}
 
     def require_same(self, writes: bool) -> None:
         """Raise HostsError unless all hosts compute the same."""
         if self.across:
             hosts.require_equal("the model", stored(self.doc))
-            about = {**self.stated, **self.settings, "out": writes, "dt": self.request.dt}
-            about |= {"precision": self.request.precision, "batch": self.request.on.batch}
-            hosts.require_equal("the arguments of simulate", about)
+            arguments = {**self.stated, **self.settings, "out": writes, "dt": self.request.dt}
+            arguments |= {"precision": self.request.precision, "batch": self.request.on.batch}
+            hosts.require_equal("the arguments of simulate", arguments)
 
     def pieces(self) -> list[SimulationRequest]:
         """Return the requests of the pieces."""
-        asked, labels = self.points.asked, None if self.labels is None else list(self.numbers)
-        sweep = Points(asked, self.points.own_noise) if isinstance(asked, list) else asked
+        sweep_points, labels = self.points.asked, None if self.labels is None else list(self.numbers)
+        sweep = (
+            Points(sweep_points, self.points.own_noise) if isinstance(sweep_points, list) else sweep_points
+        )
         return self.cut.requests(self.request, labels, sweep)
 
     def filled(self) -> tuple[division.Distribution | None, Batch]:
         """Return how devices share the copies, and the copies with those that fill the piece and the devices
         up.
         """
-        own, points = self.copies, self.points
+        copies, points = self.copies, self.points
         more_points = more_trials = 0
         dimension, length = self.request.width or ("", 0)
         if dimension in points.grid:
@@ -154,8 +156,8 @@ class RunPlan:
         elif dimension:
             more_trials = length - len(self.numbers)
         wide = Batch(
-            None if own.points is None else own.points + more_points,
-            None if own.trials is None else own.trials + more_trials,
+            None if copies.points is None else copies.points + more_points,
+            None if copies.trials is None else copies.trials + more_trials,
             tuple(map(tuple, points.leaves)),
             own_noise=points.own_noise,
         )
@@ -163,29 +165,29 @@ class RunPlan:
 
     def values(self, filled: Batch) -> list[np.ndarray] | None:
         """Return for each path of the sweep its value in each copy; None without a sweep."""
-        more = (filled.points or self.points.size) - self.points.size
-        values = [np.concatenate([v, np.repeat(v[-1:], more)]) for v in self.points.values]
+        padding = (filled.points or self.points.size) - self.points.size
+        values = [np.concatenate([v, np.repeat(v[-1:], padding)]) for v in self.points.values]
         return values if self.points.paths else None
 
     def noise(self, filled: Batch) -> Sequence[Any]:
         """Return the number under which each trial, or with noise of its own each copy, draws noise."""
-        more = (filled.trials or len(self.numbers)) - len(self.numbers)
-        trials = [*self.numbers, *[self.numbers[-1]] * more]
+        padding = (filled.trials or len(self.numbers)) - len(self.numbers)
+        trials = [*self.numbers, *[self.numbers[-1]] * padding]
         if not self.points.own_noise:
             return trials
         return _numbered(self.request.first, filled.points or self.points.size, trials)
 
-    def _memory(self, kept: int) -> pieces.Pieces:
+    def _memory(self, samples: int) -> pieces.Pieces:
         """Return the pieces of the run; raise if they need more memory than there is.
 
-        `kept`: number of samples of each copy that stay in memory.
+        `samples`: number of samples of each copy that stay in memory.
         """
         nodes, _ = resolve(self.doc)
         rebuilt, precision = self.points.rebuilt(), self.arithmetic.precision
         cut = self._cut(memory.copy_bytes(nodes, precision, rebuilt, len(self.numbers)))
         of = {node.id: node for node in nodes}
         cells = sum(math.prod(shape(of[ident].axes(port))) for ident, port in self.ports)
-        recorded = cells * kept * self.copies.size * (2 if cut.count > 1 else 1)
+        recorded = cells * samples * self.copies.size * (2 if cut.count > 1 else 1)
         beside = min(self.request.on.workers or 0, cut.count) if cut.count > 1 else 0
         swept = min(self.points.size, cut.batch)
         memory.require(nodes, precision, cut.batch, recorded, rebuilt, swept, beside)
@@ -197,11 +199,11 @@ class RunPlan:
         on, count = self.request.on, len(self.devices)
         on_cpu = self.devices[0].platform == devices.DEFAULT
         if on.workers is not None and (not on_cpu or count > 1):
-            given = "device" if not on_cpu else "devices"
+            argument = "device" if not on_cpu else "devices"
             named = repr(on.device) if not on_cpu else f"{count} devices"
             raise WorkerError(
                 f"worker processes run on the cores of the CPU, not on {named}",
-                fix=f"Leave out workers, or {given}",
+                fix=f"Leave out workers, or {argument}",
             )
         return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, on.workers or 1, on.batch, count)
 
@@ -214,32 +216,32 @@ def _probes(
 
     Without probes, the final state of all fields is recorded.
     """
-    found = [] if request.record is None else probes(request.record)
-    _require_alone(found, request, writes)
-    every = [request.every if probe.every is None else probe.every for probe in found]
+    recorded = [] if request.record is None else probes(request.record)
+    _require_alone(recorded, request, writes)
+    every = [request.every if probe.every is None else probe.every for probe in recorded]
     steps = gaps(every or [request.every], step)
     gap = math.gcd(*steps)
-    return found, gap, [(n // gap, probe.when) for n, probe in zip(steps, found, strict=False)]
+    return recorded, gap, [(n // gap, probe.when) for n, probe in zip(steps, recorded, strict=False)]
 
 
-def _require_alone(found: Sequence[Probe], request: SimulationRequest, writes: bool) -> None:
+def _require_alone(recorded: Sequence[Probe], request: SimulationRequest, writes: bool) -> None:
     """Raise an error for probes with an interval or a condition, unless a single run is written to a file."""
-    own = [probe for probe in found if probe.alone]
+    alone = [probe for probe in recorded if probe.alone]
     copies = request.trials is not None or bool(request.sweep)
-    if own and (copies or not writes):
+    if alone and (copies or not writes):
         where = "into a file" if not writes else "of a single run"
         raise ParameterError(
             "an interval or a condition of its own needs a record that is written " + where,
-            where=str(own[0]),
+            where=str(alone[0]),
             fix="Give `out`" if not writes else "Leave out trials and sweep",
         )
 
 
 def _ports(
-    doc: Document, found: Sequence[Probe], strides: Sequence[tuple[int, str | None]]
+    doc: Document, recorded: Sequence[Probe], strides: Sequence[tuple[int, str | None]]
 ) -> tuple[list[tuple[str, str]], list[tuple[int, str | None]]]:
     """Return the ports to record, each once, and their strides and conditions."""
-    if not found:
+    if not recorded:
         fields = [(e.id, "activation") for e in doc.entries if isinstance(e.element, Field)]
         if not fields:
             raise ParameterError(
@@ -248,7 +250,7 @@ def _ports(
             )
         return fields, [(1, None)] * len(fields)
     ports: dict[tuple[str, str], tuple[int, str | None]] = {}
-    for probe, stride in zip(found, strides, strict=True):
+    for probe, stride in zip(recorded, strides, strict=True):
         entry, port = find.shown(doc, probe.path)
         if ports.setdefault((entry.id, port), stride) != stride:
             raise ParameterError(

@@ -86,7 +86,7 @@ def _local(processes: int, stack: contextlib.ExitStack) -> Any:
     with quiet(main=True):
         settings = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES}
         with dask.config.set(settings):
-            made = _library().LocalCluster(
+            cluster = _library().LocalCluster(
                 n_workers=0,
                 threads_per_worker=1,
                 processes=True,
@@ -97,20 +97,20 @@ def _local(processes: int, stack: contextlib.ExitStack) -> Any:
                 env={"NPROC": "1"},
                 preload=["deodar.batch.cluster_task"],
             )
-    stack.callback(_closed, made)
-    stack.callback(_end_processes, made)
+    stack.callback(_closed, cluster)
+    stack.callback(_end_processes, cluster)
     stack.enter_context(quiet(main=False, signals=False))
-    made.scale(processes)
-    return made
+    cluster.scale(processes)
+    return cluster
 
 
 def _await_port(cluster: Cluster, look: Callable[[], None]) -> None:
     """Wait until something listens at the address of a scheduler; the client itself cannot be stopped."""
-    found = urlsplit(cluster.address)
+    address = urlsplit(cluster.address)
     end = time.monotonic() + CONNECT_SECONDS
     while True:
         try:
-            socket.create_connection((found.hostname, found.port), PORT_SECONDS).close()
+            socket.create_connection((address.hostname, address.port), PORT_SECONDS).close()
             return
         except OSError as error:
             if time.monotonic() > end:
@@ -139,11 +139,11 @@ def _library() -> Any:
 def slurm_script(cluster: Cluster) -> str:
     """Return the script of a job that `slurm:FILE` submits."""
     assert cluster.file is not None
-    made = _slurm(cluster.file, 0)
+    cluster_of_jobs = _slurm(cluster.file, 0)
     try:
-        return str(made.job_script())
+        return str(cluster_of_jobs.job_script())
     finally:
-        _closed(made)
+        _closed(cluster_of_jobs)
 
 
 def _slurm(file: Path, most: int | None = None) -> Any:
@@ -159,41 +159,41 @@ def _slurm(file: Path, most: int | None = None) -> Any:
         raise MissingExtra("dask-jobqueue", "cluster", "a cluster of SLURM") from None
     try:
         text = file.read_text(encoding="utf-8")
-        data = codec.parse(text) if file.suffix.lower() == ".json" else yaml.safe_load(text)
+        plain = codec.parse(text) if file.suffix.lower() == ".json" else yaml.safe_load(text)
     except (OSError, ValueError, yaml.YAMLError) as error:
         raise ParameterError(f"cannot be read ({first_line(error)})", where=str(file)) from None
-    settings, jobs = slurm_settings(data, str(file))
+    settings, jobs = slurm_settings(plain, str(file))
     try:
-        made = SLURMCluster(**settings)
+        cluster_of_jobs = SLURMCluster(**settings)
     except (TypeError, ValueError) as error:
         raise ParameterError(f"dask_jobqueue refuses it: {first_line(error)}", where=str(file)) from None
-    made.scale(jobs=jobs if most is None else most)
-    return made
+    cluster_of_jobs.scale(jobs=jobs if most is None else most)
+    return cluster_of_jobs
 
 
 @contextlib.contextmanager
 def _signals_kept() -> Generator[None]:
     """Keep the handlers of signals: an import of dask_jobqueue sets that of Ctrl-C; in a thread it fails."""
-    own = signal.signal
+    set_handler = signal.signal
     signal.signal = lambda *_: None
     try:
         yield
     finally:
-        signal.signal = own
+        signal.signal = set_handler
 
 
-def _end_processes(made: Any) -> None:
+def _end_processes(cluster: Any) -> None:
     """End the processes of `local:N` at once: an orderly end of each takes seconds."""
-    for nanny in list(made.workers.values()):
+    for nanny in list(cluster.workers.values()):
         nanny.auto_restart = False
         with contextlib.suppress(OSError, AttributeError, TypeError):
             os.kill(nanny.pid, signal.SIGTERM)
 
 
-def _closed(made: Any) -> None:
+def _closed(closable: Any) -> None:
     """Close a client or a cluster, whose processes may have died already."""
     with contextlib.suppress(Exception):
-        made.close(timeout=CLOSE_SECONDS)
+        closable.close(timeout=CLOSE_SECONDS)
 
 
 @contextlib.contextmanager

@@ -120,9 +120,9 @@ def simulate(
     steps = expected_steps(duration, model.document.step if dt is None else dt)
     if steps >= LONG_STEPS:
         step = model.document.step if dt is None else dt
-        again = "" if steps <= TICKS else f"; the noise of an element repeats after {TICKS:.3g} steps"
+        repetition = "" if steps <= TICKS else f"; the noise of an element repeats after {TICKS:.3g} steps"
         warnings.warn(
-            f"{steps:.3g} steps of dt = {step:g}: a smaller number may be meant{again}",
+            f"{steps:.3g} steps of dt = {step:g}: a smaller number may be meant{repetition}",
             RunWarning,
             stacklevel=2,
         )
@@ -132,10 +132,10 @@ def simulate(
     with hosts.together(places.of_all_hosts(on.devices, on.device)):
         across = hosts.count() > 1 and hosts.span(places.several(on.devices, on.device))
         file = None if out is None else RunOutput(Output.of(out), here=hosts.first() or not across)
-        data = warned(model, request, world, file)
+        run_record = warned(model, request, world, file)
         # an error after the last chunk, as of a disk, also reaches the others in this call
         hosts.any_of("the end of the run", True, across)
-        return data
+        return run_record
 
 
 def warned(
@@ -153,12 +153,12 @@ def warned(
         NotFinite: a single run diverges, or all copies diverge.
         Interrupted: on Ctrl-C, with the record until then.
     """
-    data, lost = _computed(model, request, world, out, spread)
+    run_record, lost = _computed(model, request, world, out, spread)
     if lost is not None:
         raise lost
-    if "diverged" in data.attrs:
-        warnings.warn(str(data.attrs["diverged"]), RunWarning, stacklevel=3)
-    return data
+    if "diverged" in run_record.attrs:
+        warnings.warn(str(run_record.attrs["diverged"]), RunWarning, stacklevel=3)
+    return run_record
 
 
 def _computed(
@@ -174,24 +174,24 @@ def _computed(
     elif spread is None and request.on.workers is not None:
         spread = functools.partial(in_workers, request.on.workers)
     if out is None:
-        data, _, lost = compute(model, request, world, spread)
-        assert data is not None
-        return data, lost
+        run_record, _, lost = compute(model, request, world, spread)
+        assert run_record is not None
+        return run_record, lost
     try:
         _, _, lost = compute(model, request, world, spread, out)
     except BaseException as error:
-        data = out.abandon()
+        run_record = out.abandon()
         if isinstance(error, Interrupted):
-            error.data = data if data is not None else error.data
-        elif isinstance(error, DeodarError) and data is not None:
-            error.advise(out.kept(data, error))
+            error.data = run_record if run_record is not None else error.data
+        elif isinstance(error, DeodarError) and run_record is not None:
+            error.advise(out.kept(run_record, error))
         raise
     return out.close(), lost
 
 
 def expected_steps(duration: Any, dt: Any) -> int:
     """Return the number of steps of a run; 0 if the run will be refused."""
-    wanted, step = real(duration), real(dt)
-    good = wanted is not None and step is not None and 0 < step < math.inf and 0 <= wanted < math.inf
-    steps = wanted / step if good and wanted is not None and step is not None else 0.0
+    length, step = real(duration), real(dt)
+    good = length is not None and step is not None and 0 < step < math.inf and 0 <= length < math.inf
+    steps = length / step if good and length is not None and step is not None else 0.0
     return int(steps) if steps <= MOST_STEPS else 0

@@ -105,8 +105,8 @@ def _mapped(path: str) -> Generator[memoryview]:
     """Map a file as whole numbers that all processes share."""
     with (
         open(path, "r+b") as file,
-        mmap.mmap(file.fileno(), 0) as held,
-        memoryview(held) as raw,
+        mmap.mmap(file.fileno(), 0) as mapped,
+        memoryview(mapped) as raw,
         raw.cast("q") as numbers,
     ):
         yield numbers
