@@ -127,10 +127,10 @@ class Place(Action):
             yield "height", f"is {self.height:g}; expected a number above 0"
 
     def apply(self, running: RunningTrial) -> None:
-        found: Any = self
+        placed: Any = self
         world: Any = changed(self, running.world)
         tall = {} if self.height is None else {"height": self.height}
-        world.place(self.object, found.center, found.size, found.color, **tall)
+        world.place(self.object, placed.center, placed.size, placed.color, **tall)
         _check(self.object, running)
 
 
@@ -159,8 +159,8 @@ class Move(Action):
             yield from _plane(self, "center")
 
     def apply(self, running: RunningTrial) -> None:
-        found: Any = self
-        changed(self, running.world).move(self.object, found.center)
+        moved: Any = self
+        changed(self, running.world).move(self.object, moved.center)
         _check(self.object, running)
 
 
@@ -225,15 +225,15 @@ class Ramp(Action):
     when: When = ""
 
     def sets(self) -> Iterator[tuple[str, Any]]:
-        yield from ((self.path, value) for value in (self.end, self.start) if value is not None)
+        yield from ((self.path, amount) for amount in (self.end, self.start) if amount is not None)
 
     def apply(self, running: RunningTrial) -> None:
         steps = whole(self.lasting, running.dt, "how long a ramp takes")
         start = float(running.get(self.path)) if self.start is None else self.start
         for k in range(steps + 1):
             share = k / steps if steps else 1.0
-            value = start + share * (self.end - start)
-            running.later(k, lambda value=value: running.set(self.path, value))
+            amount = start + share * (self.end - start)
+            running.later(k, lambda amount=amount: running.set(self.path, amount))
 
 
 @ACTIONS.register
@@ -380,20 +380,20 @@ def with_pushes(model: Model, actions: Sequence[Action]) -> tuple[Model, dict[Pu
     """Return the model with a boost for each push, which acts without an intervention in the run, and the
     paths of those whose time is not the same in all trials; without pushes the model itself.
     """
-    wanted = list(dict.fromkeys(a for a in actions if isinstance(a, Push)))
-    if not wanted:
+    pushes = list(dict.fromkeys(a for a in actions if isinstance(a, Push)))
+    if not pushes:
         return model, {}
     doc, waiting, number = model.document, dict[Push, str](), 0
-    for push in wanted:
+    for push in pushes:
         target = find.element(doc, push.element)
         while (f"push{number}",) in doc.by_names():
             number += 1
-        own = bool(push.when) or isinstance(push.at, Sequence)
-        windows = () if own else ((push.times[0], push.times[0] + push.lasting),)
-        boost = Boost(f"push{number}", amplitude=0.0 if own else push.amount, windows=windows)  # pyright: ignore[reportArgumentType]
+        waits = bool(push.when) or isinstance(push.at, Sequence)
+        windows = () if waits else ((push.times[0], push.times[0] + push.lasting),)
+        boost = Boost(f"push{number}", amplitude=0.0 if waits else push.amount, windows=windows)  # pyright: ignore[reportArgumentType]
         doc, entry = edit.add(doc, boost)
         doc = edit.connect(doc, entry, "", target, "")
-        if own:
+        if waits:
             waiting[push] = entry.path
     staged = Model(document=doc, trusted=model.trusted)
     staged.programs = model.programs  # so that the next trial uses the programs that this one compiles
@@ -427,11 +427,11 @@ def changed(action: Action, world: World | None) -> World:
         action.world_method: "calls World.{}",
         **dict.fromkeys(("arrangement", "arrange"), "needs World.{}, to restore objects after a trial"),
     }
-    for method, what in needs.items():
+    for method, need in needs.items():
         if getattr(type(world), method) is getattr(World, method):
             kind = type(world).__name__
             raise WorldError(
-                f"the action {name} {what.format(method)}, which the world {kind} does not have",
+                f"the action {name} {need.format(method)}, which the world {kind} does not have",
                 fix="Use a world that has it, such as dd.Arena",
             )
     for argument in action.world_arguments:

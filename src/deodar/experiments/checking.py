@@ -36,17 +36,17 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
     """
     problems: list[Problem] = []
 
-    def attempt(where: str, what: Callable[[], object]) -> bool:
+    def attempt(where: str, validate: Callable[[], object]) -> bool:
         try:
-            what()
+            validate()
             return True
         except DeodarError as error:
-            found = [
+            places = [
                 p.where if not p.where or p.where.startswith(where) else f"{where}: {p.where}"
                 for p in error.problems
             ]
             problems.extend(
-                Problem(w or where, p.what, p.fix) for w, p in zip(found, error.problems, strict=True)
+                Problem(w or where, p.what, p.fix) for w, p in zip(places, error.problems, strict=True)
             )
             return False
 
@@ -69,8 +69,8 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
         if action.world_method:
             attempt(f"actions.{k}", lambda action=action: changed(action, world))
         if action.when and action.when not in names:
-            what = f"there is no condition {action.when!r}"
-            problems.append(Problem(f"actions.{k}.when", what, did_you_mean(action.when, names)))
+            problem = f"there is no condition {action.when!r}"
+            problems.append(Problem(f"actions.{k}.when", problem, did_you_mean(action.when, names)))
         if isinstance(action, Record) and not plan.watch:
             problems.append(
                 Problem(
@@ -91,10 +91,10 @@ def _times(
     plan, limit = experiment.plan, experiment.plan.limit
     dt = step if plan.dt is None else plan.dt
 
-    def within(at: float, what: str) -> None:
+    def within(at: float, name: str) -> None:
         if at - t0 > limit:
             raise ParameterError(
-                f"{what}: it is due at {at:g}, and a trial ends after {limit:g} at the latest",
+                f"{name}: it is due at {at:g}, and a trial ends after {limit:g} at the latest",
                 fix="Use a longer limit",
             )
 
@@ -121,9 +121,9 @@ def _factors(experiment: Design, model: Model, attempt: Callable[[str, Callable[
     doc, taken = model.document, dict[str, str]()
     step = doc.step if experiment.plan.dt is None else experiment.plan.dt
 
-    def level(path: str, value: Any) -> None:
+    def level(path: str, level_value: Any) -> None:
         find.target(doc, path)
-        changed = edit.change(doc, path, value)
+        changed = edit.change(doc, path, level_value)
         require_step(changed, step)
         Model(document=changed, trusted=model.trusted).require()
 
@@ -135,11 +135,11 @@ def _factors(experiment: Design, model: Model, attempt: Callable[[str, Callable[
 
     for factor in experiment.factors:
         where = f"factors.{factor.name}"
-        for path in dict.fromkeys(path for given in factor.sets for path in given):
+        for path in dict.fromkeys(path for sets in factor.sets for path in sets):
             attempt(where, lambda path=path, factor=factor: once(path, factor.name))
-            for given in factor.sets:
-                if path in given and not attempt(
-                    where, lambda path=path, value=given[path]: level(path, value)
+            for sets in factor.sets:
+                if path in sets and not attempt(
+                    where, lambda path=path, value=sets[path]: level(path, value)
                 ):
                     break
 
@@ -166,11 +166,11 @@ def _view(view: Observable, model: Model, world: World | None) -> None:
     ):
         # the smooth foot of a sigmoid would make the whole field one peak, whose centroid moves towards the
         # middle of the axis
-        what = (
+        problem = (
             f"{entry.path}.output is above {view.threshold:g} everywhere, so the whole field would count as"
             " one peak"
         )
-        raise ParameterError(what, fix=f"Measure {entry.path}.activation, or give threshold=0.5")
+        raise ParameterError(problem, fix=f"Measure {entry.path}.activation, or give threshold=0.5")
 
 
 def _radius(event: Within | Leaves, doc: Document, world: World | None) -> None:

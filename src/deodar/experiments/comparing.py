@@ -55,14 +55,14 @@ def compare(jobs: Sequence[Job], rows: Rows, pool: ClusterPool, out: Path) -> No
     path = out / TABLE
     if path.exists():
         return
-    found = list(_compared(jobs, rows, pool))
-    if not found:
+    trials = list(_compared(jobs, rows, pool))
+    if not trials:
         return
-    output.write(path, _table(found).encode())
-    different = sum(not one.equal for one in found)
+    output.write(path, _table(trials).encode())
+    different = sum(not trial.equal for trial in trials)
     if different:
         warnings.warn(
-            f"{different} of {len(found)} compared trials have another outcome on another kind of machine:"
+            f"{different} of {len(trials)} compared trials have another outcome on another kind of machine:"
             f" see {path}",
             RunWarning,
             stacklevel=2,
@@ -88,11 +88,11 @@ def _compared(jobs: Sequence[Job], rows: Rows, pool: ClusterPool) -> Iterator[Co
 def _elsewhere(jobs: Sequence[Job], rows: Rows, pool: ClusterPool) -> Iterator[PoolTask]:
     """Yield the tasks of the pieces that are compared, each on another kind of machine than before."""
     for job in chosen(jobs):
-        own = str(rows.found[job.keys[0]].get(MACHINE, ""))
-        other = next((kind for kind in pool.machines if kind != own), None)
-        if other is not None:
+        first_kind = str(rows.found[job.keys[0]].get(MACHINE, ""))
+        other_kind = next((kind for kind in pool.machines if kind != first_kind), None)
+        if other_kind is not None:
             unrecorded = dc.replace(job, arguments={**job.arguments, "records": None})
-            yield PoolTask(job.keys, named, (unrecorded,), {"machine": other})
+            yield PoolTask(job.keys, named, (unrecorded,), {"machine": other_kind})
 
 
 def chosen(jobs: Sequence[Job]) -> list[Job]:
@@ -101,11 +101,13 @@ def chosen(jobs: Sequence[Job]) -> list[Job]:
     return [jobs[k * len(jobs) // count] for k in range(count)]
 
 
-def _table(found: Sequence[ComparedTrial]) -> str:
+def _table(trials: Sequence[ComparedTrial]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["trial", "machine", "outcome", "other machine", "other outcome", "equal"])
-    for one in sorted(found, key=lambda one: one.trial):
-        (here, there), (own, other) = one.machines, one.outcomes
-        writer.writerow([one.trial, here, own, there, other, one.equal])
+    for trial in sorted(trials, key=lambda trial: trial.trial):
+        (first_machine, second_machine), (first_outcome, second_outcome) = trial.machines, trial.outcomes
+        writer.writerow(
+            [trial.trial, first_machine, first_outcome, second_machine, second_outcome, trial.equal]
+        )
     return text.getvalue()

@@ -129,7 +129,7 @@ class Design(Part):
                 out[key] = (
                     plain
                     if key == "actions"
-                    else {part.name: data for part, data in zip(parts, plain, strict=True)}
+                    else {part.name: plain_part for part, plain_part in zip(parts, plain, strict=True)}
                 )
         packages = {type(part).__name__: MEASURES.package(type(part)) for part in self.plan.measures}
         packages = {kind: package for kind, package in sorted(packages.items()) if package}
@@ -197,18 +197,18 @@ class Design(Part):
     def save(self, path: str | Path, force: bool = False) -> None:
         """Write a file; a model without a file is written beside it, as NAME.model.json."""
         path = output.claim(path, force)
-        data = self.to_data()
+        content = self.to_data()
         if isinstance(self.model, Model):
             beside = path.with_name(f"{path.stem}.model.json")
             save(self.model, beside, force)
-            data = {"experiment": VERSION, "name": self.name, "model": beside.name} | data
+            content = {"experiment": VERSION, "name": self.name, "model": beside.name} | content
         if isinstance(self.world, World):
             raise ParameterError(
                 "a world that was made by a script cannot be written",
                 where="world",
                 fix="Name it as on the command line: world='arena:blocks'",
             )
-        output.write(path, (codec.text(data, finite=True) + "\n").encode())
+        output.write(path, (codec.text(content, finite=True) + "\n").encode())
 
     @classmethod
     def load(cls, path: str | Path, read: Callable[[str], Model] = load) -> Self:

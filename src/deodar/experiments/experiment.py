@@ -92,7 +92,7 @@ class Experiment(Design):
                 f" {setup.steps:.3g} steps of dt = {setup.dt:g})"
             )
             warnings.warn(f"{total}: a smaller number may be meant", RunWarning, stacklevel=2)
-        data = run_trials(setup, out, on, part)
-        if DIVERGED in data.attrs:
-            warnings.warn(str(data.attrs[DIVERGED]), RunWarning, stacklevel=2)
-        return data
+        table = run_trials(setup, out, on, part)
+        if DIVERGED in table.attrs:
+            warnings.warn(str(table.attrs[DIVERGED]), RunWarning, stacklevel=2)
+        return table

@@ -31,16 +31,16 @@ Convert = Callable[[str, dict[str, Any]], dict[str, Any]]
 """A function of the kind and the parameters of a part."""
 
 
-def migrate(data: Mapping[str, Json], doc: Document | None) -> JsonObject:
+def migrate(experiment: Mapping[str, Json], doc: Document | None) -> JsonObject:
     """Convert an experiment of an older version; one of another version is returned unchanged.
 
     Data of an unexpected form are not changed: the reader reports them.
 
     Args:
-        data: the plain data of the experiment.
+        experiment: the plain data of the experiment.
         doc: the document of its model, which resolves the paths of version 1; None: they are not converted.
     """
-    version, out = data.get("experiment"), dict(data)
+    version, out = experiment.get("experiment"), dict(experiment)
     if version == 1 and doc is not None:
         out = _from_1(out, doc)
     if version in (1, 2):
@@ -48,13 +48,13 @@ def migrate(data: Mapping[str, Json], doc: Document | None) -> JsonObject:
     return out
 
 
-def _from_1(data: JsonObject, doc: Document) -> JsonObject:
+def _from_1(experiment: JsonObject, doc: Document) -> JsonObject:
     def convert(kind: str, values: dict[str, Any]) -> dict[str, Any]:
         paths = PATHS.get(kind, ())
         return {key: _rewritten(value, doc) if key in paths else value for key, value in values.items()}
 
-    record = {"record": _rewritten(data["record"], doc)} if "record" in data else {}
-    return _parts(data, convert) | record
+    record = {"record": _rewritten(experiment["record"], doc)} if "record" in experiment else {}
+    return _parts(experiment, convert) | record
 
 
 def _renamed(kind: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -62,11 +62,11 @@ def _renamed(kind: str, values: dict[str, Any]) -> dict[str, Any]:
     return {names.get(key, key): value for key, value in values.items()}
 
 
-def _parts(data: JsonObject, convert: Convert) -> JsonObject:
+def _parts(experiment: JsonObject, convert: Convert) -> JsonObject:
     """Return an experiment whose conditions, actions and measures are converted one by one."""
-    out = dict(data)
+    out = dict(experiment)
     for key, kind in (("conditions", ""), ("actions", ""), ("measures", "Measure")):
-        parts = data.get(key)
+        parts = experiment.get(key)
         if isinstance(parts, dict):
             rows = cast("dict[str, Any]", parts)
             out[key] = {name: _part(part, kind, convert) for name, part in rows.items()}
@@ -79,11 +79,11 @@ def _part(part: Any, kind: str, convert: Convert) -> Any:
     if not isinstance(part, dict):
         return part
     values = cast("dict[str, Any]", part)
-    found = values.get("kind", kind)
-    return convert(found, values) if isinstance(found, str) else part
+    kind_name = values.get("kind", kind)
+    return convert(kind_name, values) if isinstance(kind_name, str) else part
 
 
 def _rewritten(value: Any, doc: Document) -> Any:
     if isinstance(value, list):
-        return [_rewritten(item, doc) for item in cast("list[Any]", value)]
+        return [_rewritten(path, doc) for path in cast("list[Any]", value)]
     return recorded(doc, value) if isinstance(value, str) else value

@@ -40,17 +40,17 @@ def lacks(about: Mapping[str, Any]) -> Callable[[Any], str]:
     def lacking(row: Any) -> str:
         if not isinstance(row, dict):
             return "it is no object of JSON"
-        given = cast("Row", row)
+        fields = cast("Row", row)
         for name, kind in kinds.items():
-            if not isinstance(given.get(name), kind):
+            if not isinstance(fields.get(name), kind):
                 return name
-        for part, wanted in inside.items():
-            found = given.get(part)
-            if not isinstance(found, dict) or not all(name in found for name in wanted):
+        for part, names_inside in inside.items():
+            part_values = fields.get(part)
+            if not isinstance(part_values, dict) or not all(name in part_values for name in names_inside):
                 return part
-        if not all(isinstance(given["events"][name], NUMBER) for name in inside["events"]):
+        if not all(isinstance(fields["events"][name], NUMBER) for name in inside["events"]):
             return "events"
-        if not all(isinstance(given["measures"][name], (list, *NUMBER)) for name in inside["measures"]):
+        if not all(isinstance(fields["measures"][name], (list, *NUMBER)) for name in inside["measures"]):
             return "measures"
         return ""
 
@@ -121,13 +121,13 @@ def dataset(rows: Iterable[Row], about: Mapping[str, Any]) -> xarray.Dataset:
     out["duration"] = ("trial", np.asarray(columns.durations)[order], unit)
     for name, times in columns.events.items():
         out[name] = ("trial", np.asarray(times)[order], {**unit, "long_name": f"time of {name}"})
-    for name, found in columns.measures.items():
-        count = max((len(v) for v in found if isinstance(v, list)), default=0)
+    for name, measured in columns.measures.items():
+        count = max((len(v) for v in measured if isinstance(v, list)), default=0)
         if count:
-            values = np.asarray([[np.nan] * count if v is None else v for v in found], float)
+            values = np.asarray([[np.nan] * count if v is None else v for v in measured], float)
             out[name] = (("trial", f"{name}.axis"), values[order])
         else:
-            out[name] = ("trial", np.asarray([_or_nan(v) for v in found], float)[order])
+            out[name] = ("trial", np.asarray([_or_nan(v) for v in measured], float)[order])
     return xarray.Dataset(out, coords, attributes)
 
 
@@ -145,18 +145,18 @@ class _TableColumns:
         self.events = {name: array("d") for name in about.get("conditions", {})}
         self.measures: dict[str, list[Any]] = {name: [] for name in about.get("measures", {})}
         self.machines = False
-        self._known: dict[Any, Any] = {}
+        self._interned: dict[Any, Any] = {}
 
     def append(self, row: Row) -> None:
-        known = self._known
+        interned = self._interned
         self.trials.append(row["trial"])
         self.durations.append(_or_nan(row["duration"]))
         for name, labels in self.levels.items():
             label = row["levels"][name]
-            labels.append(known.setdefault((type(label), label), label))
+            labels.append(interned.setdefault((type(label), label), label))
         for key, words in self.words.items():
             word = row[key] if key in ("outcome", "awaited") else row.get(key, "")
-            words.append(known.setdefault((str, word), word))
+            words.append(interned.setdefault((str, word), word))
         self.machines |= MACHINE in row
         for name, times in self.events.items():
             times.append(_or_nan(row["events"][name]))
@@ -164,19 +164,19 @@ class _TableColumns:
             values.append(row["measures"][name])
 
 
-def table(data: xarray.Dataset) -> str:
+def table(trials: xarray.Dataset) -> str:
     """Return the table as CSV, one line per trial; a cell is empty if the condition did not occur."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     columns: list[tuple[str, np.ndarray]] = []
-    for name in [*data.coords, *data.data_vars]:
-        values = data[name].values
+    for name in [*trials.coords, *trials.data_vars]:
+        values = trials[name].values
         if values.ndim == 1:
             columns.append((str(name), values))
         else:
             columns += [(f"{name}.{k}", values[:, k]) for k in range(values.shape[1])]
     writer.writerow([name for name, _ in columns])
-    for k in range(data.sizes["trial"]):
+    for k in range(trials.sizes["trial"]):
         writer.writerow([_cell(values[k]) for _, values in columns])
     return text.getvalue()
 
@@ -194,5 +194,5 @@ def _column(values: list[Any]) -> np.ndarray:
     return np.asarray(values, float)
 
 
-def _or_nan(value: Any) -> Any:
-    return np.nan if value is None else value
+def _or_nan(number: Any) -> Any:
+    return np.nan if number is None else number

@@ -42,10 +42,10 @@ class Factor(Part):
             yield "levels", "holds no levels, so there is nothing to run"
             return
         if not self.path and any(not isinstance(v, Mapping) or not v for v in self._values):
-            what = (
+            problem = (
                 'needs for each level the parameters it sets, {"left.amplitude": 6}, because no path is given'
             )
-            yield "levels", what
+            yield "levels", problem
         elif not self.path and not isinstance(levels, Mapping):
             yield "levels", 'needs a name for each level: {"near": {"left.center": 45}}'
         labels = self.labels

@@ -55,8 +55,8 @@ class Reader(Coupling):
         axes, y = at.ins["input"], inputs["input"]
         inside = mask(axes, *codec.parse(self.near)) if self.near else None
         if self.reduce == PLACE:
-            found, there = position(y, axes, self.threshold, inside)
-            return {"output": jnp.append(found, there.astype(found.dtype))}
+            centroid, exists = position(y, axes, self.threshold, inside)
+            return {"output": jnp.append(centroid, exists.astype(centroid.dtype))}
         if self.reduce in ("max", "min"):
             y = y if inside is None else jnp.where(inside, y, jnp.inf if self.reduce == "min" else -jnp.inf)
         else:
@@ -80,9 +80,9 @@ def with_readers(doc: Document, views: Sequence[Observable]) -> tuple[Document, 
         if not view.reduce or axes is None or not shape(axes):
             continue
         mask(axes, view.near, view.radius)  # refused here, not inside the step
-        near = codec.line([list(view.near), view.radius]) if view.near else ""
+        place = codec.line([list(view.near), view.radius]) if view.near else ""
         digest = hashlib.blake2b(repr(view).encode(), digest_size=6).hexdigest()
-        doc, entry = edit.add(doc, Reader(view.reduce, near, view.threshold, name=f"look {digest}"))
+        doc, entry = edit.add(doc, Reader(view.reduce, place, view.threshold, name=f"look {digest}"))
         doc = edit.connect(doc, source, port, entry, "input")
         at[view] = (entry.id, "output")
     return doc, at

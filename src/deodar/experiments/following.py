@@ -90,8 +90,8 @@ class Standing:
 
 def called(levels: Mapping[str, Any]) -> str:
     """Return a combination of levels in words."""
-    shown = ((name, f"{value:g}" if isinstance(value, float) else value) for name, value in levels.items())
-    return ", ".join(f"{name} {value}" for name, value in shown)
+    labels = ((name, f"{value:g}" if isinstance(value, float) else value) for name, value in levels.items())
+    return ", ".join(f"{name} {value}" for name, value in labels)
 
 
 def standing(
@@ -111,10 +111,10 @@ def standing(
         groups.setdefault(tuple(levels.items()), []).append(row)
     cells = [_cell(dict(levels), group) for levels, group in groups.items()]
     cells.sort(key=lambda cell: -cell.duration if math.isfinite(cell.duration) else math.inf)
-    left = None
+    seconds_left = None
     if begun is not None and len(rows) > begun[1] and now > begun[0]:
-        left = (of - len(rows)) * (now - begun[0]) / (len(rows) - begun[1])
-    return Standing(len(rows), of, left, tuple(cells))
+        seconds_left = (of - len(rows)) * (now - begun[0]) / (len(rows) - begun[1])
+    return Standing(len(rows), of, seconds_left, tuple(cells))
 
 
 def _cell(levels: Mapping[str, Any], rows: Sequence[Row]) -> CellStanding:
@@ -156,14 +156,14 @@ class RowsTail:
             raise RecordError(
                 f"its rows cannot be read ({first_line(error)})", where=str(self.path)
             ) from None
-        found: dict[str, Row] = {}
+        rows_by_key: dict[str, Row] = {}
         for number, line in enumerate(lines[first:], self._lines + first + 1):
             assert lacking is not None
             row = read_row(line, number, str(self.path), lacking)
-            found.setdefault(row[KEY], row)
+            rows_by_key.setdefault(row[KEY], row)
         self._read, self._lines, self._lacking = self._read + whole, self._lines + len(lines), lacking
-        new = [row for key, row in found.items() if key not in self._keys]
-        self._keys |= found.keys()
+        new = [row for key, row in rows_by_key.items() if key not in self._keys]
+        self._keys |= rows_by_key.keys()
         return new
 
 

@@ -99,20 +99,20 @@ def run_jobs(
     )
     began, done = time.monotonic(), 0.0
     of = sum(len(job.keys) for job in jobs)
-    kept = sum(key in rows.found for job in jobs for key in job.keys)
+    complete = sum(key in rows.found for job in jobs for key in job.keys)
 
     def tell(new: Sequence[Row]) -> None:
         seconds = time.monotonic() - began
-        left = seconds / done * (total - before - done) if done else None
-        progress(Progress(kept, of, (before + done) / total if total else 1.0, left, new))
+        seconds_left = seconds / done * (total - before - done) if done else None
+        progress(Progress(complete, of, (before + done) / total if total else 1.0, seconds_left, new))
 
     stored = {row[KEY]: row for row in rows.found.values()}
     tell([stored[key] for job in jobs for key in job.keys if key in stored])
     del stored
-    for job, found in _anywhere(missing, on.workers, watch or (lambda now: False), pool):
-        new = rows.append(found)
+    for job, rows_of_job in _anywhere(missing, on.workers, watch or (lambda now: False), pool):
+        new = rows.append(rows_of_job)
         done += job.cost
-        kept += len({row[KEY] for row in new} & {*job.keys})
+        complete += len({row[KEY] for row in new} & {*job.keys})
         tell(new)
 
 

@@ -37,16 +37,16 @@ def acted(
     Raises:
         ParameterError: an action sets a parameter that cannot change in one copy of a batch.
     """
-    found = {path: np.array(given, float) for path, given in values.items()}
-    for path, given in set_values(actions).items():
-        if not swept(doc, path, [*found.get(path, [find.value(doc, path)]), *given]):
+    columns = {path: np.array(numbers, float) for path, numbers in values.items()}
+    for path, numbers in set_values(actions).items():
+        if not swept(doc, path, [*columns.get(path, [find.value(doc, path)]), *numbers]):
             raise ParameterError(
                 "cannot be set in one trial of a batch: changing it makes another program",
                 where=path,
                 fix="Run the trials one by one: dd.Trials(..., together=False)",
             )
-        found.setdefault(path, np.full(trials, float(find.value(doc, path))))
-    return found | {f"{boost}.amplitude": np.zeros(trials) for boost in pushes.values()}
+        columns.setdefault(path, np.full(trials, float(find.value(doc, path))))
+    return columns | {f"{boost}.amplitude": np.zeros(trials) for boost in pushes.values()}
 
 
 def set_values(actions: Sequence[Action]) -> dict[str, list[Any]]:
@@ -64,13 +64,15 @@ def swept(doc: Document, path: str, values: Iterable[object]) -> bool:
     They may if the values are numbers of live parameters, and none of them switches a term off. Copies that
     differ in a parameter that rebuilds, such as a kernel's width, would each need their own matrices.
     """
-    given = [real(v) for v in values]
-    if any(v is None for v in given):
+    numbers = [real(v) for v in values]
+    if any(v is None for v in numbers):
         return False
     try:
-        found = driven(doc, path)
+        driven_leaves = driven(doc, path)
     except ParameterError:
         return False
     by = doc.by_id()
-    declared = [next(p for leaf, _, p in leaves(by[i].element) if leaf == inner) for i, inner in found]
-    return not any(cost(p) != "live" or (p.off and v == p.neutral) for p in declared for v in given)
+    declared = [
+        next(p for leaf, _, p in leaves(by[i].element) if leaf == inner) for i, inner in driven_leaves
+    ]
+    return not any(cost(p) != "live" or (p.off and v == p.neutral) for p in declared for v in numbers)

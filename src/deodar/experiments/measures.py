@@ -91,12 +91,12 @@ def _own() -> dict[str, type[BaseMeasure]]:
     return {"Measure": Measure}
 
 
-def _problem(plugin: Plugin, found: object) -> str:
+def _problem(plugin: Plugin, plugin_object: object) -> str:
     """Return the problem of an object that a package names as a measure."""
     named = f"names {plugin.entry.value} as {plugin.name!r}, which "
-    if not isinstance(found, type) or found.__name__ != plugin.name:
+    if not isinstance(plugin_object, type) or plugin_object.__name__ != plugin.name:
         return f"{named}is not a class of that name"
-    return "" if issubclass(found, BaseMeasure) else f"{named}does not derive from dd.BaseMeasure"
+    return "" if issubclass(plugin_object, BaseMeasure) else f"{named}does not derive from dd.BaseMeasure"
 
 
 MEASURES: Extensions[type[BaseMeasure]] = Extensions("measures", "measure", _own, _problem)

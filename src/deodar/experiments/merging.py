@@ -54,9 +54,9 @@ def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResul
     if not places:
         raise RecordError("no folder is named", fix="Name the folders that deodar experiment wrote")
     stored = [results.stored(place) for place in places]
-    about, found = stored[0][0], dict[str, tuple[Row, Path]]()
-    for place, (other, rows) in zip(places, stored, strict=True):
-        changed = different(other, about)
+    identity, rows_by_key = stored[0][0], dict[str, tuple[Row, Path]]()
+    for place, (other_identity, rows) in zip(places, stored, strict=True):
+        changed = different(other_identity, identity)
         if changed:
             raise RecordError(
                 f"holds another experiment than {places[0]}: {', '.join(changed)} differ",
@@ -64,7 +64,7 @@ def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResul
                 fix="Merge folders of one experiment, version and kind of machine",
             )
         for row in rows:
-            first, where = found.setdefault(row[KEY], (row, place))
+            first, where = rows_by_key.setdefault(row[KEY], (row, place))
             if computed(first) != computed(row):
                 raise RecordError(
                     f"has another row of trial {row['trial']} than {where}",
@@ -76,25 +76,27 @@ def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResul
         raise OutputExists("exists", where=str(folder), fix="Choose another name")
     claim(folder, results.ROWS, "an experiment")
     with writer_lock.locked(folder):
-        merged = Rows(folder / results.ROWS, about)
-        merged.append(row for row, _ in sorted(found.values(), key=lambda one: one[0]["trial"]))
+        merged = Rows(folder / results.ROWS, identity)
+        merged.append(
+            row for row, _ in sorted(rows_by_key.values(), key=lambda placed_row: placed_row[0]["trial"])
+        )
         stores = {stored_place(place) for place in places}
         for name in (results.EXPERIMENT, results.MODEL, *((PLACE,) if len(stores) == 1 else ())):
             _copy(places[0], folder, name)
-        data = dataset(merged.found.values(), about)
-        output.write(folder / results.TABLE, table(data).encode())
-        files.save_record(data, folder / results.DATASET, force=True)
-    known = set(data["trial"].values.tolist())
-    return MergedResults(data, gaps(known, len(Design.load(folder / results.EXPERIMENT).cells)))
+        merged_table = dataset(merged.found.values(), identity)
+        output.write(folder / results.TABLE, table(merged_table).encode())
+        files.save_record(merged_table, folder / results.DATASET, force=True)
+    trials = set(merged_table["trial"].values.tolist())
+    return MergedResults(merged_table, gaps(trials, len(Design.load(folder / results.EXPERIMENT).cells)))
 
 
 def gaps(trials: set[int], of: int) -> tuple[tuple[int, int], ...]:
     """Return the ranges of numbers below `of` that are not among some, each as first and one after the
     last.
     """
-    there = [*(k in trials for k in range(of)), True]
-    first = [k for k in range(of) if not there[k] and (k == 0 or there[k - 1])]
-    return tuple((k, there.index(True, k)) for k in first)
+    exists = [*(k in trials for k in range(of)), True]
+    first = [k for k in range(of) if not exists[k] and (k == 0 or exists[k - 1])]
+    return tuple((k, exists.index(True, k)) for k in first)
 
 
 def computed(row: Row) -> Row:

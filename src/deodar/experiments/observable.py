@@ -62,28 +62,30 @@ class Observable:
         inside = None if axes is None else mask(axes, self.near, self.radius)
         if self.reduce == PLACE:
             assert axes is not None
-            found = np.array(
+            positions = np.array(
                 [self._position(u, axes, inside) for u in values.reshape(-1, *values.shape[lead:])]
             )
-            return found.reshape(values.shape[:lead] if len(axes) == 1 else (*values.shape[:lead], len(axes)))
+            return positions.reshape(
+                values.shape[:lead] if len(axes) == 1 else (*values.shape[:lead], len(axes))
+            )
         flat = values.reshape(*values.shape[:lead], -1)
         if inside is not None:
             flat = flat[..., inside.ravel()]
         return REDUCES[self.reduce](flat, axis=-1)
 
-    def given(self, values: np.ndarray) -> np.ndarray:
+    def from_reader(self, values: np.ndarray) -> np.ndarray:
         """Return the reduction from the output of its reader (`field_reader.py`): a position without a peak
         is NaN.
         """
         if self.reduce != PLACE:
             return values
-        found = np.where(values[..., -1:] > 0.5, values[..., :-1], np.nan)
-        return found[..., 0] if found.shape[-1] == 1 else found
+        coordinates = np.where(values[..., -1:] > 0.5, values[..., :-1], np.nan)
+        return coordinates[..., 0] if coordinates.shape[-1] == 1 else coordinates
 
     def _position(self, values: np.ndarray, axes: Axes, inside: np.ndarray | None) -> Sequence[float]:
         u = values if inside is None else np.where(inside, values, np.minimum(values, self.threshold))
-        found = peaks(u, axes, self.threshold)
-        return found[0].position if found else (np.nan,) * len(axes)
+        peaks_inside = peaks(u, axes, self.threshold)
+        return peaks_inside[0].position if peaks_inside else (np.nan,) * len(axes)
 
 
 def position(near: PerAxis | None) -> tuple[float, ...]:
@@ -108,10 +110,10 @@ def mask(axes: Axes, near: Sequence[float], radius: float) -> np.ndarray | None:
         )
     inside = np.ones((), bool)
     for axis, at in zip(axes, near, strict=True):
-        away = axis.points - at
+        distance = axis.points - at
         if axis.periodic:
-            away = away - axis.range * np.round(away / axis.range)
-        inside = inside[..., None] & (np.abs(away) <= radius + 1e-9 * axis.range)
+            distance = distance - axis.range * np.round(distance / axis.range)
+        inside = inside[..., None] & (np.abs(distance) <= radius + 1e-9 * axis.range)
     if not inside.any():
         raise AxesError(
             f"no sample lies within {radius:g} of {list(near)}",

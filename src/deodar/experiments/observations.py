@@ -152,8 +152,8 @@ class Observations:
         out: dict[str, float | list[float] | None] = {}
         for m, values in zip(self.measures, self.measured, strict=True):
             samples = values[row]
-            found = None if samples is None else m.value(samples, axes[m.view])
-            out[m.name] = None if found is None else np.asarray(found).astype(float).tolist()
+            measured = None if samples is None else m.value(samples, axes[m.view])
+            out[m.name] = None if measured is None else np.asarray(measured).astype(float).tolist()
         return out
 
     def _end(self, rows: Sequence[int], which: np.ndarray, name: str) -> None:
@@ -166,34 +166,36 @@ def require(events: Sequence[Event], measures: Sequence[BaseMeasure] = ()) -> No
     names = [*(e.name for e in events), *(m.name for m in measures)]
     twice = next((n for n in names if names.count(n) > 1 or n in (TIME, DIVERGED)), None)
     if twice is not None:
-        what = (
+        problem = (
             "is the name of two events or measures"
             if names.count(twice) > 1
             else "is the name of an outcome that every experiment has"
         )
-        raise ParameterError(what, where=twice, fix="Give each a name of its own")
-    known = [e.name for e in events]
+        raise ParameterError(problem, where=twice, fix="Give each a name of its own")
+    names_of_events = [e.name for e in events]
     for name, others in [
         *((e.name, e.others) for e in events),
         *((m.name, (m.when,) if m.when else ()) for m in measures),
     ]:
         for other in others:
-            if other not in known:
-                raise UnknownName(f"there is no event {other!r}", where=name, fix=did_you_mean(other, known))
+            if other not in names_of_events:
+                raise UnknownName(
+                    f"there is no event {other!r}", where=name, fix=did_you_mean(other, names_of_events)
+                )
     _order(events)
 
 
 def _order(events: Sequence[Event]) -> list[int]:
     """Return the numbers of the events in an order of evaluation: an event after those it is made of."""
     done: list[str] = []
-    left = list(events)
-    while left:
-        ready = [e for e in left if all(other in done for other in e.others)]
+    pending = list(events)
+    while pending:
+        ready = [e for e in pending if all(other in done for other in e.others)]
         if not ready:
             raise ParameterError(
-                "depends on itself", where=left[0].name, fix="Leave its own name out of those it names"
+                "depends on itself", where=pending[0].name, fix="Leave its own name out of those it names"
             )
         done += [e.name for e in ready]
-        left = [e for e in left if e not in ready]
+        pending = [e for e in pending if e not in ready]
     number = {e.name: k for k, e in enumerate(events)}
     return [number[name] for name in done]

@@ -38,7 +38,7 @@ def from_data(
     data: Any,
     where: str,
     kinds: Mapping[str, type[Part]],
-    given: Mapping[str, Any],
+    preset: Mapping[str, Any],
     problems: list[Problem],
     kind: str = "",
 ) -> Any:
@@ -48,7 +48,7 @@ def from_data(
         data: the plain data.
         where: name of its place in messages.
         kinds: the valid kinds.
-        given: parameters that are stored elsewhere.
+        preset: parameters that are stored elsewhere.
         problems: the list to which problems are added.
         kind: default kind, where the data need not state it.
     """
@@ -60,22 +60,22 @@ def from_data(
     cls = _kind_of(name, where, kinds, problems)
     if cls is None:
         return None
-    known = [p.name for p in parameters(cls) if p.name not in given]
-    strange = [key for key in values if key != "kind" and key not in known]
+    names = [p.name for p in parameters(cls) if p.name not in preset]
+    strange = [key for key in values if key != "kind" and key not in names]
     problems += [
-        Problem(f"{where}.{key}", f"{name} has no such parameter", did_you_mean(key, known))
+        Problem(f"{where}.{key}", f"{name} has no such parameter", did_you_mean(key, names))
         for key in strange
     ]
     missing = [
         p.name
         for p in parameters(cls)
-        if p.name in known and p.name not in values and p.name not in _defaults(cls)
+        if p.name in names and p.name not in values and p.name not in _defaults(cls)
     ]
     problems += [Problem(where, f"{an(name)} needs {key!r}") for key in missing]
     if strange or missing:
         return None
     try:
-        return cls(**given, **{key: value for key, value in values.items() if key != "kind"})
+        return cls(**preset, **{key: value for key, value in values.items() if key != "kind"})
     except (ParameterError, UnknownName) as error:
         problems += [
             Problem(f"{where}{p.where.removeprefix(cls.__name__)}", p.what, p.fix) for p in error.problems
@@ -88,8 +88,8 @@ def _kind_of(
 ) -> type[Part] | None:
     """Return the kind of a name, or None with its problems added."""
     if not isinstance(name, str) or name not in kinds:
-        what = f"there is no {show(name)} here" if name else "has no kind"
-        problems.append(Problem(f"{where}.kind", what, did_you_mean(str(name), kinds)))
+        problem = f"there is no {show(name)} here" if name else "has no kind"
+        problems.append(Problem(f"{where}.kind", problem, did_you_mean(str(name), kinds)))
         return None
     try:
         return kinds[name]
@@ -102,11 +102,11 @@ def schema(kinds: Mapping[str, type[Part]], named: bool) -> dict[str, Any]:
     """Return the JSON Schema of any of some kinds; `named`: their name is the key beside them."""
     out: list[dict[str, Any]] = []
     for cls in kinds.values():
-        found = schema_of(cls, lambda base: {})
+        part_schema = schema_of(cls, lambda base: {})
         for p in parameters(cls):
             if p.of is object:  # any value that the parameter that it sets accepts
-                found["properties"][p.name] = {"description": p.meaning}
-        found["required"] = [
+                part_schema["properties"][p.name] = {"description": p.meaning}
+        part_schema["required"] = [
             "kind",
             *(
                 p.name
@@ -114,7 +114,7 @@ def schema(kinds: Mapping[str, type[Part]], named: bool) -> dict[str, Any]:
                 if p.name not in _defaults(cls) and (p.name != "name" or not named)
             ),
         ]
-        out.append(found | {"additionalProperties": False})
+        out.append(part_schema | {"additionalProperties": False})
     return {"oneOf": out}
 
 

@@ -50,30 +50,30 @@ def of_rows(rows: Iterable[Row]) -> list[IndexedObject]:
         levels.setdefault(name, {})[int(row["trial"])] = row["levels"]
     return [
         IndexedObject(
-            name, int(records[name]["size"]), str(records[name]["crc32c"]), dict(sorted(own.items()))
+            name, int(records[name]["size"]), str(records[name]["crc32c"]), dict(sorted(levels_of.items()))
         )
-        for name, own in sorted(levels.items(), key=lambda one: min(one[1]))
+        for name, levels_of in sorted(levels.items(), key=lambda named: min(named[1]))
     ]
 
 
 def text(objects: Sequence[IndexedObject]) -> bytes:
     """Return the content of the file."""
-    known = [level for one in objects for level in (one.levels or {}).values()]
-    factors = list(dict.fromkeys(name for level in known for name in level))
+    trial_levels = [level for record in objects for level in (record.levels or {}).values()]
+    factors = list(dict.fromkeys(name for level in trial_levels for name in level))
     lines = [
         codec.line(
             {
-                "object": one.name,
-                "size": one.size,
-                "crc32c": one.crc32c,
-                "trials": list(one.levels or {}),
-                "levels": [[level.get(name) for name in factors] for level in (one.levels or {}).values()],
+                "object": record.name,
+                "size": record.size,
+                "crc32c": record.crc32c,
+                "trials": list(record.levels or {}),
+                "levels": [[level.get(name) for name in factors] for level in (record.levels or {}).values()],
             }
         )
-        for one in objects
+        for record in objects
     ]
     body = "".join(f"{line}\n" for line in lines).encode()
-    header = {"index": VERSION, "trials": len(known), "factors": factors, "crc32c": checksum(body)}
+    header = {"index": VERSION, "trials": len(trial_levels), "factors": factors, "crc32c": checksum(body)}
     return codec.line(header).encode() + b"\n" + body
 
 
@@ -90,12 +90,12 @@ def parse(content: bytes) -> list[IndexedObject]:
             raise ValueError
         out: list[IndexedObject] = []
         for line in body.splitlines():
-            one = codec.parse(line)
-            if not one["object"].startswith(f"{OBJECTS}/") or ".." in one["object"]:
+            entry = codec.parse(line)
+            if not entry["object"].startswith(f"{OBJECTS}/") or ".." in entry["object"]:
                 raise ValueError  # a store that was downloaded may name any file
-            labels = [dict(zip(header["factors"], found, strict=True)) for found in one["levels"]]
-            levels = dict(zip(one["trials"], labels, strict=True))
-            out.append(IndexedObject(str(one["object"]), int(one["size"]), str(one["crc32c"]), levels))
+            labels = [dict(zip(header["factors"], row, strict=True)) for row in entry["levels"]]
+            levels = dict(zip(entry["trials"], labels, strict=True))
+            out.append(IndexedObject(str(entry["object"]), int(entry["size"]), str(entry["crc32c"]), levels))
         return out
     except (ValueError, LookupError, TypeError, AttributeError):
         raise ValueError("the index is damaged") from None
@@ -109,12 +109,12 @@ def write(target: RecordTarget, rows: Iterable[Row]) -> None:
     """
     store, objects = target.address.open(), of_rows(rows)
     store.put(INDEX, text(objects))
-    unnamed = sorted({*store.sizes(OBJECTS)} - {one.name for one in objects})
+    unnamed = sorted({*store.sizes(OBJECTS)} - {record.name for record in objects})
     if unnamed:
-        shown = ", ".join(unnamed[:3]) + (", ..." if len(unnamed) > 3 else "")
+        listed = ", ".join(unnamed[:3]) + (", ..." if len(unnamed) > 3 else "")
         warnings.warn(
             f"{target.address.shown}: {len(unnamed)} files that no row names, of a stopped run or of another"
-            f" division into pieces: {shown}. They may be deleted",
+            f" division into pieces: {listed}. They may be deleted",
             RunWarning,
             stacklevel=3,
         )

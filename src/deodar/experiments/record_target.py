@@ -61,14 +61,14 @@ class RecordTarget:
     def require_seen(self) -> None:
         """Raise OutputError unless this process sees the store; called before the trials of each piece."""
         try:
-            found = self.address.open().get(MARK)
+            mark = self.address.open().get(MARK)
         except RecordError as error:
             raise OutputError(error.problems[0].what, where=self.address.shown, fix=AGAIN) from None
-        if found != self.mark:
-            what = "does not see the store of the records" if found is None else "sees another store"
+        if mark != self.mark:
+            problem = "does not see the store of the records" if mark is None else "sees another store"
             raise OutputError(
-                f"the process on {socket.gethostname()} {what}: {MARK} in it is"
-                f" {'missing' if found is None else 'of another experiment'}",
+                f"the process on {socket.gethostname()} {problem}: {MARK} in it is"
+                f" {'missing' if mark is None else 'of another experiment'}",
                 where=self.address.shown,
                 fix=f"Connect the store there. {AGAIN}",
             )
@@ -101,21 +101,21 @@ class PieceRecords:
         target.require_seen()
         self._target, self._trials = target, trials
         self._writer = ArchiveWriter()
-        self._about: list[Json] = []
+        self._entries: list[Json] = []
 
     def add(self, row: Row, records: Mapping[str, xarray.Dataset]) -> None:
         """Add the records of a trial: that of the trial under "", snapshots under their labels."""
         trial = int(row["trial"])
         groups: dict[str, str] = {}
-        for number, (label, data) in enumerate(records.items()):
+        for number, (label, record) in enumerate(records.items()):
             groups[label] = f"{trial:08}" if not label else f"{trial:08}-snapshot-{number}"
-            self._writer.add(groups[label], data)
+            self._writer.add(groups[label], record)
         entry = {"trial": trial, "levels": row["levels"], "outcome": row["outcome"], "groups": groups}
-        self._about.append(codec.parse(codec.line(entry)))
+        self._entries.append(codec.parse(codec.line(entry)))
 
     def put(self) -> JsonObject:
         """Store all records as one object; return its entry in the rows."""
-        content = self._writer.close({"deodar_records": VERSION, "trials": self._about})
+        content = self._writer.close({"deodar_records": VERSION, "trials": self._entries})
         return self._target.put(self._trials, content)
 
 
@@ -140,7 +140,7 @@ def checksum(content: bytes) -> str:
 
 def claimed(
     address: StoreAddress,
-    about: Mapping[str, Json],
+    identity: Mapping[str, Json],
     rows: Mapping[str, Row],
     folder: Path,
     read: Callable[[JsonObject], JsonObject],
@@ -149,7 +149,7 @@ def claimed(
 
     Args:
         address: where it is.
-        about: the identity of the experiment, as its rows state it.
+        identity: the identity of the experiment, as its rows state it.
         rows: the rows that exist.
         folder: their folder, which keeps the address.
         read: function that converts an identity to the present version.
@@ -162,8 +162,8 @@ def claimed(
     store = address.open()
     _require_objects(address, rows, folder)
     store.create()
-    mark = _marked(store, about)
-    changed = different(about, read(experiment_of(mark, address.shown)))
+    mark = _marked(store, identity)
+    changed = different(identity, read(experiment_of(mark, address.shown)))
     if changed:
         raise OutputExists(
             f"holds records of another experiment: {', '.join(changed)} differ",
@@ -183,16 +183,16 @@ def experiment_of(mark: bytes, where: str) -> JsonObject:
         RecordError: the file that states it is damaged, of a newer version, or that of a folder of rows.
     """
     try:
-        data = codec.parse(mark)
-        if isinstance(data, dict) and "records" not in data and "limit" in data:
+        content = codec.parse(mark)
+        if isinstance(content, dict) and "records" not in content and "limit" in content:
             raise RecordError(
                 "is the folder of the rows of an experiment, and no store of records",
                 where=where,
                 fix="Name another folder for the store; records in files beside rows are read by"
                 " dd.load_record",
             )
-        version, about = data["records"], data["experiment"]
-        if not isinstance(version, int) or not isinstance(about, dict):
+        version, identity = content["records"], content["experiment"]
+        if not isinstance(version, int) or not isinstance(identity, dict):
             raise TypeError
     except (ValueError, LookupError, TypeError):
         raise RecordError(
@@ -204,7 +204,7 @@ def experiment_of(mark: bytes, where: str) -> JsonObject:
             where=where,
             fix="Install a newer deodar",
         )
-    return about
+    return identity
 
 
 def require_here(rows: Mapping[str, Row], folder: Path) -> None:
@@ -263,24 +263,24 @@ def stored_place(folder: Path) -> str:
         return ""
 
 
-def _marked(store: RecordStore, about: Mapping[str, Json]) -> bytes:
+def _marked(store: RecordStore, identity: Mapping[str, Json]) -> bytes:
     """Return the content of the file that states the experiment of a store; an empty store gets one."""
-    found: list[str] = []
+    names: list[str] = []
     for _ in range(2):
         mark = store.get(MARK)
         if mark is not None:
             return mark
         # a file under its first name may be this file, which another part of the experiment writes now
-        found = sorted(name for name in store.sizes() if not name.rpartition("/")[2].startswith("."))
-        if MARK not in found:
+        names = sorted(name for name in store.sizes() if not name.rpartition("/")[2].startswith("."))
+        if MARK not in names:
             break
-    if found:
+    if names:
         raise OutputExists(
-            f"is not a store of records, so nothing is written into it: it holds {found[0]}",
+            f"is not a store of records, so nothing is written into it: it holds {names[0]}",
             where=store.shown,
             fix="Name an empty folder or address, or a new one",
         )
-    mark = (codec.text({"records": VERSION, "experiment": dict(about)}) + "\n").encode()
+    mark = (codec.text({"records": VERSION, "experiment": dict(identity)}) + "\n").encode()
     store.put(MARK, mark)
     return mark
 
@@ -301,8 +301,8 @@ def _require_objects(address: StoreAddress, rows: Mapping[str, Row], folder: Pat
             where=str(folder),
             fix="Leave out records (--records), or begin in another folder (--out)",
         )
-    found = address.open().sizes(OBJECTS)
-    missing = sorted(name for name, size in objects.items() if found.get(name) != size)
+    sizes = address.open().sizes(OBJECTS)
+    missing = sorted(name for name, size in objects.items() if sizes.get(name) != size)
     if missing:
         before = stored_place(folder)
         fix = "Connect the store" if before in ("", address.shown) else f"Continue with --records {before}"

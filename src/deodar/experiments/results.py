@@ -97,20 +97,20 @@ def _run_trials(
 ) -> xarray.Dataset:
     handed = packed_experiment.PackedExperiment.of(setup) if on.shared else None
     with _opened(setup, handed, on, watch) as pool:
-        about = _about(setup, on.shared, out, None if pool is None else pool.made_by)
+        identity = _about(setup, on.shared, out, None if pool is None else pool.made_by)
 
-        def read(made: JsonObject) -> JsonObject:  # older rows name no packages
-            packages = {"packages": about["packages"]} if "packages" in about else {}
-            return packages | migrate(made, setup.model.document)
+        def read(older: JsonObject) -> JsonObject:  # older rows name no packages
+            packages = {"packages": identity["packages"]} if "packages" in identity else {}
+            return packages | migrate(older, setup.model.document)
 
-        rows = Rows(out / ROWS, about, read=read)
+        rows = Rows(out / ROWS, identity, read=read)
         if not (out / MODEL).exists():
             documents.save(setup.model.document, out / MODEL)
         if not (out / EXPERIMENT).exists():
             output.write(out / EXPERIMENT, (codec.text(_plan(setup)) + "\n").encode())
         records: Path | RecordTarget | None = out / RECORDS if setup.recorded else None
         if setup.store:
-            target = records = claimed(StoreAddress.of(setup.store), about, rows.found, out, read)
+            target = records = claimed(StoreAddress.of(setup.store), identity, rows.found, out, read)
             if pool is not None:
                 require_visible(target, pool.everywhere(unseen, target))
         elif len(rows.found) < setup.trials:
@@ -121,12 +121,12 @@ def _run_trials(
         run_jobs(jobs, rows, on, pool, watch)
         if pool is not None and pool.cluster.mixed:
             compare(jobs, rows, pool, out)
-    data = dataset(rows.found.values(), about)
-    output.write(out / TABLE, table(data).encode())
-    files.save_record(data, out / DATASET, force=True)
+    trials = dataset(rows.found.values(), identity)
+    output.write(out / TABLE, table(trials).encode())
+    files.save_record(trials, out / DATASET, force=True)
     if isinstance(records, RecordTarget) and len(rows.found) == setup.trials:
         record_index.write(records, rows.found.values())
-    return data
+    return trials
 
 
 def _require_records(setup: Setup, out: str | Path | None, workers: bool) -> None:
@@ -194,11 +194,11 @@ def _jobs(
     for piece in setup.pieces():
         if part is not None and not part[0] <= piece[0] < part[1]:
             continue
-        keys, given = tuple(f"{k:06}" for k in piece), {"trials": piece, "records": records}
+        keys, arguments = tuple(f"{k:06}" for k in piece), {"trials": piece, "records": records}
         if handed is None:
-            yield Job(keys, setup.rows, given, len(piece))
+            yield Job(keys, setup.rows, arguments, len(piece))
         else:
-            yield Job(keys, packed_experiment.work, {"handed": handed, **given}, len(piece))
+            yield Job(keys, packed_experiment.work, {"handed": handed, **arguments}, len(piece))
 
 
 def _about(setup: Setup, workers: bool, folder: Path, made: Mapping[str, str] | None = None) -> JsonObject:
@@ -211,14 +211,14 @@ def _about(setup: Setup, workers: bool, folder: Path, made: Mapping[str, str] | 
         made: versions and machine of the workers of a cluster.
     """
     digest = _digest_in(folder, setup.model.document) or _digest(*documents.dumps(setup.model.document))
-    here = provenance.made_by(find(), setup.experiment.precision) | ({"cores": "1"} if workers else {})
+    made_here = provenance.made_by(find(), setup.experiment.precision) | ({"cores": "1"} if workers else {})
     unit = setup.model.document.time_unit
     return {
         **_plan(setup),
         "model": digest,
         "world": provenance.described(setup.world),
         "time_unit": unit,
-        "made_by": here if made is None else dict(made),
+        "made_by": made_here if made is None else dict(made),
     }
 
 
@@ -234,14 +234,14 @@ def _digest_in(folder: Path, doc: Document) -> str:
     try:
         if documents.load(folder / MODEL) != doc:
             return ""
-        data = codec.parse((folder / MODEL).read_text(encoding="utf-8"))
+        document = codec.parse((folder / MODEL).read_text(encoding="utf-8"))
         arrays = None
-        if "arrays" in data:
-            arrays = (folder / data["arrays"]["file"]).read_bytes()
-            data["arrays"]["file"] = ""
+        if "arrays" in document:
+            arrays = (folder / document["arrays"]["file"]).read_bytes()
+            document["arrays"]["file"] = ""
     except (DeodarError, OSError, ValueError):
         return ""
-    return _digest(codec.text(data) + "\n", arrays)
+    return _digest(codec.text(document) + "\n", arrays)
 
 
 def _plan(setup: Setup) -> JsonObject:
@@ -262,8 +262,8 @@ def load_results(path: str | Path) -> xarray.Dataset:
     folder = output.location(path)
     try:
         with (folder / ROWS).open(encoding="utf-8") as file:
-            about = codec.parse(file.readline())[ABOUT]
-            return dataset((codec.parse(line) for line in file if line[-1] == "\n"), about)
+            identity = codec.parse(file.readline())[ABOUT]
+            return dataset((codec.parse(line) for line in file if line[-1] == "\n"), identity)
     except (OSError, ValueError, LookupError, TypeError, OverflowError):
         stored(folder)  # names a line that is not a row
         raise _no_results(folder) from None
@@ -277,10 +277,12 @@ def stored(folder: Path) -> tuple[JsonObject, list[Row]]:
     """
     try:
         with (folder / ROWS).open("rb") as file:
-            about = codec.parse(file.readline())[ABOUT]
-            lacking = lacks(about)
+            identity = codec.parse(file.readline())[ABOUT]
+            lacking = lacks(identity)
             lines = (line for line in file if line.endswith(b"\n"))
-            return about, [read_row(line, number, file.name, lacking) for number, line in enumerate(lines, 2)]
+            return identity, [
+                read_row(line, number, file.name, lacking) for number, line in enumerate(lines, 2)
+            ]
     except (OSError, ValueError, LookupError, TypeError):
         raise _no_results(folder) from None
 

@@ -122,15 +122,15 @@ class Rows:
         if identity is None:
             output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
             return
-        made = read(identity)
-        changed = different(stored[ABOUT], made, by_condition)
+        stored_identity = read(identity)
+        changed = different(stored[ABOUT], stored_identity, by_condition)
         if changed:
             raise OutputExists(
                 f"holds runs of another experiment: {', '.join(changed)} differ",
                 where=str(path),
                 fix="Choose another name",
             )
-        if made != stored[ABOUT]:
+        if stored_identity != stored[ABOUT]:
             output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
 
     def append(self, rows: Iterable[Row]) -> list[Row]:
@@ -157,63 +157,63 @@ class Rows:
         """
         if not self.path.exists():
             return None
-        made: JsonObject | None = None
+        identity: JsonObject | None = None
         whole, number = 0, 0
         with self.path.open("rb") as file:
             for at, line in _places(file):
                 whole, number = at + len(line), number + 1
-                found = self._line(line, number)
-                if KEY in found and number > 1:
-                    self.found.place(found[KEY], at)
+                row = self._line(line, number)
+                if KEY in row and number > 1:
+                    self.found.place(row[KEY], at)
                 else:
-                    made = found[ABOUT]
+                    identity = row[ABOUT]
             file.seek(whole)
-            rest = file.read(3 + len(ABOUT))
-        if rest:
-            if not whole and b'{"' + ABOUT.encode() != rest[: 3 + len(ABOUT) - 1]:
+            partial = file.read(3 + len(ABOUT))
+        if partial:
+            if not whole and b'{"' + ABOUT.encode() != partial[: 3 + len(ABOUT) - 1]:
                 raise self._no_rows()
             with self.path.open("r+b") as file:
                 file.truncate(whole)
-        return made
+        return identity
 
     def _line(self, line: bytes, number: int) -> Row:
         try:
-            found = codec.parse(line)
+            row = codec.parse(line)
         except ValueError:
-            found = None
-        if not isinstance(found, dict) or (
-            number > 1 and KEY not in found and not isinstance(found.get(ABOUT), dict)
+            row = None
+        if not isinstance(row, dict) or (
+            number > 1 and KEY not in row and not isinstance(row.get(ABOUT), dict)
         ):
             raise RecordError(
                 f"line {number} is not a row",
                 where=str(self.path),
                 fix="Remove that line; the trial is then run again",
             )
-        if number == 1 and not isinstance(found.get(ABOUT), dict):
+        if number == 1 and not isinstance(row.get(ABOUT), dict):
             raise self._no_rows()
-        return cast("Row", found)
+        return cast("Row", row)
 
     def _no_rows(self) -> RecordError:
         return RecordError("holds no rows of an experiment", where=str(self.path), fix="Choose another name")
 
 
-def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:
+def different(new: Mapping[str, Any], old: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:
     """Return the entries in which a design differs from the design of the rows; of entries by condition only
     those of conditions with rows.
 
     Args:
         new: the identity of the experiment now.
-        made: its identity when the rows were run.
+        old: its identity when the rows were run.
         by_condition: names of the entries that map names of conditions to settings.
     """
-    changed = [k for k in {*new, *made} - {*by_condition} if new.get(k) != made.get(k)]
-    known = {name for k in by_condition for name in made.get(k, {})}
+    changed = [k for k in {*new, *old} - {*by_condition} if new.get(k) != old.get(k)]
+    names = {name for k in by_condition for name in old.get(k, {})}
     for k in by_condition:
-        now, then = new.get(k, {}), made.get(k, {})
+        new_entries, then = new.get(k, {}), old.get(k, {})
         changed += [
             f"{k} of {name}"
-            for name in known
-            if (name in now, now.get(name)) != (name in then, then.get(name))
+            for name in names
+            if (name in new_entries, new_entries.get(name)) != (name in then, then.get(name))
         ]
     return sorted(changed)
 

@@ -107,9 +107,9 @@ class RunningTrial:
         """
         self._copies.restart(self.row, keep_learned)
 
-    def later(self, steps: int, what: Callable[[], object]) -> None:
-        """Call `what` in `steps` steps from now; 0: before the next step."""
-        self._call(self.tick + steps, what)
+    def later(self, steps: int, action: Callable[[], object]) -> None:
+        """Call `action` in `steps` steps from now; 0: before the next step."""
+        self._call(self.tick + steps, action)
 
     # ------------------------------------------------------------------------------------------- the schedule
 
@@ -140,9 +140,9 @@ class RunningTrial:
         while self._due and self._due[0][0] <= self.tick and not self.outcome:
             heapq.heappop(self._due)[2]()
 
-    def _call(self, tick: int, what: Callable[[], object]) -> None:
+    def _call(self, tick: int, action: Callable[[], object]) -> None:
         self._count += 1  # calls at one time run in the order in which they were scheduled
-        heapq.heappush(self._due, (tick, self._count, what))
+        heapq.heappush(self._due, (tick, self._count, action))
 
     def _apply(self, action: ScheduledAction) -> None:
         world = self.world if action.world_method else None

@@ -60,15 +60,17 @@ class Setup:
     model: Model
     world: World | None
     store: str = field(default="", repr=False)
-    _kept: dict[Any, tuple[Trials, Model]] = field(default_factory=dict[Any, Any], init=False, repr=False)
+    _prepared_trials: dict[Any, tuple[Trials, Model]] = field(
+        default_factory=dict[Any, Any], init=False, repr=False
+    )
 
     @classmethod
     def open(cls, experiment: Design, trust: bool = False) -> Setup:
         """Open the model and the world of an experiment, and check it before any trial runs."""
-        given: Any = experiment.model
-        model = given if isinstance(given, Model) else load(given, trust)
-        wanted: Any = experiment.world
-        world = named(wanted, "world") if isinstance(wanted, str) and wanted else wanted or None
+        source: Any = experiment.model
+        model = source if isinstance(source, Model) else load(source, trust)
+        place: Any = experiment.world
+        world = named(place, "world") if isinstance(place, str) and place else place or None
         check(experiment, model, world)
         return cls(experiment, model, world)
 
@@ -108,22 +110,24 @@ class Setup:
         change numbers of the program and objects of the world.
         """
         plan, doc = self.experiment.plan, self.model.document
-        known = () if self.world is None else self.world.sensors
-        if any(view.of in known for view in plan.views):
+        sensors = () if self.world is None else self.world.sensors
+        if any(view.of in sensors for view in plan.views):
             return False
         if self.world is not None and embodied(doc, self.world) is None:
             return False
-        own = isinstance(self.world, PureWorld) and type(self.world).for_trial is not PureWorld.for_trial
-        if any(a.world_method for a in plan.actions) and not own:
+        per_trial = (
+            isinstance(self.world, PureWorld) and type(self.world).for_trial is not PureWorld.for_trial
+        )
+        if any(a.world_method for a in plan.actions) and not per_trial:
             return False
-        return all(self._sweeps(path, given) for path, given in set_values(plan.actions).items())
+        return all(self._sweeps(path, numbers) for path, numbers in set_values(plan.actions).items())
 
-    def _sweeps(self, path: str, given: Sequence[Any]) -> bool:
+    def _sweeps(self, path: str, numbers: Sequence[Any]) -> bool:
         """Return whether trials of one batch may differ in a parameter with these values, besides the values
         that it has at the start of trials.
         """
         first = [level[path] for f in self.experiment.factors for level in f.sets if path in level]
-        return swept(self.model.document, path, [self.model.get(path), *first, *given])
+        return swept(self.model.document, path, [self.model.get(path), *first, *numbers])
 
     @cached_property
     def swept(self) -> list[str]:
@@ -138,9 +142,9 @@ class Setup:
                 for path, value in level.items():
                     values.setdefault(
                         path,
-                        [self.model.get(path)] if any(path not in other for other in factor.sets) else [],
+                        [self.model.get(path)] if any(path not in changes for changes in factor.sets) else [],
                     ).append(value)
-        return [path for path, given in values.items() if swept(self.model.document, path, given)]
+        return [path for path, numbers in values.items() if swept(self.model.document, path, numbers)]
 
     def pieces(self) -> list[list[int]]:
         """Return the trials in the pieces in which they are run: the same for any number of workers."""
@@ -175,32 +179,37 @@ class Setup:
         """
         out: list[Row] = []
         stored = PieceRecords(records, trials) if isinstance(records, RecordTarget) else None
-        for k, result, model in self._results(trials, () if records is None else self.experiment.plan.watch):
-            row = self._row(k, result)
+        for k, trial, model in self._results(trials, () if records is None else self.experiment.plan.watch):
+            row = self._row(k, trial)
             if records is not None:
-                about = self._about(row) | ({DIVERGED: row[DIVERGED]} if DIVERGED in row else {})
-                found = trial_records(model.document, self.experiment.plan.watch, result, about)
+                description = self._about(row) | ({DIVERGED: row[DIVERGED]} if DIVERGED in row else {})
+                records_of_trial = trial_records(
+                    model.document, self.experiment.plan.watch, trial, description
+                )
                 if isinstance(records, Path):
-                    write_records(records, row[KEY], found)
+                    write_records(records, row[KEY], records_of_trial)
                 elif stored is not None:
-                    stored.add(row, found)
+                    stored.add(row, records_of_trial)
             out.append(row)
         entry = stored.put() if stored is not None else None
         return out if entry is None else [{**row, RECORD: entry} for row in out]
 
-    def _row(self, trial: int, result: Trial) -> Row:
+    def _row(self, trial: int, run: Trial) -> Row:
         e = self.experiment
         levels = {f.name: f.labels[n] for f, n in zip(e.factors, self.cells[trial], strict=True)}
-        awaited = [c.name for c in e.plan.events if c.ends and result.events[c.name] is None]
-        row: Row = {KEY: f"{trial:06}", "trial": trial, "levels": levels, "outcome": result.outcome}
-        row |= {"awaited": ", ".join(awaited) if result.outcome == TIME else "", "duration": result.duration}
-        row |= {} if result.error is None else {"duration": None, DIVERGED: result.error.problems[0].what}
-        return row | {"events": dict(result.events), "measures": dict(result.measures)}
+        awaited = [c.name for c in e.plan.events if c.ends and run.events[c.name] is None]
+        row: Row = {KEY: f"{trial:06}", "trial": trial, "levels": levels, "outcome": run.outcome}
+        row |= {
+            "awaited": ", ".join(awaited) if run.outcome == TIME else "",
+            "duration": run.duration,
+        }
+        row |= {} if run.error is None else {"duration": None, DIVERGED: run.error.problems[0].what}
+        return row | {"events": dict(run.events), "measures": dict(run.measures)}
 
     def _about(self, row: Row) -> dict[str, Any]:
         e = self.experiment
-        own = {key: row[key] for key in ("levels", "outcome")}
-        return {"experiment": e.name, "trial": row["trial"], "seed": e.seed, **own}
+        shared = {key: row[key] for key in ("levels", "outcome")}
+        return {"experiment": e.name, "trial": row["trial"], "seed": e.seed, **shared}
 
     def repeat(self, trial: int, watch: Sequence[str], path: Path) -> Row:
         """Run a trial again as it ran in the experiment, in its piece, write its record, and return its row.
@@ -211,16 +220,16 @@ class Setup:
             path: the file of the record; an existing one is replaced.
         """
         piece = next(piece for piece in self.pieces() if trial in piece)
-        found = self._results(piece, watch, [trial])
-        k, result, _ = next(one for one in found if one[0] == trial)
-        row = self._row(k, result)
+        runs = self._results(piece, watch, [trial])
+        k, of_trial, _ = next(run for run in runs if run[0] == trial)
+        row = self._row(k, of_trial)
         doc = self._with(self.changes(k)).document
-        about = (
+        description = (
             self._about(row)
             | {"dt": self.dt, "world": provenance.described(self.world)}
             | provenance.stored(doc)
         )
-        write_record(path, doc, watch, result, about)
+        write_record(path, doc, watch, of_trial, description)
         return row
 
     def _results(
@@ -230,23 +239,25 @@ class Setup:
         if not self.batched:
             alone = [(k, *self._prepared(self.changes(k), watch)) for k in trials]
             return [(k, prepared.results([k], e.seed)[0], model) for k, prepared, model in alone]
-        own = [self.changes(k) for k in trials]
-        fixed = {path: value for path, value in own[0].items() if path not in self.swept}
+        changes_of = [self.changes(k) for k in trials]
+        fixed = {path: value for path, value in changes_of[0].items() if path not in self.swept}
         prepared, model = self._prepared(fixed, watch)
-        values = {path: [float(changes.get(path, model.get(path))) for changes in own] for path in self.swept}
-        results = prepared.results(trials, e.seed, values, watched=watched)
-        return [(k, result, model) for k, result in zip(trials, results, strict=True)]
+        values = {
+            path: [float(changes.get(path, model.get(path))) for changes in changes_of] for path in self.swept
+        }
+        runs = prepared.results(trials, e.seed, values, watched=watched)
+        return [(k, run, model) for k, run in zip(trials, runs, strict=True)]
 
     def _prepared(self, changes: Mapping[str, Any], watch: Sequence[str]) -> tuple[Trials, Model]:
         """Return the trials of a model with other parameters, and the model; the last ones are kept."""
         e = self.experiment
         # levels are the same objects in every trial
         key = tuple(watch), tuple((path, id(value)) for path, value in changes.items())
-        if key not in self._kept:
+        if key not in self._prepared_trials:
             model = self._with(changes)
             plan = dc.replace(e.plan, watch=watch)
-            self._kept = {key: (Trials(model, plan, self.world, e.precision, self.batched), model)}
-        return self._kept[key]
+            self._prepared_trials = {key: (Trials(model, plan, self.world, e.precision, self.batched), model)}
+        return self._prepared_trials[key]
 
     def _with(self, changes: Mapping[str, Any]) -> Model:
         """Return the model with other parameters; it shares the compiled programs."""
@@ -265,8 +276,8 @@ class Setup:
     def record_bytes(self) -> float:
         """Size in bytes of the records of a trial that lasts until the limit."""
         plan, by = self.experiment.plan, {node.id: node for node in self._nodes}
-        found = [find.shown(self.model.document, name) for name in plan.watch]
-        cells = sum(math.prod(shape(by[entry.id].axes(port))) for entry, port in found)
+        ports = [find.shown(self.model.document, name) for name in plan.watch]
+        cells = sum(math.prod(shape(by[entry.id].axes(port))) for entry, port in ports)
         size = 8 if self.experiment.precision == "float64" else 4
         return cells * (plan.limit / (plan.every or self.dt) + 1) * size
 

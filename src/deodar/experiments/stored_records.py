@@ -108,12 +108,12 @@ class StoredRecords:
 
     def levels(self, trial: int) -> Mapping[str, Any]:
         """Return the level of each factor in a trial."""
-        one = self._object(trial)
-        return self._about(one, trial)["levels"] if one.levels is None else one.levels[trial]
+        record = self._object(trial)
+        return self._attributes(record, trial)["levels"] if record.levels is None else record.levels[trial]
 
     def snapshots(self, trial: int) -> list[str]:
         """Return the labels of the snapshots of a trial."""
-        return [label for label in self._about(self._object(trial), trial)["groups"] if label]
+        return [label for label in self._attributes(self._object(trial), trial)["groups"] if label]
 
     def snapshot(self, trial: int, label: str) -> xarray.Dataset:
         """Return a snapshot of a trial.
@@ -133,27 +133,30 @@ class StoredRecords:
         Raises:
             RecordError: there is no such factor, or no trial with these levels.
         """
-        wanted = {**(levels or {}), **named}
-        known = {trial: self.levels(trial) for trial in self}
-        for name in wanted:
-            factors = list(next(iter(known.values()), {}))
+        chosen = {**(levels or {}), **named}
+        levels_of = {trial: self.levels(trial) for trial in self}
+        for name in chosen:
+            factors = list(next(iter(levels_of.values()), {}))
             if name not in factors:
                 raise RecordError(
                     f"there is no factor {name!r}", where=self._store.shown, fix=did_you_mean(name, factors)
                 )
-        found = {
+        objects = {
             trial: self._objects[trial]
-            for trial, level in known.items()
-            if all(level[name] == value for name, value in wanted.items())
+            for trial, level in levels_of.items()
+            if all(level[name] == value for name, value in chosen.items())
         }
-        if not found:
-            labels = {name: list(dict.fromkeys(level[name] for level in known.values())) for name in wanted}
+        if not objects:
+            labels = {
+                name: list(dict.fromkeys(level[name] for level in levels_of.values())) for name in chosen
+            }
             raise RecordError(
-                f"there is no trial with {_shown(wanted)}",
+                f"there is no trial with {_in_words(chosen)}",
                 where=self._store.shown,
-                fix="Levels: " + "; ".join(f"{n} {', '.join(map(str, one))}" for n, one in labels.items()),
+                fix="Levels: "
+                + "; ".join(f"{n} {', '.join(map(str, values))}" for n, values in labels.items()),
             )
-        return StoredRecords(self._store, found, self._opened)
+        return StoredRecords(self._store, objects, self._opened)
 
     def damaged(self) -> dict[str, str]:
         """Read all objects of these trials whole; return the damaged ones with the reasons.
@@ -162,19 +165,19 @@ class StoredRecords:
         objects are compared.
         """
         out: dict[str, str] = {}
-        for one in dict.fromkeys(self._objects.values()):
+        for record in dict.fromkeys(self._objects.values()):
             try:
-                content = self._store.get(one.name)
+                content = self._store.get(record.name)
                 if content is None:
-                    out[one.name] = "it is missing"
-                elif not one.crc32c:
-                    Archive(io.BytesIO(content), one.name).require_sound()
-                elif len(content) != one.size:
-                    out[one.name] = f"it has {len(content)} bytes, not {one.size}"
-                elif checksum(content) != one.crc32c:
-                    out[one.name] = "its checksum is that of another content"
+                    out[record.name] = "it is missing"
+                elif not record.crc32c:
+                    Archive(io.BytesIO(content), record.name).require_sound()
+                elif len(content) != record.size:
+                    out[record.name] = f"it has {len(content)} bytes, not {record.size}"
+                elif checksum(content) != record.crc32c:
+                    out[record.name] = "its checksum is that of another content"
             except RecordError as error:
-                out[one.name] = error.problems[0].what
+                out[record.name] = error.problems[0].what
         return out
 
     def _object(self, trial: int) -> IndexedObject:
@@ -185,25 +188,27 @@ class StoredRecords:
             )
         return self._objects[trial]
 
-    def _about(self, one: IndexedObject, trial: int) -> Mapping[str, Any]:
-        archive = self._opened.get(one.name)
+    def _attributes(self, record: IndexedObject, trial: int) -> Mapping[str, Any]:
+        archive = self._opened.get(record.name)
         try:
-            return next(about for about in archive.attributes["trials"] if about["trial"] == trial)
+            return next(
+                attributes for attributes in archive.attributes["trials"] if attributes["trial"] == trial
+            )
         except (LookupError, TypeError, StopIteration):
             raise RecordError(f"holds no trial {trial}", where=archive.where) from None
 
     def _read(self, trial: int, label: str) -> xarray.Dataset:
-        one = self._object(trial)
-        groups: Mapping[str, str] = self._about(one, trial)["groups"]
+        record = self._object(trial)
+        groups: Mapping[str, str] = self._attributes(record, trial)["groups"]
         if label not in groups:
             labels = [name for name in groups if name]
-            what = f"no snapshot {label!r}" if label else "only snapshots"
+            content = f"no snapshot {label!r}" if label else "only snapshots"
             raise RecordError(
-                f"trial {trial} has {what}",
+                f"trial {trial} has {content}",
                 where=self._store.shown,
                 fix=f"Read one: snapshot({trial}, {labels[0]!r})" if labels else "",
             )
-        return self._opened.get(one.name).read(groups[label])
+        return self._opened.get(record.name).read(groups[label])
 
 
 def open_records(store: str | os.PathLike[str]) -> StoredRecords:
@@ -226,24 +231,25 @@ def open_records(store: str | os.PathLike[str]) -> StoredRecords:
     address = StoreAddress.of(store)
     place = stored_place(Path(address.full)) if (Path(address.full) / PLACE).is_file() else ""
     address = StoreAddress.of(place) if place else address
-    found = address.open()
-    mark = found.get(MARK)
+    opened_store = address.open()
+    mark = opened_store.get(MARK)
     if mark is None:
         raise RecordError(
             f"is not a store of records: it has no {MARK}",
-            where=found.shown,
+            where=opened_store.shown,
             fix="Name the store that records=... named; records in files are read by dd.load_record",
         )
-    experiment_of(mark, found.shown)
-    opened, objects = _Opened(found), dict[int, IndexedObject]()
+    experiment_of(mark, opened_store.shown)
+    opened, objects = _Opened(opened_store), dict[int, IndexedObject]()
     try:
-        for one, trials in _objects(found, opened):
+        for record, trials in _objects(opened_store, opened):
             for trial in trials:
-                if objects.setdefault(trial, one) is not one:
-                    _warn(f"{found.shown}: trial {trial} is in {objects[trial].name} and in {one.name}")
+                if objects.setdefault(trial, record) is not record:
+                    names = f"{objects[trial].name} and in {record.name}"
+                    _warn(f"{opened_store.shown}: trial {trial} is in {names}")
     finally:
         opened.close()
-    return StoredRecords(found, dict(sorted(objects.items())), opened)
+    return StoredRecords(opened_store, dict(sorted(objects.items())), opened)
 
 
 def _objects(store: RecordStore, opened: _Opened) -> Iterator[tuple[IndexedObject, list[int]]]:
@@ -251,35 +257,35 @@ def _objects(store: RecordStore, opened: _Opened) -> Iterator[tuple[IndexedObjec
     content = store.get(INDEX)
     if content is not None:
         try:
-            for one in record_index.parse(content):
-                yield one, list(one.levels or {})
+            for record in record_index.parse(content):
+                yield record, list(record.levels or {})
             return
         except ValueError:
             _warn(f"{store.shown}/{INDEX} is damaged, so that the objects of the store are listed instead")
     for name, size in sorted(store.sizes(OBJECTS).items()):
-        found = _NAME.fullmatch(name)
-        if found is None:
+        match = _NAME.fullmatch(name)
+        if match is None:
             continue  # a file under its first name
-        one = IndexedObject(name, size, "", None)
-        trials = list(range(int(found[1]), int(found[2]) + 1))
-        if found[3]:
+        record = IndexedObject(name, size, "", None)
+        trials = list(range(int(match[1]), int(match[2]) + 1))
+        if match[3]:
             trials = _listed(opened, name)
         if trials and object_name(trials) == name:
-            yield one, trials
+            yield record, trials
 
 
 def _listed(opened: _Opened, name: str) -> list[int]:
     """Return the trials that the metadata of an object state; none if it is damaged."""
     try:
-        return [int(about["trial"]) for about in opened.get(name).attributes["trials"]]
+        return [int(attributes["trial"]) for attributes in opened.get(name).attributes["trials"]]
     except (DeodarError, LookupError, TypeError, ValueError):
         _warn(f"{opened.store.shown}/{name} is damaged, and its trials are left out")
         return []
 
 
-def _shown(levels: Mapping[str, Any]) -> str:
+def _in_words(levels: Mapping[str, Any]) -> str:
     return ", ".join(f"{name} {value}" for name, value in levels.items())
 
 
-def _warn(what: str) -> None:
-    warnings.warn(what, RunWarning, stacklevel=3)
+def _warn(message: str) -> None:
+    warnings.warn(message, RunWarning, stacklevel=3)

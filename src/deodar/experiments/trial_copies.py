@@ -138,9 +138,9 @@ class TrialCopies:
         # the output of a coupling may be infinite although all states are finite
         self.run.require_finite(ports, [a[None] for a in values], 1)
         sensed = self._sensed([name for ident, name in places if ident == WORLD])
-        found = iter(values)
+        unread = iter(values)
         return [
-            np.array(sensed[name] if ident == WORLD else next(found))[None, None] for ident, name in places
+            np.array(sensed[name] if ident == WORLD else next(unread))[None, None] for ident, name in places
         ]
 
     def _sensed(self, names: Sequence[str]) -> dict[str, np.ndarray]:
@@ -167,7 +167,7 @@ class TrialCopies:
             out[k] = np.searchsorted(ticks, error.step)
         return out
 
-    def shrink(self, running: Sequence[int], left: int) -> None:
+    def shrink(self, running: Sequence[int], steps_left: int) -> None:
         """Halve the batch while the running copies fit and the remaining steps save more time than compiling
         takes.
 
@@ -181,7 +181,7 @@ class TrialCopies:
         if size == len(self.rows):
             return
         cells = memory.copy_bytes(resolve(self.run.doc)[0], "float32") // 4
-        if self.world is None and (len(self.rows) - size) * cells * left < WORTH:
+        if self.world is None and (len(self.rows) - size) * cells * steps_left < WORTH:
             return
         ended = [k for k in range(len(self.rows)) if k not in set(running)]
         keep = sorted([*running, *ended[: size - len(running)]])
@@ -257,11 +257,11 @@ class TrialCopies:
         if self.alone:
             return
         keys: Any = self.run.keys
-        own = dict(keys["world"])
+        arrays = dict(keys["world"])
         for name, values in self._worlds[row].own_values(self.trials[row]).items():
-            own[name] = _writable(own[name])
-            own[name][self.rows.index(row)] = values
-        self.run.keys = {**keys, "world": own}
+            arrays[name] = _writable(arrays[name])
+            arrays[name][self.rows.index(row)] = values
+        self.run.keys = {**keys, "world": arrays}
 
 
 def axes_of(world: World, name: str) -> Axes:

@@ -74,13 +74,13 @@ class SampledPlaces:
     def __init__(
         self, doc: Document, plan: TrialPlan, world: World | None, readers: Mapping[Observable, ReadPlace]
     ) -> None:
-        known = () if world is None else world.sensors
+        sensors = () if world is None else world.sensors
 
         def place(name: str, port: Callable[[], tuple[Entry, str]]) -> ReadPlace:
-            if name in known:
+            if name in sensors:
                 return WORLD, name
-            entry, shown = port()
-            return entry.id, shown
+            entry, port_name = port()
+            return entry.id, port_name
 
         self.watched = [place(name, lambda name=name: find.shown(doc, name)) for name in plan.watch]
         self.readers = readers
@@ -109,14 +109,14 @@ class TrialSamples:
         count = len(copies.trials)
         self.observed = Observations(plan.events, plan.measures, count)
         self.axes = {place: self._axes(place) for place in places.all}
-        self.wanted = [watched is None or number in watched for number in copies.trials]
+        self.is_watched = [watched is None or number in watched for number in copies.trials]
         self.t0, self.step = copies.run.doc.t0, copies.dt
         self.times: list[float] = []
         self.looks = np.zeros(count, int)
         self.last: dict[int, float] = {}
         self.pauses = plan.has(Record)
         self.recorded: list[list[slice]] = [[] for _ in range(count)]
-        self.kept: list[list[list[np.ndarray]]] = [[] for _ in range(count)]
+        self.parts: list[list[list[np.ndarray]]] = [[] for _ in range(count)]
         self.latest: tuple[Mapping[ReadPlace, np.ndarray], Mapping[Observable, np.ndarray]] = ({}, {})
 
     def _axes(self, place: ReadPlace) -> Axes:
@@ -173,13 +173,13 @@ class TrialSamples:
     def trial(self, trial: RunningTrial) -> Trial:
         """Return the result of a trial."""
         row = trial.row
-        outcome, kept = self.observed.outcome[row], self.kept[row]
+        outcome, parts_of_trial = self.observed.outcome[row], self.parts[row]
         error = self.copies.errors[row] if outcome == DIVERGED else None
         values: dict[str, np.ndarray] = {}
-        for i, name in enumerate(self.plan.watch if self.wanted[row] else ()):
+        for i, name in enumerate(self.plan.watch if self.is_watched[row] else ()):
             nothing = np.zeros((0, *shape(self.axes[self.places.watched[i]])))
-            found = np.concatenate([part[i] for part in kept]) if kept else nothing
-            values[name] = found if error is None else np.full_like(found, np.nan)
+            samples = np.concatenate([part[i] for part in parts_of_trial]) if parts_of_trial else nothing
+            values[name] = samples if error is None else np.full_like(samples, np.nan)
         last = [self.last[row]] if row in self.last else []
         times = recorded = np.concatenate([self.moments[: self.looks[row]], last])
         if self.pauses:
@@ -218,8 +218,8 @@ class TrialSamples:
                 self._keep(rows[k], {place: by[place][k, :n] for place in watched})
 
     def _keep(self, row: int, values: Mapping[ReadPlace, np.ndarray]) -> None:
-        if self.places.watched and self.wanted[row]:
-            self.kept[row].append([np.array(values[place]) for place in self.places.watched])
+        if self.places.watched and self.is_watched[row]:
+            self.parts[row].append([np.array(values[place]) for place in self.places.watched])
 
     def _seen(
         self, arrays: Sequence[np.ndarray], good: np.ndarray
@@ -228,7 +228,7 @@ class TrialSamples:
         places = self.places
         by = {place: _blank(a, good) for place, a in zip(places.all, arrays, strict=True)}
         seen = {
-            view: view.given(by[place])
+            view: view.from_reader(by[place])
             if view in places.readers
             else view.seen(by[place], self._axes_of(place), 2)
             for view, place in places.viewed.items()

@@ -187,14 +187,14 @@ class Trials:
             while True:
                 samples.advance(to, self._stops, running)
                 self._act(to, copies, samples, running)
-                left = [k for k, row in enumerate(copies.rows) if not samples.ended(row)]
+                running_rows = [k for k, row in enumerate(copies.rows) if not samples.ended(row)]
                 if between is not None:
-                    between(len(left))
-                if not left:
+                    between(len(running_rows))
+                if not running_rows:
                     break
-                copies.shrink(left, self._stops.steps - to)
-                here = [running[row] for row in copies.rows if not samples.ended(row)]
-                to = self._stops.after(to, here if plan.actions else [])
+                copies.shrink(running_rows, self._stops.steps - to)
+                still_running = [running[row] for row in copies.rows if not samples.ended(row)]
+                to = self._stops.after(to, still_running if plan.actions else [])
         return [samples.trial(trial) for trial in running]
 
     def _act(
@@ -203,10 +203,10 @@ class Trials:
         """Carry out the actions that are due."""
         if not self.plan.actions:
             return
-        here = [running[row] for row in copies.rows if not samples.ended(row)]
-        for trial in here:
+        still_running = [running[row] for row in copies.rows if not samples.ended(row)]
+        for trial in still_running:
             trial.notice(samples.observed.events_of(trial.row))
-        due = [trial for trial in here if trial.due == tick]
+        due = [trial for trial in still_running if trial.due == tick]
         if due:
             copies.run.sense()  # a world on the host is at its time, whether or not it was read
             if self.plan.has(End) and not self._stops.sampled(tick):

@@ -21,17 +21,19 @@ RECORDS = "records"
 
 
 def trial_records(
-    doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Json]
+    doc: Document, record: Sequence[str], trial: Trial, description: Mapping[str, Json]
 ) -> dict[str, xarray.Dataset]:
     """Return the records of a trial: under "" what was recorded in it, if anything, and each snapshot under
     its label.
     """
     out: dict[str, xarray.Dataset] = {}
     if record:
-        out[""] = _labelled(doc, record, result.recorded, result.values, about)
-    for label, (time, values) in result.snapshots.items():
-        kept = {path: array[None] for path, array in values.items()}
-        out[label] = _labelled(doc, list(kept), np.asarray([time]), kept, {**about, "snapshot": label})
+        out[""] = _labelled(doc, record, trial.recorded, trial.values, description)
+    for label, (time, values) in trial.snapshots.items():
+        sample = {path: array[None] for path, array in values.items()}
+        out[label] = _labelled(
+            doc, list(sample), np.asarray([time]), sample, {**description, "snapshot": label}
+        )
     return out
 
 
@@ -39,15 +41,15 @@ def write_records(folder: Path, key: str, records: Mapping[str, xarray.Dataset])
     """Write the record of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; files of an earlier attempt
     are replaced.
     """
-    for label, data in records.items():
-        _write(folder / (f"{key}-{label}.nc" if label else f"{key}.nc"), data)
+    for label, record in records.items():
+        _write(folder / (f"{key}-{label}.nc" if label else f"{key}.nc"), record)
 
 
 def write_record(
-    path: Path, doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Json]
+    path: Path, doc: Document, record: Sequence[str], trial: Trial, description: Mapping[str, Json]
 ) -> None:
     """Write the record of a trial to a file; an existing one is replaced."""
-    _write(path, _labelled(doc, record, result.recorded, result.values, about))
+    _write(path, _labelled(doc, record, trial.recorded, trial.values, description))
 
 
 def _labelled(
@@ -55,16 +57,16 @@ def _labelled(
     names: Sequence[str],
     times: np.ndarray,
     values: Mapping[str, np.ndarray],
-    about: Mapping[str, Json],
+    description: Mapping[str, Json],
 ) -> xarray.Dataset:
     nodes = {node.id: node for node in resolve(doc)[0]}
     variables: list[Any] = []
     for name in names:
         entry, port = find.shown(doc, name)
         variables.append((entry, port, nodes[entry.id].axes(port), values[name]))
-    return dataset(doc, variables, times, None, {}, about)
+    return dataset(doc, variables, times, None, {}, description)
 
 
-def _write(path: Path, data: xarray.Dataset) -> None:
+def _write(path: Path, record: xarray.Dataset) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
-    files.save_record(data, path, force=True)
+    files.save_record(record, path, force=True)

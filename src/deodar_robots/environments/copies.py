@@ -86,7 +86,7 @@ class LoopCopies:
         out: dict[Observable, np.ndarray] = {}
         for view, place in self._looked.items():
             now = values[place][:, None]
-            out[view] = view.given(now) if view in self._at else view.seen(now, self._axes[place], 2)
+            out[view] = view.from_reader(now) if view in self._at else view.seen(now, self._axes[place], 2)
         return out
 
     def _sweep(self, columns: list[np.ndarray]) -> None:

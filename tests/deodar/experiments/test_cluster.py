@@ -163,7 +163,7 @@ def test_workers_of_two_kinds_are_refused_or_named(tmp_path, pieces, monkeypatch
     monkeypatch.setattr(on_cluster, "_made_here", lambda precision: {"jax": "1", **first})
     for mixed in (False, True):
         pool.cluster, pool._precision, pool._class = Cluster("local:2", mixed=mixed), "float32", {}
-        pool._here, pool._known = {}, {}
+        pool._description, pool._accepted = {}, {}
         pool._accept({"jax": "1", **first}, "a worker")
         if mixed:
             pool._accept({"jax": "1", **first, "machine": "B"}, "a worker")
