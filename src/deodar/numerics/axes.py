@@ -60,9 +60,11 @@ class Axis:
             raise UnknownName(f"an axis has no {strange[0]!r}", fix=did_you_mean(strange[0], names))
         missing = [key for key in names[len(args) : 4] if key not in values]
         if missing or len(args) > len(names):
-            what = f"needs {', '.join(missing)}" if missing else f"takes {len(names)} values, not {len(args)}"
+            problem = (
+                f"needs {', '.join(missing)}" if missing else f"takes {len(names)} values, not {len(args)}"
+            )
             raise AxesError(
-                what,
+                problem,
                 where=f"axis {show(args[0] if args else values.get('name', ''))}",
                 fix="For example Axis('x', 0, 100, samples=101)",
             )
@@ -74,13 +76,13 @@ class Axis:
 
     def __post_init__(self) -> None:
         for key in ("lower", "upper"):
-            value = real(getattr(self, key))
-            if value is None or not math.isfinite(value):
+            bound = real(getattr(self, key))
+            if bound is None or not math.isfinite(bound):
                 raise AxesError(
                     f"{key} needs a finite number, not {show(getattr(self, key))}",
                     where=f"axis {show(self.name)}",
                 )
-            object.__setattr__(self, key, value)
+            object.__setattr__(self, key, bound)
         problems: list[Problem] = []
         where = f"axis {show(self.name)}"
         if not isinstance(self.name, str) or not self.name or not is_text(self.name):
@@ -89,11 +91,11 @@ class Axis:
         if not self.lower < self.upper:
             problems.append(Problem(where, f"lower {self.lower:g} is not below upper {self.upper:g}"))
         elif farthest > FARTHEST or self.range < max(farthest, 1 / FARTHEST) * FINEST:
-            what = (
+            problem = (
                 f"{self.lower:g}..{self.upper:g} cannot be sampled: single precision does not distinguish"
                 " its samples"
             )
-            problems.append(Problem(where, what, "Choose another unit, or an origin nearer to the values"))
+            problems.append(Problem(where, problem, "Choose another unit, or an origin nearer to the values"))
         if isinstance(self.samples, bool) or not isinstance(self.samples, (int, np.integer)):
             problems.append(Problem(where, f"samples needs a whole number, not {show(self.samples)}"))
         elif not (1 if self.periodic else 2) <= self.samples <= MOST_SAMPLES:
@@ -129,10 +131,10 @@ class Axis:
         """Return whether a connection may match both axes: equal bounds (to 1e-9 of the range), unit and
         periodicity.
         """
-        near = 1e-9 * max(self.range, other.range)
+        tolerance = 1e-9 * max(self.range, other.range)
         return (
-            abs(self.lower - other.lower) <= near
-            and abs(self.upper - other.upper) <= near
+            abs(self.lower - other.lower) <= tolerance
+            and abs(self.upper - other.upper) <= tolerance
             and self.periodic == other.periodic
             and self.unit == other.unit
         )
@@ -206,13 +208,14 @@ def barely_overlap(
     """
     if _overlap(axis, bounds) >= APART:
         return
-    stated, given = f" {axis.unit}" if axis.unit else "", units.parse(unit)
+    stated, unit_of_range = f" {axis.unit}" if axis.unit else "", units.parse(unit)
     fitting = [
         u.symbol
         for u in units.UNITS
-        if given is not None
-        and u.quantity == given.quantity
-        and _overlap(axis, (bounds[0] * given.size / u.size, bounds[1] * given.size / u.size)) >= APART
+        if unit_of_range is not None
+        and u.quantity == unit_of_range.quantity
+        and _overlap(axis, (bounds[0] * unit_of_range.size / u.size, bounds[1] * unit_of_range.size / u.size))
+        >= APART
     ]
     yield (
         f"{what} run from {bounds[0]:.4g} to {bounds[1]:.4g} {unit or axis.unit}".rstrip()

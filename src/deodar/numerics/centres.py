@@ -30,14 +30,14 @@ def centre(axis: Axis, f: Array, least: Scalar) -> tuple[Array, Array, Array]:
     """
     x = jnp.asarray(axis.points, f.dtype)
     n = jnp.sum(f)
-    there = n > least
+    exists = n > least
     if axis.periodic:
         turn = 2 * math.pi / axis.range
         angle = turn * (x - axis.lower)
         sine, cosine = jnp.sum(jnp.sin(angle) * f), jnp.sum(jnp.cos(angle) * f)
-        there = there & (jnp.hypot(sine, cosine) > LEAST_DIRECTED * n)
-        sine, cosine = jnp.where(there, sine, 0.0), jnp.where(there, cosine, 1.0)
+        exists = exists & (jnp.hypot(sine, cosine) > LEAST_DIRECTED * n)
+        sine, cosine = jnp.where(exists, sine, 0.0), jnp.where(exists, cosine, 1.0)
         place = axis.lower + jnp.mod(jnp.arctan2(sine, cosine), 2 * math.pi) / turn
     else:
-        place = jnp.sum(x * f) / jnp.where(there, n, 1.0)
-    return place, there, n
+        place = jnp.sum(x * f) / jnp.where(exists, n, 1.0)
+    return place, exists, n

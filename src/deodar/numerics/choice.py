@@ -121,8 +121,8 @@ def choose(
     axis units) along each axis. `shards` is an axis that devices divide.
     """
     if shards is not None and shards.index(axes) is not None:
-        found = between_devices(axes, boundaries, widths, terms, shards)
-        return min(found, key=lambda c: c.nanoseconds, default=by_matrices(axes, terms, copies))
+        choices = between_devices(axes, boundaries, widths, terms, shards)
+        return min(choices, key=lambda c: c.nanoseconds, default=by_matrices(axes, terms, copies))
     return min(candidates(axes, boundaries, widths, terms, copies), key=lambda c: c.nanoseconds)
 
 
@@ -137,12 +137,12 @@ def candidates(
     few = _few(axes, boundaries, widths)
     if len(axes) == 1:
         return _on_a_line(axes[0], few[0], widths[0][1], copies)
-    found = [by_matrices(axes, terms), *_by_taps(axes, widths, terms)]
+    choices = [by_matrices(axes, terms), *_by_taps(axes, widths, terms)]
     if _fit(few):
-        found += by_waves(few, copies)
+        choices += by_waves(few, copies)
     if _fit(few) and "reflect" not in boundaries:
-        found.append(Choice("fourier", few, (), _fourier(few)))
-    return found
+        choices.append(Choice("fourier", few, (), _fourier(few)))
+    return choices
 
 
 def between_devices(
@@ -157,13 +157,13 @@ def between_devices(
     """
     index = shards.index(axes)
     assert index is not None
-    found: list[Choice] = []
+    choices: list[Choice] = []
     cells = math.prod(a.samples for a in axes)
     few = _divided(_few(axes, boundaries, widths), index)
     by_modes = Choice("waves", few, (), math.inf)
     if _fit(few) and (modes := exchanged(by_modes, axes, terms, shards)) < cells:
         cost = _transforms(few, MANY) / shards.devices + LINK_NS * 4 * modes + LINK_CALL_NS
-        found.append(dataclasses.replace(by_modes, nanoseconds=cost))
+        choices.append(dataclasses.replace(by_modes, nanoseconds=cost))
     reaches = tuple(_reach(axis, widest) for axis, (_, widest) in zip(axes, widths, strict=True))
     halo, part = reaches[index], shards.samples // shards.devices
     inside = all(2 * r < a.samples for a, r in zip(axes, reaches, strict=True)) and halo <= part
@@ -172,8 +172,8 @@ def between_devices(
         operations = TAP_PLANE_NS * cells * sum(reaches) / shards.devices
         cost = _sums(axes, terms) * (operations + 2 * LINK_CALL_NS)
         cost += LINK_NS * 4 * exchanged(by_lags, axes, terms, shards)
-        found.append(dataclasses.replace(by_lags, nanoseconds=cost))
-    return found
+        choices.append(dataclasses.replace(by_lags, nanoseconds=cost))
+    return choices
 
 
 def exchanged(choice: Choice, axes: Axes, terms: int, shards: Shards) -> int:
@@ -218,17 +218,19 @@ def by_waves(waves: tuple[Waves, ...], copies: int = 1) -> list[Choice]:
     plane: folding the last axis too would save 2 % of the transforms, and double what folding adds to the
     time of compiling.
     """
-    found = [Choice("waves", waves, (), _transforms(waves, copies))]
+    strategies = [Choice("waves", waves, (), _transforms(waves, copies))]
     if len(waves) > 1 or copies >= MANY:
         folds = [_folds(w) for w in waves]
         if len(waves) == 2 and copies >= MANY:
             folds = [folds[0], [waves[1]]]
         elif len(waves) > 2:
             folds = [[w for w in folds[0] if w.classes <= 2], *([w] for w in waves[1:])]
-        choices = [Choice("waves", each, (), _transforms(each, copies)) for each in itertools.product(*folds)]
+        choices = [
+            Choice("waves", folded, (), _transforms(folded, copies)) for folded in itertools.product(*folds)
+        ]
         best = min(choices, key=lambda c: c.nanoseconds)
-        found += [best] if best.nanoseconds < FOLD_WORTH * found[0].nanoseconds else []
-    return found
+        strategies += [best] if best.nanoseconds < FOLD_WORTH * strategies[0].nanoseconds else []
+    return strategies
 
 
 def _folds(w: Waves) -> list[Waves]:
@@ -251,13 +253,13 @@ def by_matrices(axes: Axes, terms: int, copies: int = 1) -> Choice:
 def _on_a_line(axis: Axis, waves: Waves, widest: float, copies: int) -> list[Choice]:
     """Return the strategy for one axis, on which all kernels are one matrix or one row of taps."""
     n = axis.samples
-    found = [by_matrices((axis,), 1, copies)]
+    choices = [by_matrices((axis,), 1, copies)]
     if n >= SMALLEST and _fit([waves]):
-        found += by_waves((waves,), copies)
+        choices += by_waves((waves,), copies)
     reach = _reach(axis, widest)
     if n >= SMALLEST and 2 * reach < n:
-        found.append(Choice("taps", (), (reach,), TAP_NS * n * reach))
-    return found
+        choices.append(Choice("taps", (), (reach,), TAP_NS * n * reach))
+    return choices
 
 
 def _by_taps(axes: Axes, widths: Sequence[tuple[float, float]], terms: int) -> list[Choice]:

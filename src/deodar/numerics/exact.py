@@ -52,8 +52,8 @@ def split(
     wide = np.asarray(value, np.float64)
     high = wide.astype(dtype)
     # no low part for values that are infinite in this precision
-    rest = np.where(np.isfinite(high), wide - np.where(np.isfinite(high), high, 0.0), 0.0)
-    return high, rest.astype(dtype)
+    low = np.where(np.isfinite(high), wide - np.where(np.isfinite(high), high, 0.0), 0.0)
+    return high, low.astype(dtype)
 
 
 def wide(value: Exact | ArrayLike) -> Array:

@@ -43,7 +43,9 @@ def spread(points: Array) -> Array:
     It is 0 if three of the four points lie on one line.
     """
     p = _homogeneous(points)
-    areas = jnp.abs(jnp.stack([_triple(*(p[k] for k in range(PAIRS) if k != left)) for left in range(PAIRS)]))
+    areas = jnp.abs(
+        jnp.stack([_triple(*(p[k] for k in range(PAIRS) if k != dropped)) for dropped in range(PAIRS)])
+    )
     return jnp.min(areas) / jnp.maximum(jnp.max(areas), jnp.finfo(areas.dtype).tiny)
 
 

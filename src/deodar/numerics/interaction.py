@@ -113,10 +113,10 @@ def spans(kernels: Sequence[Kernel], axes: Axes) -> dict[str, list[tuple[tuple[f
     return out
 
 
-def covering(found: Sequence[tuple[tuple[float, float], ...]]) -> tuple[tuple[float, float], ...]:
+def covering(widths: Sequence[tuple[tuple[float, float], ...]]) -> tuple[tuple[float, float], ...]:
     """Return the smallest and the largest width of all Gaussians along each axis."""
     return tuple(
-        (min(low for low, _ in axis), max(high for _, high in axis)) for axis in zip(*found, strict=True)
+        (min(low for low, _ in axis), max(high for _, high in axis)) for axis in zip(*widths, strict=True)
     )
 
 
@@ -126,11 +126,11 @@ def choices(
     """Return, for each kind of boundaries, the joint strategy of its Gaussian kernels, if not matrices;
     `shards` is an axis that devices divide.
     """
-    found = {
+    strategies = {
         key: choose(axes, tuple(key.split()), covering(terms), len(terms), copies, shards)
         for key, terms in spans(kernels, axes).items()
     }
-    return {key: choice for key, choice in found.items() if choice.method != "matrices"}
+    return {key: choice for key, choice in strategies.items() if choice.method != "matrices"}
 
 
 def prepare(
@@ -171,9 +171,9 @@ def mix(
                 out["amplitudes"].append(term.amplitude)
             else:
                 out["terms"].append([term.amplitude * matrices[0], *matrices[1:]])
-        for way in ("waves", "spectra"):
-            for term, gains in zip(kernel.terms(), w.get(way, ()), strict=False):
-                out[way][key] = out[way].get(key, 0.0) + term.amplitude * _product(gains)
+        for method in ("waves", "spectra"):
+            for term, gains in zip(kernel.terms(), w.get(method, ()), strict=False):
+                out[method][key] = out[method].get(key, 0.0) + term.amplitude * _product(gains)
         for term, taps in zip(kernel.terms(), w.get("taps", ()), strict=False):
             out["taps"].setdefault(key, []).append([term.amplitude * taps[0], *taps[1:]])
     if len(axes) == 1:
@@ -203,7 +203,7 @@ def apply(
     with others. `kernels` are compiled kernels for what is expensive, if there are any. `tapped` convolves
     along one axis by lags.
     """
-    key, own, arriving = shared or ("", None, None)
+    key, own_modes, arriving = shared or ("", None, None)
     if "gain" in mixture:
         return mixture["gain"] * y
     parts = [convolution.separable(matrices, y) for matrices in mixture["terms"]]
@@ -223,7 +223,9 @@ def apply(
     ]
     for ends, gains in mixture["waves"].items():
         assert chosen is not None
-        waves = gains * (own if own is not None and ends == key else to_waves(chosen[ends].waves, y, kernels))
+        waves = gains * (
+            own_modes if own_modes is not None and ends == key else to_waves(chosen[ends].waves, y, kernels)
+        )
         if arriving is not None and ends == key:
             waves, arriving = waves + arriving, None
         parts.append(from_waves(chosen[ends].waves, waves, kernels))

@@ -30,8 +30,8 @@ def kernel_shape(kernels: Sequence[Kernel], axes: Axes) -> tuple[Axes, np.ndarra
     Returns:
         The axes of the lags, and the weights, one for each combination of lags, per unit of the axes.
     """
-    shown = tuple(lag_axis(a) for a in axes[:2])
-    lags = [a.points for a in shown] + [np.zeros(1)] * len(axes[2:])
+    lag_axes = tuple(lag_axis(a) for a in axes[:2])
+    lags = [a.points for a in lag_axes] + [np.zeros(1)] * len(axes[2:])
     total = np.zeros([len(lag) for lag in lags])
     for kernel in kernels:
         sampled = kernel.samples(axes, np.float32)
@@ -39,7 +39,7 @@ def kernel_shape(kernels: Sequence[Kernel], axes: Axes) -> tuple[Axes, np.ndarra
             total += _separable(kernel, axes, lags)
         else:
             total += kernel.amplitude * _sampled(np.asarray(sampled), lags)  # type: ignore[attr-defined]
-    return shown, total.reshape([a.samples for a in shown])
+    return lag_axes, total.reshape([a.samples for a in lag_axes])
 
 
 def _separable(kernel: Kernel, axes: Axes, lags: Sequence[np.ndarray]) -> np.ndarray:

@@ -59,8 +59,8 @@ def threefry(x0: Array, x1: Array, k0: Array, k1: Array) -> tuple[Array, Array]:
 
 def _rotated(word: Array, count: int) -> Array:
     """Return 32-bit words with their bits rotated to the left."""
-    left = lax.shift_left(word, lax.full_like(word, count))
-    return lax.bitwise_or(left, lax.shift_right_logical(word, lax.full_like(word, 32 - count)))
+    high = lax.shift_left(word, lax.full_like(word, count))
+    return lax.bitwise_or(high, lax.shift_right_logical(word, lax.full_like(word, 32 - count)))
 
 
 def element_keys(seed: Array | int, trial: Array | int, idents: Array | np.ndarray | Sequence[int]) -> Array:
@@ -175,8 +175,10 @@ def correlation(axes: Axes, lengths: Sequence[Scalar], dtype: DTypeLike) -> list
 def _square_root(axis: Axis, length: Scalar, dtype: DTypeLike) -> Array:
     x = jnp.asarray(axis.points, dtype)
     period = axis.range if axis.periodic else None
-    wanted = profile(x[:, None] - x[None, :], length, period) / profile(jnp.zeros((), dtype), length, period)
-    values, vectors = jnp.linalg.eigh(wanted)
+    covariance = profile(x[:, None] - x[None, :], length, period) / profile(
+        jnp.zeros((), dtype), length, period
+    )
+    values, vectors = jnp.linalg.eigh(covariance)
     root = jnp.matmul(vectors * jnp.sqrt(jnp.maximum(values, 0.0)), vectors.T, precision="highest")
     # in single precision the variance is 1 to 1e-6
     return root / jnp.sqrt(jnp.sum(root * root, axis=1, keepdims=True))

@@ -37,8 +37,8 @@ def random_weights(pre: Axes, post: Axes, patches: int, share: Scalar, seed: int
         u32(seed),
         u32(STREAM),
     )
-    value, luck = ((word >> 9).astype(dtype) / 2**23 + 2.0**-24 for word in words)
-    return jnp.where(luck < share, value, jnp.zeros_like(value))
+    weight, luck = ((word >> 9).astype(dtype) / 2**23 + 2.0**-24 for word in words)
+    return jnp.where(luck < share, weight, jnp.zeros_like(weight))
 
 
 def _patch(axes: Axes, patches: int) -> np.ndarray:
@@ -46,6 +46,6 @@ def _patch(axes: Axes, patches: int) -> np.ndarray:
     number = np.zeros((), np.int64)
     for axis in axes:
         share = (axis.points - axis.lower) / axis.range
-        own = np.minimum(np.floor(share * patches + 1e-9).astype(np.int64), patches - 1)
-        number = number[..., None] * patches + own
+        patch = np.minimum(np.floor(share * patches + 1e-9).astype(np.int64), patches - 1)
+        number = number[..., None] * patches + patch
     return number.reshape(math.prod(a.samples for a in axes)).astype(np.uint32)

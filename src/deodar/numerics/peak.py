@@ -77,15 +77,15 @@ def _region(mask: Array, axes: Axes, top: Array) -> Array:
     """
     start = (jnp.arange(mask.size, dtype=jnp.int32).reshape(mask.shape) == top) & mask
 
-    def grow(now: tuple[Array, Array]) -> tuple[Array, Array]:
-        region = now[0]
+    def grow(grown: tuple[Array, Array]) -> tuple[Array, Array]:
+        region = grown[0]
         for d, axis in enumerate(axes):
             for side in (1, -1):
                 # the next direction starts from the samples that this one adds
                 region = (region | _moved(region, d, axis, side)) & mask
-        return region, jnp.any(region != now[0])
+        return region, jnp.any(region != grown[0])
 
-    return jax.lax.while_loop(lambda now: now[1], grow, (start, jnp.any(start)))[0]
+    return jax.lax.while_loop(lambda grown: grown[1], grow, (start, jnp.any(start)))[0]
 
 
 def _moved(region: Array, d: int, axis: Axis, side: int) -> Array:
@@ -109,8 +109,8 @@ def _centroid(axis: Axis, weights: Array, top: Array) -> Array:
     cosine, sine = jnp.sum(jnp.cos(angle) * weights), jnp.sum(jnp.sin(angle) * weights)
     directed = jnp.hypot(cosine, sine) > UNDIRECTED
     middle = axis.lower + jnp.arctan2(jnp.where(directed, sine, 0.0), jnp.where(directed, cosine, 1.0)) / turn
-    away = x - middle
-    away = away - axis.range * jnp.round(away / axis.range)
-    centre = jnp.where(directed, middle + jnp.sum(away * weights), x[top])
+    offset = x - middle
+    offset = offset - axis.range * jnp.round(offset / axis.range)
+    centre = jnp.where(directed, middle + jnp.sum(offset * weights), x[top])
     wrapped = jnp.mod(centre - axis.lower, axis.range)
     return axis.lower + jnp.where(axis.range - wrapped < 1e-9 * axis.range, 0.0, wrapped)

@@ -107,9 +107,9 @@ def _active(pre: Array, wanted: Array) -> tuple[Array, Array]:
     places = pre.shape[0]
 
     def find() -> tuple[Array, Array]:
-        here = pre > 0
-        return jnp.nonzero(here, size=places, fill_value=0)[0].astype(jnp.int32), jnp.sum(
-            here, dtype=jnp.int32
+        active = pre > 0
+        return jnp.nonzero(active, size=places, fill_value=0)[0].astype(jnp.int32), jnp.sum(
+            active, dtype=jnp.int32
         )
 
     return lax.cond(wanted, find, lambda: (jnp.zeros(places, jnp.int32), jnp.zeros((), jnp.int32)))
@@ -180,11 +180,11 @@ def _many(rule: str) -> Callable[..., Array]:
         def step(weights: Array) -> Array:
             x, y = pre[:, :, None], post[:, None, :]
             s, l, m = (a[:, None, None] for a in (speed, loss, most))
-            here = (x if rule in SOURCE_RULES else y) > 0
-            both = (jnp.any(pre > 0, axis=1) & jnp.any(post > 0, axis=1) & ((speed != 0) | (loss != 0)))[
+            learning = (x if rule in SOURCE_RULES else y) > 0
+            paired = (jnp.any(pre > 0, axis=1) & jnp.any(post > 0, axis=1) & ((speed != 0) | (loss != 0)))[
                 :, None, None
             ]
-            return jnp.where(here & both, jnp.minimum(change(rule, weights, x, y, s, l), m), weights)
+            return jnp.where(learning & paired, jnp.minimum(change(rule, weights, x, y, s, l), m), weights)
 
         # a loop of one iteration or none: unlike a condition it never copies unchanged arrays
         return lax.fori_loop(
@@ -210,5 +210,5 @@ def _joined(size: int, batched: Sequence[bool], args: Sequence[Array]) -> list[A
     return [a.reshape(-1, *a.shape[2:]) for a in _spread(size, batched, args)]
 
 
-def _split(size: int, result: Array) -> Array:
-    return jax.tree.map(lambda a: a.reshape(size, -1, *a.shape[1:]), result)
+def _split(size: int, tree: Array) -> Array:
+    return jax.tree.map(lambda a: a.reshape(size, -1, *a.shape[1:]), tree)

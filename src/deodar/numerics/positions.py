@@ -35,8 +35,8 @@ class PositionUnit:
         """Return the position that is `factor` times this number; None for a factor of 0."""
         if not factor or not math.isfinite(factor):
             return None
-        one, other = (None, None) if self.bounds is None else (factor * b for b in self.bounds)
-        bounds = None if one is None or other is None else (min(one, other), max(one, other))
+        low, high = (None, None) if self.bounds is None else (factor * b for b in self.bounds)
+        bounds = None if low is None or high is None else (min(low, high), max(low, high))
         return dc.replace(self, size=self.size / abs(factor), bounds=bounds)
 
     def unbounded(self) -> PositionUnit:

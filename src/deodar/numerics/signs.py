@@ -20,16 +20,16 @@ def sign_of(*values: ArrayLike | Scalar | None) -> Sign:
     return "±" if above and below else "-" if below else "+"
 
 
-def product(one: Sign, other: Sign) -> Sign:
+def product(first: Sign, second: Sign) -> Sign:
     """Return the sign of a product of weights."""
-    if "±" in (one, other):
+    if "±" in (first, second):
         return "±"
-    return "+" if one == other else "-"
+    return "+" if first == second else "-"
 
 
 def together(signs: Iterable[Sign]) -> Sign:
     """Return the sign of a sum of weights."""
-    found = set(signs)
-    if len(found) > 1:
+    distinct = set(signs)
+    if len(distinct) > 1:
         return "±"
-    return found.pop() if found else "+"
+    return distinct.pop() if distinct else "+"

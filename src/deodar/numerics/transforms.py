@@ -103,7 +103,7 @@ def _fold(w: Waves, y: Array, d: int) -> list[Array]:
     folds = [y]
     if w.by_parity:
         half = w.folded_samples
-        folds = _both(lax.slice_in_dim(y, 0, half, axis=d), lax.slice_in_dim(y, half, 2 * half, axis=d))
+        folds = _halves(lax.slice_in_dim(y, 0, half, axis=d), lax.slice_in_dim(y, half, 2 * half, axis=d))
     return [part for fold in folds for part in _mirrored(fold, d)] if w.by_symmetry else folds
 
 
@@ -114,25 +114,27 @@ def _mirrored(y: Array, d: int) -> list[Array]:
     n = y.shape[d]
     half = (n + 1) // 2
     image = lax.rev(lax.slice_in_dim(y, n - half, n, axis=d), (d,))
-    return _both(lax.slice_in_dim(y, 0, half, axis=d), image)
+    return _halves(lax.slice_in_dim(y, 0, half, axis=d), image)
 
 
 def _unfold(w: Waves, parts: Sequence[Array], d: int) -> Array:
     """Return the array along axis d from what each class of modes adds to it."""
     if w.by_symmetry:
         pairs = zip(parts[::2], parts[1::2], strict=True)
-        parts = [_unmirrored(symmetric, other, w.folded_samples, d) for symmetric, other in pairs]
+        parts = [
+            _unmirrored(symmetric, antisymmetric, w.folded_samples, d) for symmetric, antisymmetric in pairs
+        ]
         if w.by_parity:  # XLA would join the parts again for each half
             parts = lax.optimization_barrier(parts)
-    return lax.concatenate(_both(*parts), d) if w.by_parity else parts[0]
+    return lax.concatenate(_halves(*parts), d) if w.by_parity else parts[0]
 
 
-def _unmirrored(symmetric: Array, other: Array, samples: int, d: int) -> Array:
-    image = lax.slice_in_dim(symmetric - other, 0, samples // 2, axis=d)
-    return lax.concatenate([symmetric + other, lax.rev(image, (d,))], d)
+def _unmirrored(symmetric: Array, antisymmetric: Array, samples: int, d: int) -> Array:
+    image = lax.slice_in_dim(symmetric - antisymmetric, 0, samples // 2, axis=d)
+    return lax.concatenate([symmetric + antisymmetric, lax.rev(image, (d,))], d)
 
 
-def _both(a: Array, b: Array) -> list[Array]:
+def _halves(a: Array, b: Array) -> list[Array]:
     return [a + b, a - b]
 
 

@@ -84,8 +84,8 @@ class Waves:
         """Return the modes of each class at the samples that folding leaves: shape (classes, samples,
         modes).
         """
-        kept = (self.folded_samples + 1) // 2 if self.by_symmetry else self.folded_samples
-        return np.moveaxis(self.basis()[:kept].reshape(kept, self.classes, -1), 1, 0)
+        samples_left = (self.folded_samples + 1) // 2 if self.by_symmetry else self.folded_samples
+        return np.moveaxis(self.basis()[:samples_left].reshape(samples_left, self.classes, -1), 1, 0)
 
     @property
     def folded_samples(self) -> int:
@@ -111,15 +111,15 @@ class Waves:
                 turns, sine = turns[:-1], np.append(sine[:-2], self._origin % 1 != 0)
         number = (1 + self.by_symmetry) * self.by_parity * (turns % 2) + self.by_symmetry * sine
         members = [np.flatnonzero(number == k) for k in range(self.classes)]
-        most = max(len(found) for found in members)
-        table = np.array([np.pad(found, (0, most - len(found)), constant_values=-1) for found in members])
+        most = max(len(modes) for modes in members)
+        table = np.array([np.pad(modes, (0, most - len(modes)), constant_values=-1) for modes in members])
         return np.where(table < 0, 0, turns[table]), sine[table], table >= 0
 
     def gains(self, axis: Axis, profile: Profile, dtype: DTypeLike) -> Array:
         """Return the gain of a symmetric kernel for each mode, times the grid step: shape (count,)."""
         turns = np.unique(self.turns)
-        found = jnp.asarray(self._cosines(turns), dtype) @ self._ring(axis, profile, dtype)
-        return found[np.searchsorted(turns, self.turns)]
+        gains_of_turns = jnp.asarray(self._cosines(turns), dtype) @ self._ring(axis, profile, dtype)
+        return gains_of_turns[np.searchsorted(turns, self.turns)]
 
     def spectrum(self, axis: Axis, profile: Profile, dtype: DTypeLike) -> Array:
         """Return the gains for all modes in the order of a Fourier transform: shape (length,)."""

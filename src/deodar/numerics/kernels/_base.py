@@ -82,14 +82,14 @@ class Kernel(Part):
         if self.boundary is not None and len(self.boundary) not in (1, len(axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(axes)} axes"
         for p in parameters(type(self)):
-            value = getattr(self, p.name)
+            setting = getattr(self, p.name)
             if (
                 p.form != "per_axis"
-                or value is None
-                or (isinstance(value, tuple) and len(value) != len(axes))
+                or setting is None
+                or (isinstance(setting, tuple) and len(setting) != len(axes))
             ):
                 continue
-            for axis, v in zip(axes, per_axis(value, axes), strict=True):
+            for axis, v in zip(axes, per_axis(setting, axes), strict=True):
                 if abs(v) > WIDEST * axis.range:
                     yield (
                         f"{p.name} is {v:g}, more than {WIDEST:g} times the axis {axis.name!r}"
@@ -103,4 +103,4 @@ class Kernel(Part):
 def validate_kernels(kernels: Sequence[Kernel], axes: Axes) -> Iterator[str]:
     """Yield the mismatches between the kernels of a parameter `kernel` and the axes."""
     for i, kernel in enumerate(kernels):
-        yield from (f"kernel.{i}: {what}" for what in kernel.validate_axes(axes))
+        yield from (f"kernel.{i}: {problem}" for problem in kernel.validate_axes(axes))

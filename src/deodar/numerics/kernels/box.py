@@ -75,9 +75,9 @@ def _covered(lag: Array, width: float, period: float | None, step: float) -> Arr
     turns = jnp.floor(width / period)
     # after an odd number of turns the ends meet opposite the centre
     lag = lag - jnp.mod(turns, 2) * period / 2
-    near = lag - period * jnp.round(lag / period)
-    rest = width - turns * period
-    return turns + sum(_overlap(near + k * period, rest, step) for k in (-1, 0, 1))
+    folded_lag = lag - period * jnp.round(lag / period)
+    remainder = width - turns * period
+    return turns + sum(_overlap(folded_lag + k * period, remainder, step) for k in (-1, 0, 1))
 
 
 def _overlap(lag: Array, width: Scalar, step: float) -> Array:

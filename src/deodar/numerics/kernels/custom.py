@@ -75,8 +75,8 @@ class Custom(Kernel):
         return ()
 
     def samples(self, axes: Axes, dtype: DTypeLike) -> Array:
-        given = self.weights.data if isinstance(self.weights, FrozenArray) else self.weights
-        weights = jnp.asarray(given, dtype)
+        table = self.weights.data if isinstance(self.weights, FrozenArray) else self.weights
+        weights = jnp.asarray(table, dtype)
         if self.spacing is None:
             return weights
         for d, (axis, spacing) in enumerate(zip(axes, per_axis(self.spacing, axes), strict=True)):

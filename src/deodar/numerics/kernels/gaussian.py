@@ -81,12 +81,12 @@ def profile(lag: Array, sigma: Scalar, period: float | None) -> Array:
     """Return exp(-lag^2 / (2 sigma^2)); on a periodic axis the sum over all images, exact at every width."""
     if period is None:
         return jnp.exp(-0.5 * (lag / sigma) ** 2)
-    near = (lag - period * jnp.round(lag / period))[..., None]
-    images = jnp.sum(jnp.exp(-0.5 * ((near + period * jnp.arange(-4, 5)) / sigma) ** 2), axis=-1)
+    folded_lag = (lag - period * jnp.round(lag / period))[..., None]
+    images = jnp.sum(jnp.exp(-0.5 * ((folded_lag + period * jnp.arange(-4, 5)) / sigma) ** 2), axis=-1)
     # wide kernels: the same sum as a Fourier series, whose terms vanish where those of the images do not
     # (Poisson)
     turns = 2 * math.pi / period * jnp.arange(1, 5)
-    waves = jnp.sum(jnp.exp(-0.5 * (turns * sigma) ** 2) * jnp.cos(turns * near), axis=-1)
+    waves = jnp.sum(jnp.exp(-0.5 * (turns * sigma) ** 2) * jnp.cos(turns * folded_lag), axis=-1)
     series = math.sqrt(2 * math.pi) * sigma / period * (1 + 2 * waves)
     return jnp.where(sigma < period / 2, images, series)
 

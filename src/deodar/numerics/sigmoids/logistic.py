@@ -90,13 +90,13 @@ class Logistic(SigmoidFunction):
         (low, s), (high, _) = at_a or self.ends(a), at_b or self.ends(b)
         va, vb = self.beta * (a - self.threshold), self.beta * (b - self.threshold)
         d = vb - va
-        near = jnp.abs(d) < (_NEAR if d.dtype == jnp.float32 else _NEAR_DOUBLE)
+        close = jnp.abs(d) < (_NEAR if d.dtype == jnp.float32 else _NEAR_DOUBLE)
         # near a = b: g + g (1 - g) d / 2, with the denominator q^2, so that both forms need one division
         q = 1.0 + s
         series = jnp.where(va > 0, 1.0, s) * q + 0.5 * s * d
         return jnp.where(
-            near, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)
-        ) / jnp.where(near, q * q, d)
+            close, series, jnp.maximum(vb, 0.0) - jnp.maximum(va, 0.0) + (high - low)
+        ) / jnp.where(close, q * q, d)
 
     def bounds(self, u: Interval) -> Interval:
         low, high = (self.beta * (v - self.threshold) for v in u)
