@@ -41,7 +41,7 @@ def bounds(dynamics: Dynamics) -> dict[str, ParameterBounds]:
     """Return the bounds of the parameters: those of their declarations, and for time constants and rates
     those beyond which the Euler step would be too long. What drives several numbers has the tightest.
     """
-    found: dict[str, ParameterBounds] = {}
+    bounds_of: dict[str, ParameterBounds] = {}
     for path, driven in dynamics.drives.items():
         lower, upper = list[float](), list[float]()
         for ident, leaf in driven:
@@ -54,8 +54,8 @@ def bounds(dynamics: Dynamics) -> dict[str, ParameterBounds]:
                 upper.append(1 / step)
             elif declared.role in LIMITING:
                 lower.append(step)
-        found[path] = ParameterBounds(max(lower, default=None), min(upper, default=None))
-    return found
+        bounds_of[path] = ParameterBounds(max(lower, default=None), min(upper, default=None))
+    return bounds_of
 
 
 def unbounded(dynamics: Dynamics, parameters: ByPath) -> dict[str, Array]:
@@ -84,25 +84,25 @@ def bounded(dynamics: Dynamics, numbers: ByPath) -> dict[str, Array]:
 
 
 def _moved(dynamics: Dynamics, values: ByPath, move: Any) -> dict[str, Array]:
-    known: Mapping[str, ParameterBounds] = bounds(dynamics)
-    return {path: move(path, known[path], jnp.asarray(value)) for path, value in values.items()}
+    bounds_of: Mapping[str, ParameterBounds] = bounds(dynamics)
+    return {path: move(path, bounds_of[path], jnp.asarray(value)) for path, value in values.items()}
 
 
-def _inside(path: str, own: ParameterBounds, z: Array) -> Array:
-    if own.lower is not None and own.upper is not None:
-        return own.lower + (own.upper - own.lower) * jax.nn.sigmoid(z)
-    if own.lower is not None:
-        return own.lower + jnp.exp(z)
-    return z if own.upper is None else own.upper - jnp.exp(z)
+def _inside(path: str, bound: ParameterBounds, z: Array) -> Array:
+    if bound.lower is not None and bound.upper is not None:
+        return bound.lower + (bound.upper - bound.lower) * jax.nn.sigmoid(z)
+    if bound.lower is not None:
+        return bound.lower + jnp.exp(z)
+    return z if bound.upper is None else bound.upper - jnp.exp(z)
 
 
-def _free(path: str, own: ParameterBounds, p: Array) -> Array:
-    above = None if own.lower is None else p - own.lower
-    below = None if own.upper is None else own.upper - p
+def _free(path: str, bound: ParameterBounds, p: Array) -> Array:
+    above = None if bound.lower is None else p - bound.lower
+    below = None if bound.upper is None else bound.upper - p
     for room in (above, below):
         if room is not None and not isinstance(room, Tracer) and np.any(np.asarray(room) <= 0):
             raise ParameterError(
-                f"is not inside its bounds {_text(own)}, so that no free number gives it",
+                f"is not inside its bounds {_text(bound)}, so that no free number gives it",
                 where=path,
                 fix="Begin inside of them",
             )

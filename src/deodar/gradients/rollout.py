@@ -84,12 +84,12 @@ def rollout(
     if start is not None:
         instance_of(RolloutStart, start, "start")
     prepared = dynamics.prepare(parameters)
-    own = dynamics.key() if key is None else key
-    begin = RolloutStart(dynamics.init(parameters, own)) if start is None else start
+    trial_key = dynamics.key() if key is None else key
+    begin = RolloutStart(dynamics.init(parameters, trial_key)) if start is None else start
     with dynamics.context():
         first = jnp.asarray(begin.tick, jnp.uint32)
         state = jax.tree.map(jnp.asarray, begin.state)
-    run = _Steps(dynamics, prepared, own, *_by_step(dynamics, inputs or {}, n), first)
+    run = _Steps(dynamics, prepared, trial_key, *_by_step(dynamics, inputs or {}, n), first)
     return run.recorded(n, (first, state), tuple(record), gap)
 
 
@@ -100,8 +100,8 @@ def _by_step(dynamics: Dynamics, inputs: ByPath, n: int) -> tuple[dict[str, Arra
         array = jnp.asarray(value)
         entry = find.element(dynamics.doc, path)
         g, _ = dynamics.executable.plan.row[entry.id]
-        like = dynamics.executable.plan.groups[g].like
-        axes = len(like.outs["output"])
+        node = dynamics.executable.plan.groups[g].like
+        axes = len(node.outs["output"])
         if array.ndim <= axes:
             still[path] = array
         elif array.ndim == axes + 1 and len(array) == n:
@@ -135,14 +135,14 @@ class _Steps:
         moving = {path: a[jnp.minimum(passed, len(a) - 1)] for path, a in self._moving.items()}
         return {**self._still, **moving}
 
-    def _one(self, carry: RolloutCarry) -> RolloutCarry:
+    def _one_step(self, carry: RolloutCarry) -> RolloutCarry:
         tick, state = carry
         new = self._dynamics.step(self._prepared, state, self._inputs(tick), tick, self._key)
         return tick + jnp.uint32(1), new
 
     def _some(self, carry: RolloutCarry, n: int) -> RolloutCarry:
         """Take `n` steps, in segments whose inside is computed again for the gradient."""
-        return _segmented(carry, n, lambda carry: (self._one(carry), None), math.isqrt(n))[0]
+        return _segmented(carry, n, lambda carry: (self._one_step(carry), None), math.isqrt(n))[0]
 
     def recorded(self, n: int, carry: RolloutCarry, ports: Sequence[str], every: int) -> Rollout:
         """Take `n` steps and observe ports in between."""
@@ -153,15 +153,15 @@ class _Steps:
             return self._dynamics.observe(self._prepared, state, inputs, tick, self._key, ports)
 
         def interval(carry: RolloutCarry) -> tuple[RolloutCarry, dict[str, Array]]:
-            carry = self._one(carry) if every == 1 else self._some(carry, every)
+            carry = self._one_step(carry) if every == 1 else self._some(carry, every)
             return carry, seen(carry)
 
         if not ports:
             return Rollout({}, self._some(carry, n)[1])
         records = n // every
         begun = seen(carry)
-        carry, rest = _segmented(carry, records, interval, max(1, math.isqrt(n) // every))
-        joined = jax.tree.map(lambda a, b: jnp.concatenate([a[None], b]), begun, rest)
+        carry, later = _segmented(carry, records, interval, max(1, math.isqrt(n) // every))
+        joined = jax.tree.map(lambda a, b: jnp.concatenate([a[None], b]), begun, later)
         return Rollout(joined, self._some(carry, n - records * every)[1])
 
     @property
@@ -178,18 +178,18 @@ class _Steps:
 
 
 def _segmented(
-    carry: RolloutCarry, n: int, one: Callable[[RolloutCarry], tuple[RolloutCarry, Any]], size: int
+    carry: RolloutCarry, n: int, interval: Callable[[RolloutCarry], tuple[RolloutCarry, Any]], size: int
 ) -> tuple[RolloutCarry, Any]:
     """Apply a function `n` times, in segments of `size` whose inside is computed again for the gradient;
     return the last value and what it gave beside, stacked.
     """
 
     def inner(carry: RolloutCarry, length: int) -> tuple[RolloutCarry, Any]:
-        return lax.scan(lambda carry, _: one(carry), carry, length=length)
+        return lax.scan(lambda carry, _: interval(carry), carry, length=length)
 
-    whole, left = divmod(n, max(1, size))
+    whole, remainder = divmod(n, max(1, size))
     segment = jax.checkpoint(lambda carry: inner(carry, max(1, size)))  # type: ignore[no-untyped-call]
-    carry, given = lax.scan(lambda carry, _: segment(carry), carry, length=whole)
-    given = jax.tree.map(lambda a: a.reshape(-1, *a.shape[2:]), given)
-    carry, last = jax.checkpoint(lambda carry: inner(carry, left))(carry)
-    return carry, jax.tree.map(lambda a, b: jnp.concatenate([a, b]), given, last)
+    carry, records = lax.scan(lambda carry, _: segment(carry), carry, length=whole)
+    records = jax.tree.map(lambda a: a.reshape(-1, *a.shape[2:]), records)
+    carry, last = jax.checkpoint(lambda carry: inner(carry, remainder))(carry)
+    return carry, jax.tree.map(lambda a, b: jnp.concatenate([a, b]), records, last)

@@ -64,13 +64,13 @@ def dynamics(
         )
     paths = [path_of(path) for path in parameters]
     drives = {path: _drives(doc, path) for path in paths}
-    held = [leaf for path in paths for leaf in drives[path]]
-    if len(set(held)) < len(held):
+    driven_leaves = [leaf for path in paths for leaf in drives[path]]
+    if len(set(driven_leaves)) < len(driven_leaves):
         raise ParameterError("two of the parameters drive the same number", fix="Leave one of them out")
     accuracy = "exact" if any(array_leaf(doc, path) for path in paths) else "default"
-    found = Dynamics(model, doc, precision, accuracy, body=body, drives=drives)
-    assert found.executable.precision == precision  # made here, as checks of a model cannot be traced
-    return found
+    functions = Dynamics(model, doc, precision, accuracy, body=body, drives=drives)
+    assert functions.executable.precision == precision  # made here, as checks of a model cannot be traced
+    return functions
 
 
 def _drives(doc: Document, path: str) -> tuple[Leaf, ...]:
@@ -89,8 +89,8 @@ def _drives(doc: Document, path: str) -> tuple[Leaf, ...]:
             )
     values = {float(np.asarray(find.number(doc, *leaf))) for leaf in leaves}
     if len(values) > 1:
-        known = ", ".join(f"{find.entry(doc, ident).path}.{leaf}" for ident, leaf in leaves)
+        names = ", ".join(f"{find.entry(doc, ident).path}.{leaf}" for ident, leaf in leaves)
         raise ParameterError(
-            "stands for several numbers of different values", where=path, fix=f"Name one of them: {known}"
+            "stands for several numbers of different values", where=path, fix=f"Name one of them: {names}"
         )
     return tuple(leaves)
