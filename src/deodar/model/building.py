@@ -72,11 +72,11 @@ def add(
     wire = None if around.wire is None else connection(doc, around.wire)
     source = around.source if wire is None else (wire.source, wire.source_port)
     target = around.target if wire is None else (wire.target, wire.target_port)
-    arriving, wanted = axes_around(doc, source, target)
-    axes = arriving if wanted is None else wanted
+    arriving, taken = axes_around(doc, source, target)
+    axes = arriving if taken is None else taken
     name = free_name(doc, group, name or _words(kind))
-    made = new_elements.element(doc, kind, name, values, axes, arriving)
-    doc, entry = edit.add(doc, made, group)
+    element = new_elements.element(doc, kind, name, values, axes, arriving)
+    doc, entry = edit.add(doc, element, group)
     if wire is not None:
         doc = edit.disconnect(doc, *wire.ends)
     if source is not None:
@@ -114,8 +114,8 @@ def reconnect(doc: Document, old: EndPorts, new: EndPorts) -> Document:
 
 def disconnect(doc: Document, ends: Iterable[EndPorts]) -> Document:
     """Return a document without some connections."""
-    for each in ends:
-        doc = edit.disconnect(doc, *connection(doc, each).ends)
+    for ports in ends:
+        doc = edit.disconnect(doc, *connection(doc, ports).ends)
     return doc
 
 
@@ -193,7 +193,7 @@ def excerpt(doc: Document, ids: Iterable[str], groups: Iterable[PathNames] = ())
     common = shared([find.entry(doc, i).group for i in ids] + [g[:-1] for g in listed])
     empty = edit.describe(Document(doc.name), time_unit=doc.time_unit, dt=doc.dt)
     for g in doc.groups:
-        if any(g[: len(known)] == known for known in listed):
+        if any(g[: len(path)] == path for path in listed):
             empty = edit.group(empty, g[len(common) :])
     out = edit.insert(empty, doc, lambda names: names[len(common) :], chosen)
     return _with_positions(out, doc, [e for e in doc.entries if e.id in chosen], (0.0, 0.0))
@@ -217,11 +217,11 @@ def paste(
         names[name] = free_name(doc, group, name, names.values())
     count = len(doc.entries)
     doc = edit.insert(doc, template, lambda path: (*group, *_first(path, names)))
-    made = doc.entries[count:]
-    known = positions(template)
-    corner = _corner([known[e.id] for e in template.entries if e.id in known])
+    new = doc.entries[count:]
+    boxes = positions(template)
+    corner = _corner([boxes[e.id] for e in template.entries if e.id in boxes])
     shift = (24.0, 24.0) if at is None else (at[0] - corner[0], at[1] - corner[1])
-    return _with_positions(doc, template, list(template.entries), shift, at), [e.id for e in made]
+    return _with_positions(doc, template, list(template.entries), shift, at), [e.id for e in new]
 
 
 def insert(
@@ -229,8 +229,8 @@ def insert(
 ) -> tuple[Document, list[str], PathNames]:
     """Return a document with the content of another one in a new group, the new ids, and the group's path."""
     path = (*group, free_name(doc, group, name))
-    new, made = paste(doc, template, path, at)
-    return new, made, path
+    new, ids = paste(doc, template, path, at)
+    return new, ids, path
 
 
 def comment(doc: Document, ident: str, values: Mapping[str, Json] | None) -> tuple[Document, str]:
@@ -243,17 +243,17 @@ def comment(doc: Document, ident: str, values: Mapping[str, Json] | None) -> tup
         ident: id of the comment; empty: a new one.
         values: what changes of it, such as its text and position; None removes it.
     """
-    given = doc.layout.get(COMMENTS)
-    known = dict(cast("dict[str, Any]", given)) if isinstance(given, dict) else {}
-    if ident and ident not in known:
+    comments = doc.layout.get(COMMENTS)
+    by_id = dict(cast("dict[str, Any]", comments)) if isinstance(comments, dict) else {}
+    if ident and ident not in by_id:
         raise UnknownName(f"there is no comment {ident!r}")
-    ident = ident or next(f"c{n}" for n in itertools.count(1) if f"c{n}" not in known)
+    ident = ident or next(f"c{n}" for n in itertools.count(1) if f"c{n}" not in by_id)
     if values is None:
-        known.pop(ident, None)
+        by_id.pop(ident, None)
     else:
-        old = known.get(ident)
-        known[ident] = {**(cast("dict[str, Any]", old) if isinstance(old, dict) else {}), **values}
-    layout = {k: v for k, v in {**doc.layout, COMMENTS: known or None}.items() if v is not None}
+        old = by_id.get(ident)
+        by_id[ident] = {**(cast("dict[str, Any]", old) if isinstance(old, dict) else {}), **values}
+    layout = {k: v for k, v in {**doc.layout, COMMENTS: by_id or None}.items() if v is not None}
     return edit.arrange(doc, layout), ident
 
 
@@ -272,9 +272,9 @@ def placed(doc: Document, boxes: Mapping[str, BoxPosition | None]) -> Document:
 
 def positions(doc: Document) -> dict[str, BoxPosition]:
     """Return the positions of boxes that the layout holds; anything else in it is ignored."""
-    given = doc.layout.get(BOXES)
+    boxes = doc.layout.get(BOXES)
     out: dict[str, BoxPosition] = {}
-    for ident, box in (cast("dict[str, Any]", given) if isinstance(given, dict) else {}).items():
+    for ident, box in (cast("dict[str, Any]", boxes) if isinstance(boxes, dict) else {}).items():
         x, y = (box.get("x"), box.get("y")) if isinstance(box, dict) else (None, None)
         if isinstance(x, (int, float)) and isinstance(y, (int, float)):
             out[ident] = (float(x), float(y))
@@ -329,16 +329,16 @@ def connection(doc: Document, ends: EndPorts) -> Connection:
     """Return the connection between two ports; an empty port means the default one."""
     source, target = find.entry(doc, ends[0]), find.entry(doc, ends[2])
     outs, ins = find.outputs(source), target.element.ports()
-    wanted = (
+    ports = (
         source.id,
         ends[1] or (outs[0] if outs else ""),
         target.id,
         ends[3] or (ins[0] if ins else ""),
     )
-    found = next((c for c in doc.connections if c.ends == wanted), None)
-    if found is None:
-        raise UnknownName(f"{source.path}.{wanted[1]} is not connected to {target.path}.{wanted[3]}")
-    return found
+    match = next((c for c in doc.connections if c.ends == ports), None)
+    if match is None:
+        raise UnknownName(f"{source.path}.{ports[1]} is not connected to {target.path}.{ports[3]}")
+    return match
 
 
 def members(doc: Document, ids: Iterable[str], groups: Sequence[PathNames]) -> list[str]:
@@ -350,8 +350,8 @@ def members(doc: Document, ids: Iterable[str], groups: Sequence[PathNames]) -> l
 def require_group(doc: Document, names: PathNames) -> PathNames:
     """Return the path of a group; raise UnknownName if the document has no such group."""
     if names not in doc.groups:
-        known = [display(g) for g in doc.groups]
-        raise UnknownName(f"there is no group {display(names)!r}", fix=did_you_mean(display(names), known))
+        paths = [display(g) for g in doc.groups]
+        raise UnknownName(f"there is no group {display(names)!r}", fix=did_you_mean(display(names), paths))
     return names
 
 
@@ -373,13 +373,13 @@ def axes_around(
     if source is None and target is None:
         return None, None
     nodes = {n.id: n for n in resolve(doc)[0]}
-    found: list[Axes | None] = []
+    port_axes: list[Axes | None] = []
     for end, of in ((source, "outs"), (target, "ins")):
         node = nodes.get(find.entry(doc, end[0]).id) if end is not None else None
         ports: Mapping[str, Axes] = {} if node is None else getattr(node, of)
         name = "" if end is None else end[1] or next(iter(ports), "")
-        found.append(ports.get(name))
-    return found[0], found[1]
+        port_axes.append(ports.get(name))
+    return port_axes[0], port_axes[1]
 
 
 def _lies_in(names: PathNames, groups: Iterable[PathNames]) -> bool:
@@ -404,9 +404,9 @@ def _corner(at: Sequence[BoxPosition]) -> BoxPosition:
     return (min(x for x, _ in at), min(y for _, y in at)) if at else (0.0, 0.0)
 
 
-def _moved(known: Mapping[str, BoxPosition], ids: Sequence[str], at: BoxPosition) -> dict[str, BoxPosition]:
+def _moved(boxes: Mapping[str, BoxPosition], ids: Sequence[str], at: BoxPosition) -> dict[str, BoxPosition]:
     """Return positions that are moved together, so that their corner is at `at`."""
-    inside = {i: known[i] for i in ids if i in known}
+    inside = {i: boxes[i] for i in ids if i in boxes}
     corner = _corner(list(inside.values()))
     return {i: (x + at[0] - corner[0], y + at[1] - corner[1]) for i, (x, y) in inside.items()}
 
@@ -422,15 +422,15 @@ def _with_positions(
 
     If `at` is given and no copied element has a position, they are placed in columns, sources to the left.
     """
-    known, new = positions(template), doc.entries[len(doc.entries) - len(copied) :]
-    if at is not None and not any(e.id in known for e in copied):
-        known, shift = columns(template), at
-    found = {
-        entry.id: (known[old.id][0] + shift[0], known[old.id][1] + shift[1])
+    boxes, new = positions(template), doc.entries[len(doc.entries) - len(copied) :]
+    if at is not None and not any(e.id in boxes for e in copied):
+        boxes, shift = columns(template), at
+    moved = {
+        entry.id: (boxes[old.id][0] + shift[0], boxes[old.id][1] + shift[1])
         for old, entry in zip(copied, new, strict=True)
-        if old.id in known
+        if old.id in boxes
     }
-    return placed(doc, found)
+    return placed(doc, moved)
 
 
 def columns(doc: Document) -> dict[str, BoxPosition]:
@@ -440,12 +440,12 @@ def columns(doc: Document) -> dict[str, BoxPosition]:
     for c in doc.connections:
         sources[c.target].append(c.source)
         targets[c.source].append(c.target)
-    waits = {i: len(found) for i, found in sources.items()}
+    waits = {i: len(ids) for i, ids in sources.items()}
     column: dict[str, int] = {}
     while len(column) < len(waits):
         # in a loop, the element that waits for the fewest others comes first
-        left = [i for i in waits if i not in column]
-        ready = [i for i in left if waits[i] == 0] or [min(left, key=waits.__getitem__)]
+        unplaced = [i for i in waits if i not in column]
+        ready = [i for i in unplaced if waits[i] == 0] or [min(unplaced, key=waits.__getitem__)]
         for i in ready:  # the list grows during the loop
             column[i] = 1 + max((column[s] for s in sources[i] if s in column), default=-1)
             for target in targets[i]:

@@ -16,8 +16,8 @@ def check(doc: Document) -> list[Problem]:
     """Return all problems of the structure; without any, the warnings and the problems of the document's own
     step.
     """
-    nodes, found = structure(doc)
-    return found or judge(doc, nodes)
+    nodes, problems = structure(doc)
+    return problems or judge(doc, nodes)
 
 
 def problems(doc: Document) -> list[Problem]:
@@ -30,18 +30,18 @@ def problems(doc: Document) -> list[Problem]:
 def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
     """Return the warnings of each element and of each file of `checks`, in the order of the elements."""
     wiring = Wiring(doc, nodes)
-    found = [
-        Problem(n.path, what, fix, "warning")
+    warnings = [
+        Problem(n.path, sentence, fix, "warning")
         for n in wiring.declared
-        for what, fix in n.element.warnings(n.ins)
+        for sentence, fix in n.element.warnings(n.ins)
     ]
     for family in imported("deodar.model.checks"):
-        found += family.check(wiring)
+        warnings += family.check(wiring)
     place = {e.path: k for k, e in enumerate(doc.entries)}
-    return sorted(dict.fromkeys(found), key=lambda p: (p.severity, place.get(p.where, len(place))))
+    return sorted(dict.fromkeys(warnings), key=lambda p: (p.severity, place.get(p.where, len(place))))
 
 
 def structure(doc: Document) -> tuple[list[Node], list[Problem]]:
     """Return the resolved nodes and the problems that prevent every run."""
-    nodes, found = resolve(doc)
-    return nodes, found or order(nodes)[1]
+    nodes, problems = resolve(doc)
+    return nodes, problems or order(nodes)[1]

@@ -23,9 +23,9 @@ def text(doc: Document) -> str:
     written, packed = document_files.dumps(doc, NAME)
     if packed is None:
         return written
-    data = codec.parse(written)
-    data["arrays"]["content"] = base64.b64encode(packed).decode()
-    return codec.text({key: data[key] for key in KEYS if key in data}, finite=True) + "\n"
+    document = codec.parse(written)
+    document["arrays"]["content"] = base64.b64encode(packed).decode()
+    return codec.text({key: document[key] for key in KEYS if key in document}, finite=True) + "\n"
 
 
 def read(content: str) -> Document:
@@ -40,14 +40,14 @@ def read(content: str) -> Document:
         encoded = content.encode()
     except UnicodeEncodeError:
         raise DocumentError("is not valid text", where=NAME) from None
-    data = codec.read(encoded)
-    packed = _arrays(data)
-    return document_files.of_data(data, lambda name: packed)
+    document = codec.read(encoded)
+    packed = _arrays(document)
+    return document_files.of_data(document, lambda name: packed)
 
 
-def _arrays(data: Any) -> bytes | None:
+def _arrays(document: Any) -> bytes | None:
     """Remove the content of the arrays from the data, and return it; None: the text contains none."""
-    entry = cast("dict[str, Any]", data).get("arrays") if isinstance(data, dict) else None
+    entry = cast("dict[str, Any]", document).get("arrays") if isinstance(document, dict) else None
     content = cast("dict[str, Any]", entry).pop("content", None) if isinstance(entry, dict) else None
     if content is None:
         return None

@@ -113,13 +113,13 @@ def axis_key(table: dict[str, Axis], axis: Axis) -> str:
 
 def dumps(doc: Document, arrays_file: str = "") -> tuple[str, bytes | None]:
     """Return the document as JSON text, and the content of its array file (None without arrays)."""
-    data, arrays = to_data(doc)
+    body, arrays = to_data(doc)
     packed = pack(arrays) if arrays else None
     if packed is not None:
         digest = hashlib.sha256(packed).hexdigest()
         entry = {"file": f"{arrays_file}.{digest[:8]}.npz" if arrays_file else "", "sha256": digest}
-        data = {key: value for key, value in (data | {"arrays": entry}).items()}
-    ordered = {key: data[key] for key in KEYS if key in data}
+        body = {key: value for key, value in (body | {"arrays": entry}).items()}
+    ordered = {key: body[key] for key in KEYS if key in body}
     return codec.text(ordered, finite=True) + "\n", packed
 
 
@@ -128,10 +128,10 @@ def pack(arrays: Mapping[str, FrozenArray]) -> bytes:
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as z:
         for key, array in arrays.items():
-            one = io.BytesIO()
-            np.lib.format.write_array(one, array.data, allow_pickle=False)
+            npy = io.BytesIO()
+            np.lib.format.write_array(npy, array.data, allow_pickle=False)
             z.writestr(
-                zipfile.ZipInfo(f"{key}.npy", (1980, 1, 1, 0, 0, 0)), one.getvalue(), zipfile.ZIP_DEFLATED
+                zipfile.ZipInfo(f"{key}.npy", (1980, 1, 1, 0, 0, 0)), npy.getvalue(), zipfile.ZIP_DEFLATED
             )
     return buffer.getvalue()
 
@@ -171,15 +171,15 @@ def _old_arrays(path: Path) -> Path | None:
         return None
 
 
-def _key(table: dict[str, Any], base: str, value: Any) -> str:
-    for key, known in table.items():
-        if known == value:
+def _key(table: dict[str, Any], base: str, shared: Any) -> str:
+    for key, present in table.items():
+        if present == shared:
             return key
     key, n = base, 1
     while key in table:
         n += 1
         key = f"{base}_{n}"
-    table[key] = value
+    table[key] = shared
     return key
 
 
@@ -204,12 +204,12 @@ def load(path: str | Path) -> Document:
     path = Path(path)
     try:
         if not path.exists():
-            near = (
+            suggestion = (
                 did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")])
                 if path.parent.is_dir()
                 else ""
             )
-            raise DocumentError("there is no such file", fix=near)
+            raise DocumentError("there is no such file", fix=suggestion)
         if not path.is_file():
             raise DocumentError("is not a file")
         if package.is_package(path):
@@ -273,8 +273,8 @@ def require_room(size: int, name: str) -> None:
     """Refuse arrays that do not fit into memory, before they are unpacked."""
     free = psutil.virtual_memory().available
     if size > ARRAY_SHARE * free:
-        what = f"the arrays in {name!r} take {size / 2**30:,.1f} GiB; {free / 2**30:,.1f} GiB are free"
-        raise DocumentError(what, where="arrays")
+        problem = f"the arrays in {name!r} take {size / 2**30:,.1f} GiB; {free / 2**30:,.1f} GiB are free"
+        raise DocumentError(problem, where="arrays")
 
 
 def _arrays(data: Any, read: Callable[[str], bytes | None]) -> dict[str, FrozenArray]:

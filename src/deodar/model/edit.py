@@ -87,12 +87,12 @@ def remove(doc: Document, ids: Iterable[str]) -> Document:
     """Return a document without these elements, their connections and their links."""
     gone = set(ids)
     linked = tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in gone)) for k in doc.parameters)
-    kept = tuple(c for c in doc.connections if not gone & {c.source, c.target})
+    connections = tuple(c for c in doc.connections if not gone & {c.source, c.target})
     uses = tuple(dc.replace(u, elements=tuple(x for x in u.elements if x[1] not in gone)) for u in doc.uses)
     return dc.replace(
         doc,
         entries=tuple(e for e in doc.entries if e.id not in gone),
-        connections=kept,
+        connections=connections,
         parameters=linked,
         uses=uses,
     )
@@ -151,10 +151,10 @@ def relocate(
 
     paths = {e.id: elements.get(e.id) or new_path(e.names) for e in doc.entries}
     moved = [e for e in doc.entries if paths[e.id] != e.names]
-    kept = {g: new_path(g) for g in doc.groups if g not in dissolved}
-    _require_vacant(doc, [(e, paths[e.id]) for e in moved], kept)
+    group_paths = {g: new_path(g) for g in doc.groups if g not in dissolved}
+    _require_vacant(doc, [(e, paths[e.id]) for e in moved], group_paths)
     entries = tuple(e if paths[e.id] == e.names else _renamed(e, paths[e.id]) for e in doc.entries)
-    inside = _with_groups((), [*kept.values(), *groups.values(), *(paths[e.id][:-1] for e in moved)])
+    inside = _with_groups((), [*group_paths.values(), *groups.values(), *(paths[e.id][:-1] for e in moved)])
     uses = tuple(dc.replace(u, group=new_path(u.group)) for u in doc.uses if u.group not in dissolved)
     return dc.replace(doc, entries=entries, groups=inside, uses=uses)
 
@@ -264,9 +264,9 @@ def connect(
         raise ModelError(f"{target.path} has no input port", where=f"{source.path} -> {target.path}")
     source_port, target_port = source_port or outs[0], target_port or ins[0]
     if source_port not in outs:
-        what = "is an input port" if source_port in source.element.ports() else "does not exist"
+        fault = "is an input port" if source_port in source.element.ports() else "does not exist"
         raise UnknownName(
-            f"the output port {source_port!r} of {source.path} {what}", fix=did_you_mean(source_port, outs)
+            f"the output port {source_port!r} of {source.path} {fault}", fix=did_you_mean(source_port, outs)
         )
     if target_port not in ins:
         raise UnknownName(
@@ -317,11 +317,11 @@ def change(doc: Document, path: str, value: Any) -> Document:
     """Return a document with another value at a path: of a parameter of an element, or of a document
     parameter.
     """
-    found = find.target(doc, path)
+    target = find.target(doc, path)
     return (
-        document_parameter(doc, found.document_parameter, value)
-        if found.entry is None
-        else put(doc, found.entry.id, found.parameter, value)
+        document_parameter(doc, target.document_parameter, value)
+        if target.entry is None
+        else put(doc, target.entry.id, target.parameter, value)
     )
 
 
@@ -348,18 +348,20 @@ def assignments(path: Any, value: Any) -> Mapping[str, Any]:
                 "set takes one value for several parameters only as part of them",
                 fix='Write: set({"u.tau": 30, "v.tau": 30})',
             )
-        given: Mapping[Any, Any] = path
+        values: Mapping[Any, Any] = path
     elif value is ...:
         raise ParameterError(
             f"set needs a value for {show(path)}",
             fix=f"Write: set({codec.line(path) if isinstance(path, str) else 'path'}, value)",
         )
     else:
-        given = {path: value}
-    for key in given:
+        values = {path: value}
+    for key in values:
         if not isinstance(key, str):
             raise ParameterError(f"expected a path, got {show(key)}", fix="Write it as text: 'u.tau'")
-    return {key: given[key].__value__() if isinstance(given[key], Reference) else given[key] for key in given}
+    return {
+        key: values[key].__value__() if isinstance(values[key], Reference) else values[key] for key in values
+    }
 
 
 def replace_axis(doc: Document, old: Axis, new: Axis) -> Document:
@@ -396,18 +398,18 @@ def document_parameter(doc: Document, name: str, value: float) -> Document:
             name.startswith(f"{path}.")
             and name[len(path) + 1 :] in [p.name for p in parameters(type(e.element))]
         ):
-            what = "an element" if name == path else f"a parameter of {path}"
+            owner = "an element" if name == path else f"a parameter of {path}"
             raise ModelError(
-                f"a document parameter cannot be called {name!r}: {what} has this name",
+                f"a document parameter cannot be called {name!r}: {owner} has this name",
                 fix="Give it another name",
             )
     links = next((k.links for k in doc.parameters if k.name == name), ())
     for ident, leaf in links:
         doc = _put(doc, ident, leaf, number)
     new = DocumentParameter(name, number, links)
-    kept = tuple(new if k.name == name else k for k in doc.parameters)
+    shared = tuple(new if k.name == name else k for k in doc.parameters)
     return dc.replace(
-        doc, parameters=kept if any(k.name == name for k in doc.parameters) else (*doc.parameters, new)
+        doc, parameters=shared if any(k.name == name for k in doc.parameters) else (*doc.parameters, new)
     )
 
 
@@ -419,8 +421,8 @@ def remove_document_parameter(doc: Document, name: str) -> Document:
 def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
     """Return a document in which a document parameter drives a parameter of an element."""
     entry = find.entry(doc, ident)
-    found = next((k for k in doc.parameters if k.name == name), None)
-    if found is None:
+    shared = next((k for k in doc.parameters if k.name == name), None)
+    if shared is None:
         names = [k.name for k in doc.parameters]
         raise UnknownName(
             f"the document has no parameter {name!r}",
@@ -431,8 +433,8 @@ def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
         raise ModelError(
             f"{entry.path}.{leaf} is already linked to {doc.links()[ident, leaf]!r}", fix="Unlink it first"
         )
-    doc = _put(doc, ident, leaf, found.value)
-    new = dc.replace(found, links=(*found.links, (ident, leaf)))
+    doc = _put(doc, ident, leaf, shared.value)
+    new = dc.replace(shared, links=(*shared.links, (ident, leaf)))
     return dc.replace(doc, parameters=tuple(new if k.name == name else k for k in doc.parameters))
 
 
@@ -490,17 +492,17 @@ def arrange_everywhere(history: UndoHistory, layout: Mapping[str, Json]) -> None
         before, theirs = present.layout.get(key), doc.layout.get(key)
         if doc is present or not isinstance(value, list):
             return value
-        old, own = (each if isinstance(each, list) else [] for each in (before, theirs))
+        old, current = (entry if isinstance(entry, list) else [] for entry in (before, theirs))
         return [
-            *(each for each in own if each in value or each not in old),
-            *(each for each in value if each not in old and each not in own),
+            *(entry for entry in current if entry in value or entry not in old),
+            *(entry for entry in value if entry not in old and entry not in current),
         ]
 
-    def how(doc: Document) -> Document:
+    def with_layout(doc: Document) -> Document:
         new = {**doc.layout, **{key: changed(doc, key, value) for key, value in layout.items()}}
         return arrange(doc, {key: value for key, value in new.items() if value is not None})
 
-    history.change_all(how)
+    history.change_all(with_layout)
 
 
 class UndoHistory:
@@ -513,9 +515,9 @@ class UndoHistory:
 
     def __copy__(self) -> UndoHistory:
         """Return an independent history of the same documents."""
-        other = UndoHistory(self.document)
-        other._past, other._future = list(self._past), list(self._future)
-        return other
+        history = UndoHistory(self.document)
+        history._past, history._future = list(self._past), list(self._future)
+        return history
 
     @property
     def documents(self) -> tuple[Document, ...]:
@@ -543,11 +545,11 @@ class UndoHistory:
         self.document = document
         self._future.clear()
 
-    def change_all(self, how: Callable[[Document], Document]) -> None:
+    def change_all(self, edited: Callable[[Document], Document]) -> None:
         """Apply a function to all documents, also those that were undone."""
-        self._past = [how(doc) for doc in self._past]
-        self._future = [how(doc) for doc in self._future]
-        self.document = how(self.document)
+        self._past = [edited(doc) for doc in self._past]
+        self._future = [edited(doc) for doc in self._future]
+        self.document = edited(self.document)
 
     @property
     def ahead(self) -> int:
@@ -623,9 +625,9 @@ def _vacant(
             "elements and groups need names, not"
             f" {next(n for n in names if not isinstance(n, str) or not n or not is_text(n))!r}"
         )
-    found = taken.get(names)
-    if found is not None:
-        raise ModelError(f"there is already an element {found.path!r}", fix="Give one of them another name")
+    other = taken.get(names)
+    if other is not None:
+        raise ModelError(f"there is already an element {other.path!r}", fix="Give one of them another name")
     if names in groups:
         raise ModelError(f"there is already a group {display(names)!r}", fix="Give one of them another name")
     for k in range(1, len(names)):
@@ -668,7 +670,7 @@ def link_group(doc: Document, group: PathNames, template: str, elements: Mapping
     if group not in doc.groups:
         fix = did_you_mean(display(group), [display(g) for g in doc.groups])
         raise UnknownName(f"there is no group {display(group)!r}", fix=fix)
-    pairs = tuple((ident, find.element(doc, own).id) for ident, own in elements.items())
+    pairs = tuple((ident, find.element(doc, path).id) for ident, path in elements.items())
     return dc.replace(doc, uses=(*doc.uses, Use(group, template, pairs)))
 
 

@@ -23,35 +23,35 @@ class Target:
 
 def entry(doc: Document, ident: str) -> Entry:
     """Return the entry of an id; the id of a removed element is an error."""
-    found = doc.by_id().get(ident)
-    if found is None:
+    match = doc.by_id().get(ident)
+    if match is None:
         raise UnknownName(f"the element with the id {ident} was removed from the document")
-    return found
+    return match
 
 
 def element(doc: Document, path: str) -> Entry:
     """Return the element at a path; the error of an unknown path suggests the nearest."""
     by = doc.by_names()
-    found = [names for names, rest in readings(path, doc.index()) if not rest]
-    if not found:
+    matches = [names for names, rest in readings(path, doc.index()) if not rest]
+    if not matches:
         raise UnknownName(
             f"there is no element {path!r}", fix=did_you_mean(path, [e.path for e in doc.entries])
         )
-    return by[found[0]]
+    return by[matches[0]]
 
 
 def port(doc: Document, path: str, default: str = "output") -> tuple[Entry, str]:
     """Return the element and the port at a path; a path without a port means the port `default`."""
     by = doc.by_names()
-    found = readings(path, doc.index())
-    for names, rest in found:
+    matches = readings(path, doc.index())
+    for names, rest in matches:
         entry = by[names]
-        known = readable(entry)
+        port_names = readable(entry)
         name = rest.strip('"') if rest else default
-        if name in known or not name:
+        if name in port_names or not name:
             return entry, name
-    if found:
-        names, rest = found[0]
+    if matches:
+        names, rest = matches[0]
         entry = by[names]
         if rest in [p.name for p in parameters(type(entry.element))]:
             raise UnknownName(
@@ -59,9 +59,9 @@ def port(doc: Document, path: str, default: str = "output") -> tuple[Entry, str]
                 fix=f"Ports of {entry.path}: {', '.join(readable(entry))}",
             )
         raise UnknownName(f"{entry.path} has no port {rest!r}", fix=did_you_mean(rest, readable(entry)))
-    ports = [f"{e.path}.{p}" for e in doc.entries for p in readable(e)]
+    port_names = [f"{e.path}.{p}" for e in doc.entries for p in readable(e)]
     raise UnknownName(
-        f"nothing is called {path!r}", fix=did_you_mean(path, [*ports, *(e.path for e in doc.entries)])
+        f"nothing is called {path!r}", fix=did_you_mean(path, [*port_names, *(e.path for e in doc.entries)])
     )
 
 
@@ -96,21 +96,22 @@ def outputs(entry: Entry) -> list[str]:
 def target(doc: Document, path: str) -> Target:
     """Return the parameter at a path: `u.tau`, `u.kernel.0.sigma`, or the name of a document parameter."""
     by = doc.by_names()
-    found = [(by[names], rest) for names, rest in readings(path, doc.index()) if rest]
-    for entry, rest in found:
+    matches = [(by[parameter_names], rest) for parameter_names, rest in readings(path, doc.index()) if rest]
+    for entry, rest in matches:
         inner = rest.replace('"', "")
         if inner.split(".")[0] in [p.name for p in parameters(type(entry.element))]:
             return Target(entry, inner)
     if path in [k.name for k in doc.parameters]:
         return Target(None, "", path)
-    if found:
-        entry, rest = found[0]
-        known = [p.name for p in parameters(type(entry.element)) if p.name != "name"]
+    if matches:
+        entry, rest = matches[0]
+        parameter_names = [p.name for p in parameters(type(entry.element)) if p.name != "name"]
         if rest in readable(entry):
             raise UnknownName(
-                f"{path!r} is a port, not a parameter", fix=f"Parameters of {entry.path}: {', '.join(known)}"
+                f"{path!r} is a port, not a parameter",
+                fix=f"Parameters of {entry.path}: {', '.join(parameter_names)}",
             )
-        raise UnknownName(f"{entry.path} has no parameter {rest!r}", fix=did_you_mean(rest, known))
+        raise UnknownName(f"{entry.path} has no parameter {rest!r}", fix=did_you_mean(rest, parameter_names))
     everything = [f"{e.path}.{leaf}" for e in doc.entries for leaf, _, _ in leaves(e.element)] + [
         k.name for k in doc.parameters
     ]
@@ -119,21 +120,21 @@ def target(doc: Document, path: str) -> Target:
 
 def value(doc: Document, path: str) -> Any:
     """Return the value of the parameter at a path."""
-    found = target(doc, path)
-    if found.entry is None:
-        return next(k.value for k in doc.parameters if k.name == found.document_parameter)
-    return get(found.entry.element, found.parameter)
+    end = target(doc, path)
+    if end.entry is None:
+        return next(k.value for k in doc.parameters if k.name == end.document_parameter)
+    return get(end.entry.element, end.parameter)
 
 
 def number(doc: Document, ident: str, leaf: str) -> float:
     """Return the value of a parameter that a document parameter can drive; any other parameter is an
     error.
     """
-    found = entry(doc, ident)
-    known = {path: value for path, value, p in leaves(found.element) if p.form != "array"}
-    if leaf not in known:
-        what = (
-            f"{found.path}.{leaf} cannot be linked: it is not a number that can change while the model runs"
+    linked = entry(doc, ident)
+    numbers = {path: value for path, value, p in leaves(linked.element) if p.form != "array"}
+    if leaf not in numbers:
+        fault = (
+            f"{linked.path}.{leaf} cannot be linked: it is not a number that can change while the model runs"
         )
-        raise ParameterError(what, fix=did_you_mean(leaf, list(known)))
-    return float(known[leaf])
+        raise ParameterError(fault, fix=did_you_mean(leaf, list(numbers)))
+    return float(numbers[leaf])

@@ -94,8 +94,8 @@ def fits(doc: Document, ident: str, port: str) -> tuple[list[Fit], list[FittingK
     if port in outs:
         axes = judge.output(ident, port)
         return judge.targets(entry, port, axes), kinds_after(doc, axes)
-    wanted = judge.input(ident, port)
-    return judge.sources(entry, port), kinds_before(doc, wanted)
+    axes_before = judge.input(ident, port)
+    return judge.sources(entry, port), kinds_before(doc, axes_before)
 
 
 def offers(axes: Axes, want: Axes, keys: Callable[[Axis], str]) -> tuple[Offer, ...]:
@@ -111,8 +111,8 @@ def offers(axes: Axes, want: Axes, keys: Callable[[Axis], str]) -> tuple[Offer, 
     """
     out: list[Offer] = []
     for cls, values, note, _ in _offers(axes, want):
-        given = {k: [keys(a) for a in v] if k == "axes" else v for k, v in values.items()}
-        out.append(Offer(cls.__name__, given, note))
+        arguments = {k: [keys(a) for a in v] if k == "axes" else v for k, v in values.items()}
+        out.append(Offer(cls.__name__, arguments, note))
     return tuple(out)
 
 
@@ -122,16 +122,16 @@ def kinds_after(doc: Document, axes: Axes | None) -> list[FittingKind]:
     return list(_after(usual if axes is None else axes))
 
 
-def kinds_before(doc: Document, wanted: Axes | None) -> list[FittingKind]:
+def kinds_before(doc: Document, want: Axes | None) -> list[FittingKind]:
     """Return the kinds whose default output can be connected to a port with these axes (None: any)."""
-    return list(_before(new_elements.usual_axes(doc) if wanted is None else wanted))
+    return list(_before(new_elements.usual_axes(doc) if want is None else want))
 
 
 @functools.lru_cache(maxsize=64)
 def _offers(
     axes: Axes, want: Axes
 ) -> tuple[tuple[type[Element], Mapping[str, Any], str, tuple[Any, ...]], ...]:
-    found: list[tuple[type[Element], Mapping[str, Any], str, tuple[Any, ...]]] = []
+    ranked: list[tuple[type[Element], Mapping[str, Any], str, tuple[Any, ...]]] = []
     for cls in new_elements.kinds():
         if not issubclass(cls, Coupling) or cls.inputs != ("input",):
             continue
@@ -143,33 +143,34 @@ def _offers(
                 rank = (bool(note), cls.stateful, cls.jumps, arrays, len(parameters(cls)), cls.__name__)
                 best = (cls, values, note, rank)
         if best is not None:
-            found.append(best)
-    return tuple(sorted(found, key=lambda f: f[3]))
+            ranked.append(best)
+    return tuple(sorted(ranked, key=lambda f: f[3]))
 
 
 def _candidates(cls: type[Element], axes: Axes, want: Axes) -> Iterator[Mapping[str, Any]]:
     """Yield values for a coupling between two ports: with the axes of the target, and with names replaced."""
     forms = {p.name: p.form for p in parameters(cls)}
-    own: dict[str, Any] = {"axes": want} if forms.get("axes") == "axes" else {}
-    yield own
-    there, here = {a.name: a for a in axes}, {a.name: a for a in want}
-    extra, missing = [n for n in there if n not in here], [n for n in here if n not in there]
+    target_axes: dict[str, Any] = {"axes": want} if forms.get("axes") == "axes" else {}
+    yield target_axes
+    sources, targets = {a.name: a for a in axes}, {a.name: a for a in want}
+    extra, missing = [n for n in sources if n not in targets], [n for n in targets if n not in sources]
     if len(extra) != len(missing) or not 0 < len(extra) <= MOST_RENAMED:
         return
     for name in (n for n, form in forms.items() if form == "pairs"):
         for order in itertools.permutations(missing):
             pairs = dict(zip(extra, order, strict=True))
             if all(
-                dc.replace(there[a], unit="").fits(dc.replace(here[b], unit="")) for a, b in pairs.items()
+                dc.replace(sources[a], unit="").fits(dc.replace(targets[b], unit=""))
+                for a, b in pairs.items()
             ):
-                yield own | {name: pairs}
+                yield target_axes | {name: pairs}
 
 
 def _converts(cls: type[Element], values: Mapping[str, Any], axes: Axes, want: Axes) -> str | None:
     """Return what a coupling loses between two ports; None if it does not fit between them."""
     try:
-        own: Axes = values.get("axes", axes)
-        begun = {k: v for k, v in cls.starting_values(own, axes).items() if k not in values}
+        element_axes: Axes = values.get("axes", axes)
+        begun = {k: v for k, v in cls.starting_values(element_axes, axes).items() if k not in values}
         element = cls(name="between", **values, **begun)
         ins: dict[str, Axes] = {}
         for port in element.ports():
@@ -179,20 +180,20 @@ def _converts(cls: type[Element], values: Mapping[str, Any], axes: Axes, want: A
         outs = element.outputs(ins)
         if tuple(next(iter(outs.values()))) != want:
             return None
-        return "; ".join(what for what, _ in element.warnings(ins))
+        return "; ".join(loss for loss, _ in element.warnings(ins))
     except (DeodarError, KeyError, TypeError):
         return None
 
 
 def _arriving(element: Element, port: str, axes: Axes) -> Axes:
-    found = element.input_axes(port, axes)
-    return axes if found is None else found
+    declared = element.input_axes(port, axes)
+    return axes if declared is None else declared
 
 
 @functools.lru_cache(maxsize=64)
 def _after(axes: Axes) -> tuple[FittingKind, ...]:
     out: list[FittingKind] = []
-    for cls, element in _made(axes):
+    for cls, element in _new_elements(axes):
         for port in element.ports():
             ins = {p: _arriving(element, p, axes) for p in element.ports()}
             if not misfit(axes, ins[port]) and not any(True for _ in element.validate_axes(ins)):
@@ -201,22 +202,22 @@ def _after(axes: Axes) -> tuple[FittingKind, ...]:
 
 
 @functools.lru_cache(maxsize=64)
-def _before(wanted: Axes) -> tuple[FittingKind, ...]:
+def _before(want: Axes) -> tuple[FittingKind, ...]:
     out: list[FittingKind] = []
-    for cls, element in _made(wanted):
-        ins = {p: _arriving(element, p, wanted) for p in element.ports()}
+    for cls, element in _new_elements(want):
+        ins = {p: _arriving(element, p, want) for p in element.ports()}
         try:
             outs = element.outputs(ins)
         except KeyError:
             continue
         if outs:
             port, axes = next(iter(outs.items()))
-            if not misfit(tuple(axes), wanted) and not any(True for _ in element.validate_axes(ins)):
+            if not misfit(tuple(axes), want) and not any(True for _ in element.validate_axes(ins)):
                 out.append(FittingKind(cls.__name__, port))
     return tuple(out)
 
 
-def _made(axes: Axes) -> Iterator[tuple[type[Element], Element]]:
+def _new_elements(axes: Axes) -> Iterator[tuple[type[Element], Element]]:
     """Yield every kind with a new element of it over these axes."""
     empty = Document("kinds")
     for cls in new_elements.kinds():
@@ -300,7 +301,7 @@ class _Judge:
     def judged(self, source: Entry, port: str, axes: Axes, target: Entry, name: str) -> tuple[str, Axes]:
         """Return why a connection does not fit, "" if it does, and the axes that the input port then has."""
         element, node = target.element, self.nodes.get(target.id)
-        want = self.wanted(element, node, name, axes)
+        want = self.input_axes(element, node, name, axes)
         ends = f"{source.path} has {describe(axes)}, {target.path}.{name} has {describe(want)}"
         if why := misfit(axes, want):
             return f"{ends}: {why}", want
@@ -311,12 +312,12 @@ class _Judge:
             return f"{ends}: it has more axes, so it belongs to the port {follows!r}", want
         ins = self.ins(element, node) | {name: want}
         before = set() if node is None else set(self.validated(element, self.ins(element, node)))
-        new = [what for what in self.validated(element, ins) if what not in before]
+        new = [fault for fault in self.validated(element, ins) if fault not in before]
         if new:
             return f"{ends}: it {new[0]}", want
         return self.further(source, port, target, name, ins), want
 
-    def wanted(self, element: Element, node: Node | None, name: str, axes: Axes) -> Axes:
+    def input_axes(self, element: Element, node: Node | None, name: str, axes: Axes) -> Axes:
         """Return the axes that an input port would have with one more connection."""
         follows = type(element).follows.get(name, "")
         if node is not None and follows and node.reads.get(follows):
@@ -334,10 +335,10 @@ class _Judge:
 
     def validated(self, element: Element, ins: Mapping[str, Axes]) -> Sequence[str]:
         try:
-            found = list(element.validate_axes(ins))
+            faults = list(element.validate_axes(ins))
         except (KeyError, AxesError):
             return []
-        return [what if isinstance(what, str) else what[0] for what in found]
+        return [fault if isinstance(fault, str) else fault[0] for fault in faults]
 
     def further(self, source: Entry, port: str, target: Entry, name: str, ins: Mapping[str, Axes]) -> str:
         """Return the problem of what reads the target, if its output axes change by the connection."""
@@ -349,21 +350,21 @@ class _Judge:
             return ""
         self.resolved += 1
         new = edit.connect(self.doc, source, port, target, name)
-        found = [p for p in resolve(new)[1] if p not in self.problems]
-        return f"{found[0].where}: {found[0].what}" if found else ""
+        new_problems = [p for p in resolve(new)[1] if p not in self.problems]
+        return f"{new_problems[0].where}: {new_problems[0].what}" if new_problems else ""
 
     def upstream(self, ident: str, port: str) -> set[tuple[str, str]]:
         """Return the input ports on which an output port depends in the same instant."""
-        found: set[tuple[str, str]] = set()
+        inputs: set[tuple[str, str]] = set()
         todo = [(ident, port)]
         while todo:
             i, out = todo.pop()
             element = self.doc.by_id()[i].element
             for name in type(element).direct.get(out, ()):
-                if (i, name) not in found:
-                    found.add((i, name))
+                if (i, name) not in inputs:
+                    inputs.add((i, name))
                     todo += self.into.get((i, name), [])
-        return found
+        return inputs
 
     @functools.cached_property
     def into(self) -> Mapping[tuple[str, str], list[tuple[str, str]]]:
@@ -377,14 +378,14 @@ class _Judge:
 
 def _change(axes: Axes, want: Axes) -> str:
     """Return how a connection between axes that fit changes the values, in words; "" if it does not."""
-    there, here = {a.name: a for a in axes}, {a.name: a for a in want}
-    words = _listed("the integral over", (n for n in there if n not in here))
-    words += _listed("the same value everywhere along", (n for n in here if n not in there))
-    both = [n for n in here if n in there and here[n].samples != there[n].samples]
-    words += [f"{there[n].samples} samples of {n} become {here[n].samples}" for n in both]
+    sources, targets = {a.name: a for a in axes}, {a.name: a for a in want}
+    words = _listed("the integral over", (n for n in sources if n not in targets))
+    words += _listed("the same value everywhere along", (n for n in targets if n not in sources))
+    resampled = [n for n in targets if n in sources and targets[n].samples != sources[n].samples]
+    words += [f"{sources[n].samples} samples of {n} become {targets[n].samples}" for n in resampled]
     return ", ".join(words)
 
 
-def _listed(what: str, names: Iterable[str]) -> list[str]:
-    found = ", ".join(names)
-    return [f"{what} {found}"] if found else []
+def _listed(effect: str, names: Iterable[str]) -> list[str]:
+    text = ", ".join(names)
+    return [f"{effect} {text}"] if text else []

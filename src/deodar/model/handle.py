@@ -106,8 +106,8 @@ class Handle:
         raise ParameterError(f"{name} cannot be deleted from an element", fix="Assign another value")
 
     def _require(self, entry: Entry, name: str) -> None:
-        known = [p.name for p in parameters(type(entry.element))]
-        if name in known:
+        names = [p.name for p in parameters(type(entry.element))]
+        if name in names:
             return
         last = entry.names[-1]
         if name in find.readable(entry):
@@ -118,7 +118,7 @@ class Handle:
         raise UnknownAttribute(
             f"{type(entry.element).__name__} has no parameter {name!r}",
             where=f"{entry.path}.{name}",
-            fix=did_you_mean(name, known),
+            fix=did_you_mean(name, names),
         )
 
     # ------------------------------------------------------------------------------------------- as an object

@@ -40,10 +40,10 @@ def kept_presets(doc: Document) -> list[KeptPreset]:
     first one counts.
     """
     listed = doc.layout.get(PRESETS)
-    found: dict[str, KeptPreset] = {}
+    presets: dict[str, KeptPreset] = {}
     for entry in cast("list[Any]", listed) if isinstance(listed, list) else []:
-        data = cast("dict[str, Any]", entry) if isinstance(entry, dict) else {}
-        name, group, values = data.get("name"), data.get("group", ""), data.get("values")
+        preset = cast("dict[str, Any]", entry) if isinstance(entry, dict) else {}
+        name, group, values = preset.get("name"), preset.get("group", ""), preset.get("values")
         if (
             not isinstance(name, str)
             or not name
@@ -56,8 +56,8 @@ def kept_presets(doc: Document) -> list[KeptPreset]:
             for ident, inner in cast("dict[str, Any]", values).items()
             if isinstance(inner, dict)
         }
-        found.setdefault(name, KeptPreset(name, group, plain))
-    return list(found.values())
+        presets.setdefault(name, KeptPreset(name, group, plain))
+    return list(presets.values())
 
 
 def with_presets(doc: Document, presets: Sequence[KeptPreset]) -> Document:
@@ -75,10 +75,10 @@ def kept_preset(doc: Document, name: str) -> KeptPreset:
     Raises:
         UnknownName: the document has none of this name.
     """
-    found = {p.name: p for p in kept_presets(doc)}
-    if name not in found:
-        raise UnknownName(f"the document has no preset {name!r}", fix=did_you_mean(name, list(found)))
-    return found[name]
+    presets = {p.name: p for p in kept_presets(doc)}
+    if name not in presets:
+        raise UnknownName(f"the document has no preset {name!r}", fix=did_you_mean(name, list(presets)))
+    return presets[name]
 
 
 def take_preset(doc: Document, preset: KeptPreset) -> tuple[Document, list[tuple[str, str, str]]]:
@@ -111,7 +111,7 @@ def _present(doc: Document, ident: str, path: str) -> Any:
     """Return the present value of a parameter of an element, or of a document parameter."""
     if ident:
         return get(find.entry(doc, ident).element, path)
-    found = [p.value for p in doc.parameters if p.name == path]
-    if not found:
+    numbers = [p.value for p in doc.parameters if p.name == path]
+    if not numbers:
         raise UnknownName(f"the document has no parameter {path!r}")
-    return found[0]
+    return numbers[0]

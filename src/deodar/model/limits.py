@@ -21,10 +21,10 @@ def too_long(where: str, element: Element, dt: float, every: int, unit: str) -> 
     """
     for limit in step_limits(element):
         if dt * every > limit.longest * (1 + 1e-9):
-            other = "smaller" if limit.role == "rate" else "larger"
-            what = f"the step of {dt * every:g} {unit} is longer than {limit}"
+            better = "smaller" if limit.role == "rate" else "larger"
+            sentence = f"the step of {dt * every:g} {unit} is longer than {limit}"
             yield Problem(
                 where,
-                what,
-                f"Use dt <= {limit.longest / every:g}, better a tenth of it, or a {other} {limit.path}",
+                sentence,
+                f"Use dt <= {limit.longest / every:g}, better a tenth of it, or a {better} {limit.path}",
             )

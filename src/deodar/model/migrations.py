@@ -47,14 +47,14 @@ RENAMED_AFTER_2: Mapping[str, Mapping[str, str]] = {"MovingGaussian": {"path": "
 """Parameters of versions 1 and 2 that version 3 renamed, by kind: old name to new name."""
 
 
-def migrate(data: Mapping[str, Json]) -> dict[str, Json]:
+def migrate(document: Mapping[str, Json]) -> dict[str, Json]:
     """Convert a document of an older version; a document of the present version is returned unchanged.
 
     Data of an unexpected form are not changed: the reader reports them.
     """
-    if data.get("deodar") == 1:
-        data = _from_1(data)
-    return _from_2(data) if data.get("deodar") in (1, 2) else dict(data)
+    if document.get("deodar") == 1:
+        document = _from_1(document)
+    return _from_2(document) if document.get("deodar") in (1, 2) else dict(document)
 
 
 def recorded(doc: Document, path: str) -> str:
@@ -69,10 +69,10 @@ def recorded(doc: Document, path: str) -> str:
     return path if port or "activation" not in find.outputs(entry) else f"{path}.output"
 
 
-def _from_1(data: Mapping[str, Json]) -> dict[str, Json]:
-    axes, elements = data.get("axes", {}), data.get("elements")
+def _from_1(document: Mapping[str, Json]) -> dict[str, Json]:
+    axes, elements = document.get("axes", {}), document.get("elements")
     if not isinstance(axes, dict) or not isinstance(elements, dict):
-        return dict(data)
+        return dict(document)
     axes, elements = dict(cast("dict[str, Any]", axes)), dict(cast("dict[str, Any]", elements))
     for path, body in elements.items():
         kind = cast("dict[str, Any]", body).get("kind") if isinstance(body, dict) else None
@@ -84,20 +84,20 @@ def _from_1(data: Mapping[str, Json]) -> dict[str, Json]:
         for name, old in missing.items():
             keys = [_key(axes, axis) for axis in old]
             elements[path] = elements[path] | {name: keys[0] if name in ("axis", "slots") else keys}
-    return {**data, "axes": axes, "elements": elements}
+    return {**document, "axes": axes, "elements": elements}
 
 
-def _from_2(data: Mapping[str, Json]) -> dict[str, Json]:
-    elements = data.get("elements")
+def _from_2(document: Mapping[str, Json]) -> dict[str, Json]:
+    elements = document.get("elements")
     if not isinstance(elements, dict):
-        return dict(data)
+        return dict(document)
     elements = dict(cast("dict[str, Any]", elements))
     for path, body in elements.items():
         kind = cast("dict[str, Any]", body).get("kind") if isinstance(body, dict) else None
         renamed = RENAMED_AFTER_2.get(kind, {}) if isinstance(kind, str) else {}
         if not renamed.keys().isdisjoint(body):
             elements[path] = {renamed.get(key, key): value for key, value in body.items()}
-    return {**data, "elements": elements}
+    return {**document, "elements": elements}
 
 
 def _key(axes: dict[str, Json], axis: AxisData) -> str:

@@ -59,16 +59,16 @@ class Model:
         """Return an independent model with the same document, history and trust, without compiled
         programs.
         """
-        other = object.__new__(type(self))
-        other.__dict__.update(
+        twin = object.__new__(type(self))
+        twin.__dict__.update(
             self.__dict__, history=copy.copy(self.history), declared=dict(self.declared), programs={}
         )
-        return other
+        return twin
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Model:
         """Return the same as `copy.copy`: documents are immutable, so copies share them."""
-        memo[id(self)] = other = copy.copy(self)
-        return other
+        memo[id(self)] = twin = copy.copy(self)
+        return twin
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for a pickle: no compiled programs, and no trust in functions that a document
@@ -94,8 +94,8 @@ class Model:
         `id` is the stored identity of the element, eight hexadecimal digits, which key its noise. Without it
         the id follows from the path; scripts state the id of an element that was renamed or moved.
         """
-        near = self.entry(after.id) if after is not None else None
-        doc, entry = edit.add(self.document, element, split(group) if group else (), ticks, near, id)
+        predecessor = self.entry(after.id) if after is not None else None
+        doc, entry = edit.add(self.document, element, split(group) if group else (), ticks, predecessor, id)
         self.commit(doc)
         self.declared[entry.id] = _caller()
         return Handle(self, entry.id)
@@ -216,16 +216,16 @@ class Model:
 
     def link(self, path: str, name: str) -> None:
         """Let a document parameter drive a parameter of an element: `model.link("u.tau", "gain")`."""
-        found = find.target(self.document, path)
-        if found.entry is None:
+        target = find.target(self.document, path)
+        if target.entry is None:
             raise UnknownName(f"{path!r} is itself a document parameter")
-        self.commit(edit.link(self.document, found.entry.id, found.parameter, name))
+        self.commit(edit.link(self.document, target.entry.id, target.parameter, name))
 
     def unlink(self, path: str) -> None:
         """Remove the link of a parameter to a document parameter; it keeps its value."""
-        found = find.target(self.document, path)
-        if found.entry is not None:
-            self.commit(edit.unlink(self.document, found.entry.id, found.parameter))
+        target = find.target(self.document, path)
+        if target.entry is not None:
+            self.commit(edit.unlink(self.document, target.entry.id, target.parameter))
 
     def describe(self, **values: Any) -> None:
         """Set general properties: name, time_unit, dt, t0, notes, layout."""
@@ -264,10 +264,10 @@ class Model:
 
     def entry(self, ident: str) -> Entry:
         """Return the entry of an id."""
-        found = self.document.by_id().get(ident)
-        if found is None:
+        entry = self.document.by_id().get(ident)
+        if entry is None:
             raise UnknownName(f"the element with the id {ident} was removed from the model")
-        return found
+        return entry
 
     def __getitem__(self, path: str) -> Handle:
         by = self.document.by_names()
@@ -292,9 +292,9 @@ class Model:
 
     def require(self) -> None:
         """Raise a `ModelError` with every problem that prevents a run; warnings do not raise."""
-        found = self._placed(problems(self.document))
-        if found:
-            raise ModelError(found)
+        placed = self._placed(problems(self.document))
+        if placed:
+            raise ModelError(placed)
 
     def to_json(self) -> str:
         """Return the document as JSON text (arrays by name only; `save` writes them to a file)."""
@@ -335,34 +335,35 @@ class Model:
 
     # ------------------------------------------------------------------------------------------------- inside
 
-    def _placed(self, found: Sequence[Problem]) -> list[Problem]:
+    def _placed(self, unplaced: Sequence[Problem]) -> list[Problem]:
         where = {e.path: self.declared.get(e.id, "") for e in self.document.entries}
         return [
-            dc.replace(p, where=f"{p.where} ({where[p.where]})") if where.get(p.where) else p for p in found
+            dc.replace(p, where=f"{p.where} ({where[p.where]})") if where.get(p.where) else p
+            for p in unplaced
         ]
 
     def _doubt(self, template: Model) -> None:
         if not template.trusted and any(e.element.external_code() for e in template.document.entries):
             self._doubted = self.history.depth  # if the change is undone, the doubt ends with it
 
-    def _entry(self, what: Handle | str) -> Entry:
-        if isinstance(what, str):
-            return find.element(self.document, what)
-        return self._end(what, "")[0]
+    def _entry(self, part: Handle | str) -> Entry:
+        if isinstance(part, str):
+            return find.element(self.document, part)
+        return self._end(part, "")[0]
 
-    def _end(self, what: Handle | str, default: str) -> tuple[Entry, str]:
-        if isinstance(what, str):
-            return find.port(self.document, what, default)
-        if not isinstance(what, Handle):
+    def _end(self, end: Handle | str, default: str) -> tuple[Entry, str]:
+        if isinstance(end, str):
+            return find.port(self.document, end, default)
+        if not isinstance(end, Handle):
             raise ModelError(
-                f"{show(what)} cannot be connected", fix="Give a path, or what model.add returned"
+                f"{show(end)} cannot be connected", fix="Give a path, or what model.add returned"
             )
-        if what.model is not self:
+        if end.model is not self:
             raise ModelError(
-                f"{what.path!r} belongs to another model",
+                f"{end.path!r} belongs to another model",
                 fix="Add it to this one, or insert the other model as a group",
             )
-        return self.entry(what.id), what.port
+        return self.entry(end.id), end.port
 
     def _group(self, path: str) -> PathNames:
         names = split(path)
@@ -374,16 +375,16 @@ class Model:
         return names
 
 
-def path_of(what: Any) -> str:
+def path_of(end: Any) -> str:
     """Return a path as text, from text or from a handle of an element or port."""
-    if isinstance(what, Handle):
-        return f"{what.path}.{quote(what.port)}" if what.port else what.path
-    if not isinstance(what, str):
+    if isinstance(end, Handle):
+        return f"{end.path}.{quote(end.port)}" if end.port else end.path
+    if not isinstance(end, str):
         raise ParameterError(
-            f"{show(what)} is not a path",
+            f"{show(end)} is not a path",
             fix="Write it as text: 'u.activation'; or take a handle: u['activation']",
         )
-    return what
+    return end
 
 
 def save(model: Model, path: str | Path, force: bool = False) -> None:
@@ -403,7 +404,7 @@ def load(path: str | Path, trust: bool = False) -> Model:
 def _caller() -> str:
     """Return the file and line of the first caller outside this package."""
     frame = sys._getframe(1)  # pyright: ignore[reportPrivateUsage]
-    own = str(Path(__file__).parent.parent)
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(own):
+    package = str(Path(__file__).parent.parent)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
         frame = frame.f_back
     return f"{Path(frame.f_code.co_filename).name}:{frame.f_lineno}"

@@ -44,23 +44,23 @@ def element(
     cls = registry.kind(kind)
     if not issubclass(cls, Element):
         raise ParameterError(f"expected an element, got {an(kind)}", where=kind)
-    known = document_files.axes(doc)
-    values = {k: plain_values.keyed(cls, k, v, known) for k, v in values.items()}
+    table = document_files.axes(doc)
+    values = {k: plain_values.keyed(cls, k, v, table) for k, v in values.items()}
     free = usual_axes(doc) if axes is None else axes
     body: dict[str, Any] = {**values, "kind": kind}
-    example, own = cls.example(), free
+    example, state_axes = cls.example(), free
     for p in parameters(cls):
         if p.name not in values:
             needed = _needed_axes(p, getattr(example, p.name), free)
             if needed is not None:
-                keys = [document_files.axis_key(known, axis) for axis in needed]
+                keys = [document_files.axis_key(table, axis) for axis in needed]
                 body[p.name] = keys if p.form == "axes" else keys[0]
         if p.name == "axes":
             keys = body.get("axes", [])
             listed = keys if isinstance(keys, list) else []
-            own = tuple(known[key] for key in listed if isinstance(key, str) and key in known)
-    begun = {k: v for k, v in cls.starting_values(own, arriving).items() if k not in values}
-    return part_from_json(body, name, known, {}, Element, name, begun)
+            state_axes = tuple(table[key] for key in listed if isinstance(key, str) and key in table)
+    begun = {k: v for k, v in cls.starting_values(state_axes, arriving).items() if k not in values}
+    return part_from_json(body, name, table, {}, Element, name, begun)
 
 
 def usual_axes(doc: Document) -> Axes:
@@ -68,13 +68,16 @@ def usual_axes(doc: Document) -> Axes:
 
     A document without axes gets a new one.
     """
-    found = [(e.element.stateful, axes) for e in doc.entries if (axes := _axes(e.element))]
-    return next((axes for state, axes in found if state), found[0][1] if found else (FIRST,))
+    with_axes = [(e.element.stateful, axes) for e in doc.entries if (axes := _axes(e.element))]
+    return next(
+        (axes for state, axes in with_axes if state),
+        with_axes[0][1] if with_axes else (FIRST,),
+    )
 
 
 def _axes(element: Element) -> Axes:
-    given: Sequence[Axis] = getattr(element, "axes", ())
-    return tuple(given)
+    axes: Sequence[Axis] = getattr(element, "axes", ())
+    return tuple(axes)
 
 
 def _needed_axes(p: Parameter, example: Any, axes: Axes) -> Axes | None:

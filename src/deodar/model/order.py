@@ -54,10 +54,12 @@ class _Walk:
                 loop = [self.by[a[0]].path for a in self.path[self.path.index(act) :]]
                 names = " -> ".join([n.path, *reversed(list(dict.fromkeys(loop)))])
                 current = any(a[2] or a[1] == "advance" for a in self.path[self.path.index(act) :])
-                what = (
+                loop_kind = (
                     "a loop of connections that read 'current'" if current else "a loop without a state in it"
                 )
-                problem = Problem(n.path, f"{what}: {names}", "Let one of them read 'previous', or 'delayed'")
+                problem = Problem(
+                    n.path, f"{loop_kind}: {names}", "Let one of them read 'previous', or 'delayed'"
+                )
                 if problem not in self.problems:
                     self.problems.append(problem)
             return self.depth[act]

@@ -27,13 +27,13 @@ UNSUPPORTED = (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS)
 def location(path: Any) -> Path:
     """Return a path from the value that a script passed; raise if it cannot be one."""
     try:
-        found = Path(path)
-        os.fsencode(found)
+        file = Path(path)
+        os.fsencode(file)
     except (TypeError, ValueError):
         raise OutputError(f"needs the path of a file, not {path!r}") from None
-    if "\0" in str(found):
+    if "\0" in str(file):
         raise OutputError(f"{path!r} cannot be the path of a file")
-    return found
+    return file
 
 
 def claim(path: str | Path, force: bool = False) -> Path:
@@ -112,9 +112,9 @@ def replace(path: Path, content: bytes) -> None:
     beside = path.with_name(f".{path.name}.partial")
     try:
         with beside.open("wb", buffering=0) as file:
-            rest = memoryview(content)
-            while rest:
-                rest = rest[file.write(rest) :]
+            unwritten = memoryview(content)
+            while unwritten:
+                unwritten = unwritten[file.write(unwritten) :]
         beside.replace(path)
     except OSError:
         with contextlib.suppress(OSError):
@@ -170,10 +170,10 @@ def sync_tree(path: Path) -> None:
 
     Several files at a time: a disk takes about as long as for one.
     """
-    found = list(os.walk(path, topdown=False))
+    folders = list(os.walk(path, topdown=False))
     with ThreadPoolExecutor(THREADS) as pool:
-        list(pool.map(sync, [Path(folder, name) for folder, _, names in found for name in names]))
-        list(pool.map(sync_folder, [Path(folder) for folder, _, _ in found]))
+        list(pool.map(sync, [Path(folder, name) for folder, _, names in folders for name in names]))
+        list(pool.map(sync_folder, [Path(folder) for folder, _, _ in folders]))
 
 
 def sync_open(handle: int) -> None:

@@ -87,13 +87,13 @@ class Package:
                 raise DocumentError(f"holds {name!r}, which lies outside the folder of the document")
             if entry.flag_bits & 1:
                 raise DocumentError(f"holds {name!r}, which is encrypted")
-        found = [name for name in self._entries if name.endswith(".json")]
-        if len(found) != 1:
+        documents = [name for name in self._entries if name.endswith(".json")]
+        if len(documents) != 1:
             raise DocumentError(
-                f"holds {len(found)} documents" if found else "holds no document",
+                f"holds {len(documents)} documents" if documents else "holds no document",
                 fix="A package holds one: deodar pack FILE",
             )
-        self.document = found[0]
+        self.document = documents[0]
         size = self._entries[self.document].file_size
         if size > most:
             raise DocumentError(

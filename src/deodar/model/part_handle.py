@@ -77,7 +77,7 @@ class PartHandle(Reference):
         return sorted(_names(self.__value__()))
 
     def __repr__(self) -> str:
-        return _shown(self._model, self._id, self._leaf, self.__value__)
+        return _described(self._model, self._id, self._leaf, self.__value__)
 
 
 class PartsHandle(Reference):
@@ -132,8 +132,8 @@ class PartsHandle(Reference):
                 f"{entry.path}.{self._leaf} is a list of parts; {name!r} is a parameter of one",
                 fix=f"Write: {written}[0].{name}",
             )
-        what = f"{entry.path}.{self._leaf} is a list of parts in a model, without {name!r}"
-        raise UnknownAttribute(what, fix=f"Assign another list. Write: {written} = [*{written}, part]")
+        sentence = f"{entry.path}.{self._leaf} is a list of parts in a model, without {name!r}"
+        raise UnknownAttribute(sentence, fix=f"Assign another list. Write: {written} = [*{written}, part]")
 
     def _place(self, index: Any) -> int:
         n = len(self)
@@ -156,16 +156,16 @@ class PartsHandle(Reference):
         return []
 
     def __repr__(self) -> str:
-        return _shown(self._model, self._id, self._leaf, self.__value__)
+        return _described(self._model, self._id, self._leaf, self.__value__)
 
 
 def inside(model: Owner, ident: str, part: Part, leaf: str, name: str) -> Any:
     """Return a parameter of an element, or of a part at the path `leaf` inside it; parts as handles."""
     form, path = parameter(type(part), name).form, f"{leaf}.{name}" if leaf else name
-    value = getattr(part, name)
+    parameter_value = getattr(part, name)
     if form == "parts":
         return PartsHandle(model, ident, path)
-    return PartHandle(model, ident, path) if isinstance(value, Part) else value
+    return PartHandle(model, ident, path) if isinstance(parameter_value, Part) else parameter_value
 
 
 def brief(part: Part, links: Mapping[str, str], leaf: str = "") -> list[str]:
@@ -189,12 +189,12 @@ def _value(value: Any, links: Mapping[str, str], path: str) -> str:
     if isinstance(value, Part):
         return f"{type(value).__name__}({', '.join(brief(value, links, path))})"
     if _are_parts(value):
-        return f"[{', '.join(_value(item, links, f'{path}.{k}') for k, item in enumerate(value))}]"
+        return f"[{', '.join(_value(part, links, f'{path}.{k}') for k, part in enumerate(value))}]"
     return show(value)
 
 
 def _are_parts(value: Any) -> TypeGuard[tuple[Part, ...]]:
-    return isinstance(value, tuple) and all(isinstance(item, Part) for item in cast("tuple[Any, ...]", value))
+    return isinstance(value, tuple) and all(isinstance(part, Part) for part in cast("tuple[Any, ...]", value))
 
 
 def _is_default(p: Any, value: Any) -> bool:
@@ -204,9 +204,9 @@ def _is_default(p: Any, value: Any) -> bool:
         return False
 
 
-def _shown(model: Owner, ident: str, leaf: str, value: Any) -> str:
+def _described(model: Owner, ident: str, leaf: str, current: Any) -> str:
     try:
-        return f"<{model.entry(ident).path}.{leaf}: {_value(value(), links_of(model, ident), leaf)}>"
+        return f"<{model.entry(ident).path}.{leaf}: {_value(current(), links_of(model, ident), leaf)}>"
     except UnknownName:
         return f"<{leaf} of a removed element, id {ident}>"
 

@@ -154,29 +154,31 @@ def _from_json(
     cls = _kind_of(data, where, base, problems)
     if cls is None:
         return None
-    known = {p.name: p for p in parameters(cls)}
+    declared = {p.name: p for p in parameters(cls)}
     values: dict[str, Any] = dict(given)
-    found: list[Problem] = []
+    faults: list[Problem] = []
     for name, value in data.items():
         if name in ("kind", *given):
             continue
-        if name not in known:
-            found.append(
-                Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, known))
+        if name not in declared:
+            faults.append(
+                Problem(
+                    f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, declared)
+                )
             )
             continue
-        before = len(found)
-        read = _value(known[name], value, f"{where}.{name}", axes, arrays, found)
-        if read is not None or value is None or len(found) == before:
+        before = len(faults)
+        read = _value(declared[name], value, f"{where}.{name}", axes, arrays, faults)
+        if read is not None or value is None or len(faults) == before:
             values[name] = read
-    stated = [q.where.rpartition(".")[2] for q in found]
-    for p in known.values():
+    stated = [q.where.rpartition(".")[2] for q in faults]
+    for p in declared.values():
         if isinstance(p.default, Needed) and values.get(p.name) is None and p.name not in stated:
-            found.append(
+            faults.append(
                 Problem(f"{where}.{p.name}", f"{cls.__name__} needs {p.name}", _to_write(p, p.default, axes))
             )
-    if found:
-        problems += [*found, *_faulty_values(known, values, where)]
+    if faults:
+        problems += [*faults, *_faulty_values(declared, values, where)]
         return None
     try:
         return cls(**values)
@@ -195,11 +197,11 @@ def _kind_of(data: Any, where: str, base: type[Any], problems: list[Problem]) ->
     try:
         cls = registry.kind(typing.cast("dict[str, Any]", data)["kind"])
     except UnknownName as error:
-        own = (
+        hint = (
             "For a kind of your own, import its module first (on the command line: deodar --import MODULE"
             " ...)"
         )
-        problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {own}".strip()))
+        problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {hint}".strip()))
         return None
     if not issubclass(cls, base):
         problems.append(Problem(where, f"expected {an(base.__name__)}, got {an(cls.__name__)}"))
@@ -232,8 +234,8 @@ def _value(
                     )
                 )
                 return None
-            found = [axes[k] for k in typing.cast("list[str]", keys)]
-            return found if p.form == "axes" else found[0]
+            listed = [axes[k] for k in typing.cast("list[str]", keys)]
+            return listed if p.form == "axes" else listed[0]
         case "part":
             return _from_json(value, where, axes, arrays, typing.cast(Any, p.of), problems, {})
         case "parts":
@@ -256,24 +258,24 @@ def _value(
 
 
 def _faulty_values(
-    known: Mapping[str, Parameter], values: Mapping[str, Any], where: str
+    declared: Mapping[str, Parameter], values: Mapping[str, Any], where: str
 ) -> Iterator[Problem]:
     """Return the other problems of the values that do not depend on the parts that failed."""
     for name, value in values.items():
-        if name in known and known[name].form in PLAIN:
+        if name in declared and declared[name].form in PLAIN:
             try:
-                normal(known[name], value)
+                normal(declared[name], value)
             except ValueError as error:
                 yield Problem(f"{where}.{name}", str(error))
 
 
-def _to_write(p: Parameter, like: Needed, axes: Mapping[str, Any]) -> str:
+def _to_write(p: Parameter, needed: Needed, axes: Mapping[str, Any]) -> str:
     """Return the line of a document that gives a parameter its axes.
 
     A letter means any axis of the document, a word an axis of this name.
     """
-    free = [key for key in axes if key not in like.names]
-    keys = [free.pop(0) if len(name) == 1 and name not in axes and free else name for name in like.names]
+    free = [key for key in axes if key not in needed.names]
+    keys = [free.pop(0) if len(name) == 1 and name not in axes and free else name for name in needed.names]
     undeclared = [key for key in keys if key not in axes]
     line = f'Write "{p.name}": {codec.line(keys if p.form == "axes" else keys[0])}'
     if undeclared:
@@ -285,8 +287,8 @@ def _to_write(p: Parameter, like: Needed, axes: Mapping[str, Any]) -> str:
 
 
 def _under(where: str, cls: type[Any], inner: str) -> str:
-    rest = inner.removeprefix(cls.__name__)
-    return f"{where}{rest}" if rest.startswith(".") else where
+    path = inner.removeprefix(cls.__name__)
+    return f"{where}{path}" if path.startswith(".") else where
 
 
 def part_from_json(
@@ -350,10 +352,10 @@ def _declared(part: Any, path: str) -> tuple[Parameter, bool]:
 def kinds_in(data: Any) -> Iterator[str]:
     """Yield the kinds of all parts in plain data, at every depth."""
     if isinstance(data, Mapping):
-        found = typing.cast("Mapping[str, Any]", data)
-        if isinstance(found.get("kind"), str):
-            yield found["kind"]
-        for value in found.values():
+        body = typing.cast("Mapping[str, Any]", data)
+        if isinstance(body.get("kind"), str):
+            yield body["kind"]
+        for value in body.values():
             yield from kinds_in(value)
     elif isinstance(data, list):
         for value in typing.cast("list[Any]", data):

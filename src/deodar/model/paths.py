@@ -78,18 +78,18 @@ class Index:
         return cls(names, texts, max(map(len, names), default=0), max(map(len, texts), default=0))
 
 
-def readings(path: str, known: Index) -> list[tuple[PathNames, str]]:
+def readings(path: str, index: Index) -> list[tuple[PathNames, str]]:
     """Return every way to read `path` as a known name followed by a rest, the quoted reading first."""
-    found: list[tuple[PathNames, str]] = []
+    matches: list[tuple[PathNames, str]] = []
     parts = split(path)
-    for k in range(min(len(parts), known.depth), 0, -1):
-        if parts[:k] in known.names:
-            found.append((parts[:k], ".".join(quote(p) if not p.isdigit() else p for p in parts[k:])))
-    ends = [k for k, c in enumerate(path[: known.longest + 1]) if c == "."]
-    for _, names in sorted(hit for end in [*ends, len(path)] for hit in known.texts.get(path[:end], ())):
-        if not any(names == f[0] for f in found):
-            found.append((names, path[len(".".join(names)) + 1 :]))
-    return found
+    for k in range(min(len(parts), index.depth), 0, -1):
+        if parts[:k] in index.names:
+            matches.append((parts[:k], ".".join(quote(p) if not p.isdigit() else p for p in parts[k:])))
+    ends = [k for k, c in enumerate(path[: index.longest + 1]) if c == "."]
+    for _, names in sorted(hit for end in [*ends, len(path)] for hit in index.texts.get(path[:end], ())):
+        if not any(names == f[0] for f in matches):
+            matches.append((names, path[len(".".join(names)) + 1 :]))
+    return matches
 
 
 def stored_id(path: str, taken: Iterable[str]) -> str:
@@ -103,7 +103,7 @@ def stored_id(path: str, taken: Iterable[str]) -> str:
     n = 0
     while True:
         text = path if n == 0 else f"{path}#{n}"
-        found = hashlib.blake2b(text.encode(), digest_size=4).hexdigest()
-        if found not in used:
-            return found
+        ident = hashlib.blake2b(text.encode(), digest_size=4).hexdigest()
+        if ident not in used:
+            return ident
         n += 1

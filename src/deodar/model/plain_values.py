@@ -49,7 +49,7 @@ def _names_array(data: Any) -> bool:
     return isinstance(data, list) and any(_names_array(v) for v in cast("list[Any]", data))
 
 
-def keyed(cls: type[Any], name: str, data: Any, known: dict[str, Axis]) -> Any:
+def keyed(cls: type[Any], name: str, data: Any, axes: dict[str, Axis]) -> Any:
     """Return the plain data of a parameter with the keys of its axes.
 
     An axis may also be given by its properties, `{"name": "x", "lower": 0, "upper": 1, "samples": 51}`; it is
@@ -57,15 +57,15 @@ def keyed(cls: type[Any], name: str, data: Any, known: dict[str, Axis]) -> Any:
     """
     forms = {p.name: p.form for p in parameters(cls)}
     if forms.get(name) == "axis":
-        return _key(data, known)
+        return _key(data, axes)
     if forms.get(name) == "axes" and isinstance(data, list):
-        return [_key(each, known) for each in cast("list[Any]", data)]
+        return [_key(axis_data, axes) for axis_data in cast("list[Any]", data)]
     return data
 
 
-def _key(data: Any, known: dict[str, Axis]) -> Any:
+def _key(data: Any, axes: dict[str, Axis]) -> Any:
     return (
-        document_files.axis_key(known, axis(cast("dict[Any, Any]", data))) if isinstance(data, dict) else data
+        document_files.axis_key(axes, axis(cast("dict[Any, Any]", data))) if isinstance(data, dict) else data
     )
 
 

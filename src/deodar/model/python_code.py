@@ -109,11 +109,11 @@ def variable(name: str, taken: Collection[str]) -> str:
         plain = f"n{plain}" if f"n{plain}".isidentifier() else "element"
     if keyword.iskeyword(plain) or keyword.issoftkeyword(plain):
         plain += "_"
-    found, n = plain, 1
-    while found in taken:
+    candidate, n = plain, 1
+    while candidate in taken:
         n += 1
-        found = f"{plain}_{n}"
-    return found
+        candidate = f"{plain}_{n}"
+    return candidate
 
 
 def _flat(code: Code) -> str:
@@ -148,7 +148,7 @@ def _laid(code: Code, indent: int, before: int, after: int) -> str:
         case Prefixed(prefix, value):
             return prefix + _laid(value, indent, before + len(prefix), after)
         case Chain(target, items):
-            rows = [_laid(item, inner, inner + 3 * (k > 0), 0) for k, item in enumerate(items)]
+            rows = [_laid(operand, inner, inner + 3 * (k > 0), 0) for k, operand in enumerate(items)]
             return f"{target}({start}{f'{start}>> '.join(rows)}{end})"
         case Bracketed(opening, items, closing):
             if not items:

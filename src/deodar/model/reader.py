@@ -76,12 +76,12 @@ class _Reader:
             doc = self.uses(self.parameters(self.connections(doc)))
         needed = plugins.stated(self.data.get("packages", {}), self.problems)
         if self.problems:
-            known = [p.name for p in registry.packaged()]
-            raise DocumentError([*plugins.unfit(needed, _package, known), *self.problems])
+            packages = [p.name for p in registry.packaged()]
+            raise DocumentError([*plugins.unfit(needed, _package, packages), *self.problems])
         return doc
 
-    def problem(self, where: str, what: str, fix: str = "") -> None:
-        self.problems.append(Problem(where, what, fix))
+    def problem(self, where: str, fault: str, fix: str = "") -> None:
+        self.problems.append(Problem(where, fault, fix))
 
     def attempt(self, where: str, doc: Document, change: Any) -> Document:
         try:
@@ -94,25 +94,25 @@ class _Reader:
             return doc
 
     def text(self, key: str, default: str) -> str:
-        value = self.data.get(key, default)
-        if not isinstance(value, str):
-            self.problem(key, f"needs text, not {show(value)}")
+        text = self.data.get(key, default)
+        if not isinstance(text, str):
+            self.problem(key, f"needs text, not {show(text)}")
             return default
-        return value
+        return text
 
     def table(self, key: str) -> dict[str, Any]:
-        value = self.data.get(key, {})
-        if not isinstance(value, dict):
-            self.problem(key, f"needs an object, not {type(value).__name__}")
+        table = self.data.get(key, {})
+        if not isinstance(table, dict):
+            self.problem(key, f"needs an object, not {type(table).__name__}")
             return {}
-        return cast("dict[str, Any]", value)
+        return cast("dict[str, Any]", table)
 
     def rows(self, key: str) -> list[Any]:
-        value = self.data.get(key, [])
-        if not isinstance(value, list):
-            self.problem(key, f"needs a list, not {type(value).__name__}")
+        rows = self.data.get(key, [])
+        if not isinstance(rows, list):
+            self.problem(key, f"needs a list, not {type(rows).__name__}")
             return []
-        return cast("list[Any]", value)
+        return cast("list[Any]", rows)
 
     def general(self, doc: Document) -> Document:
         doc = self.attempt(
@@ -125,30 +125,30 @@ class _Reader:
 
     def axes(self) -> dict[str, Axis]:
         out: dict[str, Axis] = {}
-        known = ("name", "lower", "upper", "samples", "periodic", "unit")
-        for key, value in self.table("axes").items():
-            if not isinstance(value, dict):
-                self.problem(f"axes.{key}", f"needs an object, not {show(value)}")
+        properties = ("name", "lower", "upper", "samples", "periodic", "unit")
+        for key, axis in self.table("axes").items():
+            if not isinstance(axis, dict):
+                self.problem(f"axes.{key}", f"needs an object, not {show(axis)}")
                 continue
-            values = cast("dict[str, Any]", value)
-            strange = [k for k in values if k not in known]
+            values = cast("dict[str, Any]", axis)
+            strange = [k for k in values if k not in properties]
             missing = [k for k in ("lower", "upper", "samples") if k not in values]
             if strange or missing:
-                what = f"has no {missing[0]}" if missing else f"{strange[0]!r} is no property of an axis"
-                self.problem(f"axes.{key}", what, did_you_mean(strange[0], known) if strange else "")
+                fault = f"has no {missing[0]}" if missing else f"{strange[0]!r} is no property of an axis"
+                self.problem(f"axes.{key}", fault, did_you_mean(strange[0], properties) if strange else "")
                 continue
             try:
-                given: dict[str, Any] = {"name": key} | values
-                out[key] = Axis(**given)
+                arguments: dict[str, Any] = {"name": key} | values
+                out[key] = Axis(**arguments)
             except AxesError as error:
                 self.problems += [Problem(f"axes.{key}", p.what, p.fix) for p in error.problems]
         return out
 
     def elements(self, doc: Document, axes: Mapping[str, Axis]) -> Document:
         entries: dict[str, Entry] = {}
-        for path, value in self.table("elements").items():
+        for path, element in self.table("elements").items():
             try:
-                entry = self.entry(path, value, axes, entries)
+                entry = self.entry(path, element, axes, entries)
             except (ParameterError, UnknownName) as error:
                 self.problems += error.problems
             else:
@@ -163,12 +163,12 @@ class _Reader:
             doc, entries=tuple(entries.values()), groups=_groups(e.group for e in entries.values())
         )
 
-    def entry(self, path: str, value: Any, axes: Mapping[str, Axis], ids: Collection[str]) -> Entry:
+    def entry(self, path: str, element: Any, axes: Mapping[str, Axis], ids: Collection[str]) -> Entry:
         """Return the element at a path; `ids` are those of the elements before it."""
         where = f"elements.{path}"
-        if not isinstance(value, dict):
-            raise ParameterError(f"needs an object, not {show(value)}", where)
-        body = dict(cast("dict[str, Any]", value))
+        if not isinstance(element, dict):
+            raise ParameterError(f"needs an object, not {show(element)}", where)
+        body = dict(cast("dict[str, Any]", element))
         ident, every = body.pop("id", None), body.pop("every", 1)
         if "name" in body:
             raise ParameterError("a name is the last part of the path, not a parameter", f"{where}.name")
@@ -209,18 +209,18 @@ class _Reader:
             ):
                 self.problem(where, "needs a source and a target")
                 continue
-            value = cast("dict[str, str]", row)
-            strange = [key for key in value if key not in ("source", "target", "reads")]
+            ends = cast("dict[str, str]", row)
+            strange = [key for key in ends if key not in ("source", "target", "reads")]
             if strange:
                 self.problem(where, f"{strange[0]!r} is no property of a connection")
                 continue
-            doc = self.attempt(where, doc, lambda d, v=value: _connected(d, v))
+            doc = self.attempt(where, doc, lambda d, v=ends: _connected(d, v))
         return doc
 
     def parameters(self, doc: Document) -> Document:
-        for name, value in self.table("parameters").items():
+        for name, shared in self.table("parameters").items():
             where = f"parameters.{name}"
-            body = cast("dict[str, Any]", value) if isinstance(value, dict) else {}
+            body = cast("dict[str, Any]", shared) if isinstance(shared, dict) else {}
             number, links = body.get("value"), body.get("links", [])
             texts = isinstance(links, list) and all(
                 isinstance(path, str) for path in cast("list[Any]", links)
@@ -239,9 +239,9 @@ class _Reader:
         return doc
 
     def uses(self, doc: Document) -> Document:
-        for path, value in self.table("uses").items():
+        for path, use in self.table("uses").items():
             where = f"uses.{path}"
-            body = cast("dict[str, Any]", value) if isinstance(value, dict) else {}
+            body = cast("dict[str, Any]", use) if isinstance(use, dict) else {}
             template, elements = body.get("template"), body.get("elements")
             texts = isinstance(elements, dict) and all(
                 isinstance(v, str) for v in cast("dict[str, Any]", elements).values()
@@ -275,12 +275,12 @@ def _connected(doc: Document, row: Mapping[str, str]) -> Document:
 
 
 def _linked(doc: Document, path: str, name: str) -> Document:
-    found = find.target(doc, path)
-    if found.entry is None:
+    target = find.target(doc, path)
+    if target.entry is None:
         raise UnknownName(f"{path!r} names no parameter of an element")
-    if found.parameter not in [leaf for leaf, _, _ in leaves(found.entry.element)]:
+    if target.parameter not in [leaf for leaf, _, _ in leaves(target.entry.element)]:
         raise UnknownName(f"{path!r} is not a number that can change while the model runs")
-    return edit.link(doc, found.entry.id, found.parameter, name)
+    return edit.link(doc, target.entry.id, target.parameter, name)
 
 
 def _groups(groups: Any) -> tuple[PathNames, ...]:

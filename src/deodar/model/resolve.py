@@ -71,7 +71,7 @@ class _Resolver:
         self.later: list[tuple[Node, str, Connection]] = []
         self.failed: set[str] = set()
         self.feeds: dict[str, list[str]] = {}
-        self.found: set[Problem] = set()
+        self.reported: set[Problem] = set()
         self.after: tuple[str, set[str]] = ("", set())
 
     def run(self) -> list[Node]:
@@ -99,12 +99,12 @@ class _Resolver:
         """
         ports = {e.id: self._direct_ports(e.element) for e in self.doc.entries}
         waits = {
-            i: {c.source for p in found for c in self.into.get((i, p), []) if ports[c.source]}
-            for i, found in ports.items()
+            i: {c.source for p in direct for c in self.into.get((i, p), []) if ports[c.source]}
+            for i, direct in ports.items()
         }
         feeds = self.feeds = {i: [] for i in ports}
-        for i, found in ports.items():
-            for source in {c.source for p in found for c in self.into.get((i, p), [])}:
+        for i, direct in ports.items():
+            for source in {c.source for p in direct for c in self.into.get((i, p), [])}:
                 feeds[source].append(i)
         ready = [i for i, sources in waits.items() if not sources]
         for i in ready:  # the list grows during the loop
@@ -131,9 +131,9 @@ class _Resolver:
             self.failed.add(ident)
             ident = ring[0]
             if self.delayed & {*ring}:
-                what = f"the axes of a loop follow only from themselves and are unknown: {loop}"
+                fault = f"the axes of a loop follow only from themselves and are unknown: {loop}"
                 self.problem(
-                    ident, what, "Connect something to it whose axes are known, or put a Project into it"
+                    ident, fault, "Connect something to it whose axes are known, or put a Project into it"
                 )
             else:
                 self.problem(
@@ -167,17 +167,17 @@ class _Resolver:
             self.wire(node, skip=self._direct_ports(entry.element))
         return node
 
-    def follows(self, ident: str, other: str) -> bool:
+    def follows(self, ident: str, origin: str) -> bool:
         """Return whether the axes of a coupling follow, through couplings, from those of another."""
-        if self.after[0] != other:  # called for all sources of one element in sequence
+        if self.after[0] != origin:  # called for all sources of one element in sequence
             seen: set[str] = set()
-            ahead = [other]
+            ahead = [origin]
             while ahead:
                 i = ahead.pop()
                 if i not in seen:
                     seen.add(i)
                     ahead += self.feeds[i]
-            self.after = (other, seen)
+            self.after = (origin, seen)
         return ident in self.after[1]
 
     def _direct_ports(self, element: Element) -> set[str]:
@@ -218,7 +218,7 @@ class _Resolver:
         At a port that accepts any axes the source with the most axes and samples determines them; others
         expand.
         """
-        found: list[tuple[Node, Slot, Axes]] = []
+        arriving: list[tuple[Node, Slot, Axes]] = []
         for c in connections:
             if c.reads == "delayed":
                 self.delayed.add(c.source)
@@ -228,8 +228,8 @@ class _Resolver:
                 continue
             slot = self.slot(source, c, node)
             if slot is not None:
-                found.append((source, slot, source.outs[c.source_port]))
-        for source, slot, _ in sorted(found, key=lambda f: (-len(f[2]), -math.prod(shape(f[2])))):
+                arriving.append((source, slot, source.outs[c.source_port]))
+        for source, slot, _ in sorted(arriving, key=lambda f: (-len(f[2]), -math.prod(shape(f[2])))):
             self.attach(source, slot, node, port)
 
     def slot(self, source: Node, c: Connection, node: Node) -> Slot | None:
@@ -275,9 +275,9 @@ class _Resolver:
             want = node.ins[port]  # a port that accepts any axes took those of its first connection
         if want is None:
             want = axes
-        other = type(node.element).follows.get(port, "")
-        if other in node.ins:
-            want = node.ins[other]
+        followed = type(node.element).follows.get(port, "")
+        if followed in node.ins:
+            want = node.ins[followed]
             if {a.name for a in axes} > {a.name for a in want}:
                 ends = (
                     f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port}"
@@ -286,7 +286,7 @@ class _Resolver:
                 self.problem(
                     node.id,
                     f"{ends}: it has more axes",
-                    f"Write: let the two change places; the port {other!r} takes the larger one",
+                    f"Write: let the two change places; the port {followed!r} takes the larger one",
                 )
                 return
         node.ins[port] = want
@@ -330,8 +330,8 @@ class _Resolver:
         """Report parameters that do not fit the axes."""
         if not self.per_axis(entry, node):
             return
-        own: Any = getattr(entry.element, "axes", ())
-        twice = sorted({a.name for a in own if [b.name for b in own].count(a.name) > 1})
+        axes: Any = getattr(entry.element, "axes", ())
+        twice = sorted({a.name for a in axes if [b.name for b in axes].count(a.name) > 1})
         if twice:
             self.problem(
                 node.id, f"two of its axes are called {twice[0]!r}", "Give each axis a name of its own"
@@ -339,8 +339,8 @@ class _Resolver:
             return
         if node.id in self.failed:
             return  # a problem of the inputs would only be reported a second time
-        for what in entry.element.validate_axes(node.ins):
-            self.problem(node.id, *(what if isinstance(what, tuple) else self.between(node, what)))
+        for fault in entry.element.validate_axes(node.ins):
+            self.problem(node.id, *(fault if isinstance(fault, tuple) else self.between(node, fault)))
         clash = {p.name for p in parameters(type(entry.element))} & {*node.outs, *node.ins} - {"noise"}
         if clash:
             self.problem(
@@ -349,20 +349,20 @@ class _Resolver:
                 "Rename one of them in the element's class",
             )
 
-    def between(self, node: Node, what: str) -> tuple[str, str]:
+    def between(self, node: Node, fault: str) -> tuple[str, str]:
         """Return the problem of a coupling whose input does not fit, with both of its ends, and the line to
         type.
         """
         for port in node.ins if node.deferred else ():
             for c in self.into.get((node.id, port), []):
-                source, own = (
+                source, target_axes = (
                     self.entries[c.source].path,
                     describe(getattr(node.element, "axes", node.ins[port])),
                 )
                 names = ", ".join(a.name for a in getattr(node.element, "axes", node.ins[port]))
                 ends = (
                     f"{source}.{c.source_port} {describe(node.ins[port])} does not fit {node.path}.{port}"
-                    f" {own}: {what}"
+                    f" {target_axes}: {fault}"
                 )
                 return (
                     ends,
@@ -373,12 +373,12 @@ class _Resolver:
                         " over them"
                     ),
                 )
-        return what, ""
+        return fault, ""
 
     def per_axis(self, entry: Entry, node: Node) -> bool:
         """Return whether values given per axis are as many as the axes."""
-        own: Any = getattr(entry.element, "axes", None)
-        axes: Axes = tuple(own) if own is not None else node.ins.get("input", ())
+        element_axes: Any = getattr(entry.element, "axes", None)
+        axes: Axes = tuple(element_axes) if element_axes is not None else node.ins.get("input", ())
         good = True
         counted: dict[str, int] = {}
         for path, _, p in leaves(entry.element):
@@ -395,12 +395,12 @@ class _Resolver:
                 good = False
         return good
 
-    def problem(self, ident: str, what: str, fix: str = "") -> None:
+    def problem(self, ident: str, fault: str, fix: str = "") -> None:
         self.failed.add(ident)
-        found = Problem(self.entries[ident].path if ident in self.entries else ident, what, fix)
-        if found not in self.found:
-            self.found.add(found)
-            self.problems.append(found)
+        problem = Problem(self.entries[ident].path if ident in self.entries else ident, fault, fix)
+        if problem not in self.reported:
+            self.reported.add(problem)
+            self.problems.append(problem)
 
 
 def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
@@ -413,16 +413,20 @@ def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
 
 def misfit(axes: Axes, want: Axes) -> str:
     """Return why a connection from axes to other axes needs a coupling between them; "" if it needs none."""
-    here, there = {a.name for a in want}, {a.name for a in axes}
+    target_names, source_names = {a.name for a in want}, {a.name for a in axes}
     if bad := _unlike(axes, want):
         return f"bounds, unit or periodicity of {bad[0]!r} differ"
-    return "axes are missing on both sides" if there - here and here - there else ""
+    return (
+        "axes are missing on both sides"
+        if source_names - target_names and target_names - source_names
+        else ""
+    )
 
 
 def _unlike(axes: Axes, want: Axes) -> list[str]:
     """Return the names of axes that both have with another range, unit or boundary."""
-    here = {a.name: a for a in want}
-    return [a.name for a in axes if a.name in here and not a.fits(here[a.name])]
+    targets = {a.name: a for a in want}
+    return [a.name for a in axes if a.name in targets and not a.fits(targets[a.name])]
 
 
 def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) -> str:
@@ -442,12 +446,12 @@ def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) 
         return _regrid(chain, axes, want, names)
     missing = [a for a in want if a.name not in [b.name for b in axes]]
     extra = [a for a in axes if a.name not in [b.name for b in want]]
-    one = len(missing) == len(extra) == 1
-    if one and dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
+    one_axis = len(missing) == len(extra) == 1
+    if one_axis and dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
         return chain(f"Project([{names}], rename={{{extra[0].name!r}: {missing[0].name!r}}})")
     ways = _diagonal(chain, axes, want, names)
     ways.append(f"{chain(f'Weights(w, [{names}])')} with an array w that says which place goes where")
-    if one:
+    if one_axis:
         ways.append(f"give both the same axis, if {extra[0].name} and {missing[0].name} are one dimension")
     lost, flat = (", ".join(a.name for a in found) for found in (extra, missing))
     project = chain(f"Project([{names}])")
@@ -478,8 +482,8 @@ def _regrid(chain: Callable[[str], str], axes: Axes, want: Axes, names: str) -> 
     """Return what to write where an axis of the same name has other bounds, another unit or another
     boundary.
     """
-    here = {a.name: a for a in want}
-    pairs = [(a, here[a.name]) for a in axes if a.name in here and not a.fits(here[a.name])]
+    targets = {a.name: a for a in want}
+    pairs = [(a, targets[a.name]) for a in axes if a.name in targets and not a.fits(targets[a.name])]
     units = [(a, b) for a, b in pairs if a.unit != b.unit]
     same = f"one axis {pairs[0][0].name!r} for both"
     if units and all(dc.replace(a, unit=b.unit).fits(b) for a, b in units):

@@ -99,8 +99,8 @@ class _Script:
             named: dict[str, Code] = {"samples": str(axis.samples)}
             named |= {"periodic": "True"} if axis.periodic else {}
             named |= {"unit": text(axis.unit)} if axis.unit else {}
-            made = call("dd.Axis", text(axis.name), number(axis.lower), number(axis.upper), **named)
-            yield lines(Prefixed(f"{name} = ", made), 4)
+            axis_call = call("dd.Axis", text(axis.name), number(axis.lower), number(axis.upper), **named)
+            yield lines(Prefixed(f"{name} = ", axis_call), 4)
         general: dict[str, Code] = {}
         general |= {} if self.doc.time_unit == "ms" else {"time_unit": text(self.doc.time_unit)}
         general |= {} if self.doc.dt is None else {"dt": number(self.doc.dt)}
@@ -141,7 +141,7 @@ class _Script:
         ids: set[str] = set()
         group: PathNames = ()
         for statement in statements(self.doc):
-            new = [item.entry for item in statement.items if item.how != "exists"]
+            new = [operand.entry for operand in statement.items if operand.how != "exists"]
             if new and new[0].group != group:
                 group = new[0].group
                 heading = re.sub(r"[^\w .,:;()>/+-]", "?", display(group))  # it cannot end the comment
@@ -153,24 +153,24 @@ class _Script:
         """Return the groups that the script adds on their own: those that no element adds, or all if their
         order is another one.
         """
-        made: dict[PathNames, None] = {}
+        added: dict[PathNames, None] = {}
         for e in self.doc.entries:
-            made |= dict.fromkeys(e.group[:k] for k in range(1, len(e.names)))
-        same = tuple(made) == self.doc.groups[: len(made)]
-        return self.doc.groups[len(made) :] if same else self.doc.groups
+            added |= dict.fromkeys(e.group[:k] for k in range(1, len(e.names)))
+        same = tuple(added) == self.doc.groups[: len(added)]
+        return self.doc.groups[len(added) :] if same else self.doc.groups
 
     def _statement(self, statement: Statement, ids: set[str]) -> Code:
         last = statement.items[-1]
         if statement.reads:
-            ends = [self._handle(item) for item in statement.items]
+            ends = [self._handle(operand) for operand in statement.items]
             return call("model.connect", *ends, reads=text(statement.reads))
         items: list[Code] = []
-        for item in statement.items:
-            e = item.entry
-            if item.how == "exists":
-                items.append(self._handle(item))
+        for operand in statement.items:
+            e = operand.entry
+            if operand.how == "exists":
+                items.append(self._handle(operand))
                 continue
-            unnamed = item.how in ("follows", "named")
+            unnamed = operand.how in ("follows", "named")
             element = self._part(e.element, unnamed, self.linked.get(e.id, set()))
             items.append(element if unnamed else self._added(e, element, ids))
             ids.add(e.id)
@@ -184,17 +184,17 @@ class _Script:
         named |= {"id": text(e.id)} if stored_id(e.path, ids) != e.id else {}
         return call("model.add", element, **named)
 
-    def _handle(self, item: ChainItem) -> str:
-        name = self._variable(item.entry)
-        return f"{name}[{text(item.port)}]" if item.port else name
+    def _handle(self, operand: ChainItem) -> str:
+        name = self._variable(operand.entry)
+        return f"{name}[{text(operand.port)}]" if operand.port else name
 
     def _variable(self, e: Entry) -> str:
         if e.id not in self.variables:
-            found = variable(e.names[-1], ())
-            if found in self.taken:
-                found = variable("_".join(e.names), self.taken)
-            self.variables[e.id] = found
-            self.taken.add(found)
+            name = variable(e.names[-1], ())
+            if name in self.taken:
+                name = variable("_".join(e.names), self.taken)
+            self.variables[e.id] = name
+            self.taken.add(name)
         return self.variables[e.id]
 
     # ------------------------------------------------------------------------------------------------- values
@@ -202,7 +202,7 @@ class _Script:
     def _part(self, part: Part, unnamed: bool = False, linked: set[str] | None = None) -> Code:
         """Return the call that makes a part: values that differ from the defaults."""
         kind = type(part)
-        given = {
+        arguments = {
             p.name: self._value(p, getattr(part, p.name))
             for p in parameters(kind)
             if (not unnamed if p.name == "name" else not _is_default(p, getattr(part, p.name)))
@@ -212,18 +212,18 @@ class _Script:
         declared = {p.name: p for p in parameters(kind)}
         for name in positional(kind):
             p = declared[name]
-            alone = isinstance(part, Coupling) and set(given) - {"name"} == {name}
-            if name not in given or not (
+            alone = isinstance(part, Coupling) and set(arguments) - {"name"} == {name}
+            if name not in arguments or not (
                 name == "name" or isinstance(p.default, Needed) or p.form in ("axes", "axis") or alone
             ):
                 break
-            first.append(given.pop(name))
+            first.append(arguments.pop(name))
         function = f"dd.{kind.__name__}"
         if not registry.own(kind):
             self.imports.add(f"from {kind.__module__} import {kind.__name__}")
             function = kind.__name__
-        name = {"name": given.pop("name")} if "name" in given else {}
-        return call(function, *first, **given, **name)
+        name = {"name": arguments.pop("name")} if "name" in arguments else {}
+        return call(function, *first, **arguments, **name)
 
     def _value(self, p: Parameter, value: Any) -> Code:
         if value is None:
@@ -240,7 +240,7 @@ class _Script:
             case "part":
                 return self._inner(p, value)
             case "parts":
-                return listed(self._inner(p, item) for item in value)
+                return listed(self._inner(p, part) for part in value)
             case "array":
                 return self._array(value)
             case "numbers" | "pairs":
@@ -282,10 +282,10 @@ def _numbers(value: Any) -> Code:
 def _is_default(p: Parameter, value: Any) -> bool:
     """Return whether a parameter has its default, to the sign of a zero."""
     try:
-        known = normal(p, p.default)
+        default = normal(p, p.default)
     except ValueError:  # a required parameter
         return False
-    return value == known and repr(value) == repr(known)
+    return value == default and repr(value) == repr(default)
 
 
 def _may_be_left_out(part: Part, p: Parameter) -> bool:

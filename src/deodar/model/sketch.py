@@ -59,12 +59,12 @@ def effect(element: Element) -> Sign:
 
 def caption(element: Element) -> str:
     """Return a short text of a coupling: its kind, and its characteristic number."""
-    value = _main(element)
+    number = _main(element)
     if element.scaled_by:
-        return f"× {value}"
+        return f"× {number}"
     if element.kernels():
-        return value
-    return f"{title(element)} {value}".strip()
+        return number
+    return f"{title(element)} {number}".strip()
 
 
 def title(element: Part) -> str:
@@ -89,13 +89,13 @@ class _Sketch:
     def __init__(self, doc: Document) -> None:
         self.doc = doc
         self.by: Mapping[str, Entry] = doc.by_id()
-        known = [c for c in doc.connections if c.source in self.by and c.target in self.by]
+        connections = [c for c in doc.connections if c.source in self.by and c.target in self.by]
         self.into: dict[str, list[Connection]] = defaultdict(list)
         self.out: dict[str, list[Connection]] = defaultdict(list)
-        for c in known:
+        for c in connections:
             self.into[c.target].append(c)
             self.out[c.source].append(c)
-        self.connections = known
+        self.connections = connections
 
     def run(self) -> Graph:
         axes = {node.id: node.outs for node in resolve(self.doc)[0]}
@@ -107,16 +107,16 @@ class _Sketch:
             self._wire(c, set()) for c in self.connections if c.source in chained and c.source not in passed
         ]
         items = [self._item(e, axes.get(e.id, {})) for e in self.doc.entries if e.id not in passed]
-        own = {item.id: item.axes for item in items}
-        differ = {w.source for w in wires if own[w.target] != own[w.source]}
+        axes_of = {box.id: box.axes for box in items}
+        differ = {w.source for w in wires if axes_of[w.target] != axes_of[w.source]}
         items = tuple(dc.replace(i, axes_shown=i.form != "source" or i.id in differ) for i in items)
-        return Graph(self.doc.name, items, tuple(wires), self._groups(items), self._given())
+        return Graph(self.doc.name, items, tuple(wires), self._groups(items), self._positions())
 
     def _groups(self, items: Sequence[Item]) -> dict[GroupPath, str]:
         groups = {g: "" for g in self.doc.groups} | {use.group: use.template for use in self.doc.uses}
-        for item in items:
-            for k in range(1, len(item.group) + 1):
-                groups.setdefault(item.group[:k], "")
+        for box in items:
+            for k in range(1, len(box.group) + 1):
+                groups.setdefault(box.group[:k], "")
         return dict(sorted(groups.items()))
 
     def _item(self, entry: Entry, outs: Mapping[str, Axes]) -> Item:
@@ -131,9 +131,16 @@ class _Sketch:
         ):
             name, kind = kind, ""  # a name made from the connection adds no information to the kind
         recurrence = tuple(element.recurrence().values())
-        shown = axes if form != "coupling" else ()
+        drawn = axes if form != "coupling" else ()
         return Item(
-            entry.id, form, name, kind, shown, recurrence, entry.group, entry.every if element.stateful else 1
+            entry.id,
+            form,
+            name,
+            kind,
+            drawn,
+            recurrence,
+            entry.group,
+            entry.every if element.stateful else 1,
         )
 
     def _chained(self) -> set[str]:
@@ -173,7 +180,7 @@ class _Sketch:
         captions = tuple(caption(self.by[ident].element) for ident in on)
         return Wire(source.id, target.id, source_port, target_port, sign, captions, "delayed" in reads)
 
-    def _given(self) -> dict[str, tuple[float, float]]:
+    def _positions(self) -> dict[str, tuple[float, float]]:
         boxes: Any = self.doc.layout.get("boxes")
         out: dict[str, tuple[float, float]] = {}
         for ident, box in boxes.items() if isinstance(boxes, Mapping) else ():

@@ -64,14 +64,14 @@ class _Statements:
     def _ordered(self) -> Iterator[_Step]:
         """Yield elements in their order, and each connection as soon as both of its ends exist."""
         exist: set[str] = set()
-        left = iter(self.doc.connections)
-        following = next(left, None)
+        unread = iter(self.doc.connections)
+        following = next(unread, None)
         for e in self.doc.entries:
             yield e
             exist.add(e.id)
             while following is not None and following.source in exist and following.target in exist:
                 yield following
-                following = next(left, None)
+                following = next(unread, None)
 
     def _unnamed(self) -> Iterator[str]:
         """Yield the elements to which `source >> element` gives their name and id."""
@@ -122,8 +122,8 @@ class _Statements:
             items, reads, k = self._begun(k)
             if len(items) > 1 and not reads:
                 while not items[-1].port and items[-1].how != "named" and self._continues(k, items[-1].entry):
-                    item, k = self._next(k)
-                    items.append(item)
+                    operand, k = self._next(k)
+                    items.append(operand)
             yield Statement(tuple(items), reads)
 
     def _begun(self, k: int) -> tuple[list[ChainItem], str, int]:
@@ -133,13 +133,17 @@ class _Statements:
         step = self.steps[k]
         if isinstance(step, Connection):
             return [self._source(step), self._target(step)], step.reads, k + 1
-        near = self._plain(k + 1)
-        if near is not None and near.source == step.id != near.target and self.uses[step.id] == 1:
-            source = self._source(near)
+        following = self._plain(k + 1)
+        if (
+            following is not None
+            and following.source == step.id != following.target
+            and self.uses[step.id] == 1
+        ):
+            source = self._source(following)
             if not source.port:
-                return [dc.replace(source, how="added"), self._target(near)], "", k + 2
-        if near is not None and self.hows[k]:
-            return [self._source(near), ChainItem(step, self.hows[k])], "", k + 2
+                return [dc.replace(source, how="added"), self._target(following)], "", k + 2
+        if following is not None and self.hows[k]:
+            return [self._source(following), ChainItem(step, self.hows[k])], "", k + 2
         return [ChainItem(step, "added")], "", k + 1
 
     def _next(self, k: int) -> tuple[ChainItem, int]:

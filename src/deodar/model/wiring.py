@@ -31,20 +31,20 @@ class Wiring:
     @functools.cached_property
     def readers(self) -> dict[str, set[str]]:
         """For each node, the ids of the nodes that read one of its outputs."""
-        found: dict[str, set[str]] = {i: set() for i in self.nodes}
+        readers: dict[str, set[str]] = {i: set() for i in self.nodes}
         for n in self.nodes.values():
             for slots in n.reads.values():
                 for source, _, _ in slots:
-                    found[source].add(n.id)
-        return found
+                    readers[source].add(n.id)
+        return readers
 
     def sources(self, node: Node, port: str = "input") -> list[Node]:
         """Return the document's own elements that a port reads, through implicit projections and delays."""
-        found: list[Node] = []
+        sources: list[Node] = []
         for source, _, _ in node.reads.get(port, ()):
             n = self.nodes[source]
-            found += [n] if n.declared else self.sources(n)
-        return found
+            sources += [n] if n.declared else self.sources(n)
+        return sources
 
     @functools.cached_property
     def driven(self) -> set[str]:
@@ -53,13 +53,13 @@ class Wiring:
 
         Without any, the model is a template, which gets its inputs where it is used.
         """
-        found = {n.id for n in self.declared if not n.element.ports()}
-        ahead = list(found)
+        reached = {n.id for n in self.declared if not n.element.ports()}
+        ahead = list(reached)
         while ahead:
-            new = self.readers[ahead.pop()] - found
-            found |= new
+            new = self.readers[ahead.pop()] - reached
+            reached |= new
             ahead += new
-        return found
+        return reached
 
     @functools.cached_property
     def position(self) -> dict[str, int]:
@@ -75,38 +75,38 @@ class Wiring:
         """For each node the bounds of its ports: the smallest intervals found that hold all values reachable
         from the initial values.
         """
-        found: dict[str, dict[str, Interval] | None] = dict.fromkeys(self.nodes)
+        intervals: dict[str, dict[str, Interval] | None] = dict.fromkeys(self.nodes)
         growing: set[str] = set(self.nodes)
         for k in range(MOST_PASSES):
             moved: set[str] = set()
             for i in growing:
                 n = self.nodes[i]
                 inputs = {
-                    port: total(*(_known(found, source, p) for source, p, _ in slots))
+                    port: total(*(_known(intervals, source, p) for source, p, _ in slots))
                     for port, slots in n.reads.items()
                 }
-                before = found[i]
-                found[i] = new = dict(n.element.bounds(n.ins, inputs, before or {}))
+                before = intervals[i]
+                intervals[i] = new = dict(n.element.bounds(n.ins, inputs, before or {}))
                 if before is None or any(_apart(v, before.get(port, ANY)) for port, v in new.items()):
                     moved.add(i)
             if not moved:
                 break
             if k >= MOST_PASSES // 2:  # values that still widen have no bounds
                 growing -= moved
-                found |= {i: {} for i in moved}
-        return {i: values or {} for i, values in found.items()}
+                intervals |= {i: {} for i in moved}
+        return {i: values or {} for i, values in intervals.items()}
 
 
-def warning(node: Node, what: str, fix: str) -> Problem:
+def warning(node: Node, sentence: str, fix: str) -> Problem:
     """Return a warning about one element."""
-    return Problem(node.path, what, fix, "warning")
+    return Problem(node.path, sentence, fix, "warning")
 
 
-def _known(found: dict[str, dict[str, Interval] | None], source: str, port: str) -> Interval:
+def _known(intervals: dict[str, dict[str, Interval] | None], source: str, port: str) -> Interval:
     """Return the bounds of an output: empty for a node not yet visited, unbounded for a node that states
     none.
     """
-    values = found[source]
+    values = intervals[source]
     return ZERO if values is None else values.get(port, ANY)
 
 

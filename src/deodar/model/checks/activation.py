@@ -77,50 +77,50 @@ def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> 
     if not (short and e.sigmoid.bounds((at.most, at.most))[1] < SILENT):
         return
     if not n.reads["input"] and wiring.driven:
-        what = (
+        sentence = (
             f"nothing is connected to it, and its resting level {h:g} lies below its threshold {threshold:g}:"
             " it is never active"
         )
-        yield warning(n, what, f"Connect an input: model.connect(..., {n.path!r}); or remove it")
+        yield warning(n, sentence, f"Connect an input: model.connect(..., {n.path!r}); or remove it")
     elif n.id in wiring.driven and at.high <= 0 and at.low < 0:
-        what = (
+        sentence = (
             f"gets only inhibition (at most {at.high:g}), and its resting level {h:g} lies below its"
             f" threshold {threshold:g}: it is never on"
         )
-        yield warning(n, what, "Change the sign of what should excite it, or connect what does")
+        yield warning(n, sentence, "Change the sign of what should excite it, or connect what does")
     elif n.id in wiring.driven:
-        what = (
+        sentence = (
             f"never reaches its threshold {threshold:g}: its resting level is {h:g}, its inputs add at most"
             f" {at.high:.3g}, and its own excitation does not help below the threshold; activation stays"
             f" below {at.most:.3g}"
         )
         raised = f"raise resting_level above {threshold - at.high:.3g}"
-        yield warning(n, what, f"Make its inputs stronger than {threshold - h:g}, or {raised}")
+        yield warning(n, sentence, f"Make its inputs stronger than {threshold - h:g}, or {raised}")
 
 
 def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> Iterator[Problem]:
-    own = wiring.bounds[n.id].get("interaction", (0.0, 0.0))[0]
+    inhibition = wiring.bounds[n.id].get("interaction", (0.0, 0.0))[0]
     if isinstance(e, RateNode):
-        own = min(0.0, e.self_excitation)
-    least = at.rest + at.low + own
+        inhibition = min(0.0, e.self_excitation)
+    least = at.rest + at.low + inhibition
     if least > at.threshold + CLEAR and n.reads["input"]:
-        what = (
+        sentence = (
             f"is always above its threshold {at.threshold:g}: with its resting level {at.rest:g} and its"
             f" weakest input ({at.low:g}) activation stays at {least:g} or above"
         )
         fix = f"Use a resting_level below {at.threshold - at.low:g}; resting levels are usually negative (-5)"
-        yield warning(n, what, fix)
+        yield warning(n, sentence, fix)
 
 
 def _flat(n: Node, sigmoid: Logistic, at: InputLevels) -> Iterator[Problem]:
     output = sigmoid.bounds((at.rest, at.rest))[1]
     if output > AT_REST:
-        what = (
+        sentence = (
             f"gives an output of {output:.2g} at rest: with beta = {sigmoid.beta:g} its sigmoid is too flat"
             f" for a resting level of {at.rest:g}"
         )
         steeper = 4 / (at.threshold - at.rest)
-        yield warning(n, what, f"Use beta of {steeper:.2g} or more, or a lower resting_level")
+        yield warning(n, sentence, f"Use beta of {steeper:.2g} or more, or a lower resting_level")
 
 
 def _noisy(n: Node, e: Field, at: InputLevels) -> Iterator[Problem]:
@@ -128,11 +128,11 @@ def _noisy(n: Node, e: Field, at: InputLevels) -> Iterator[Problem]:
     deviation = e.noise / math.sqrt(2 * e.tau * (1.0 if any(lengths) else cell(tuple(e.axes))))
     missing = at.threshold - at.rest
     if 0 < missing < deviation:
-        what = (
+        sentence = (
             "its noise alone brings it above its threshold: activation has a standard deviation of"
             f" {deviation:.2g}, and its resting level lies {missing:g} below the threshold"
         )
-        yield warning(n, what, f"Use noise below {e.noise * missing / deviation / 4:.2g}")
+        yield warning(n, sentence, f"Use noise below {e.noise * missing / deviation / 4:.2g}")
 
 
 def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
@@ -160,13 +160,13 @@ def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
         axes = n.ins["input"] if isinstance(e, PeakPosition) else tuple(e.axes)
         whole = most * math.prod(a.step * a.samples for a in axes)
         if whole < e.least:
-            what = (
+            sentence = (
                 f"never finds a peak: least is {e.least:g}, and the integral of its input is at most"
                 f" {whole:g}"
             )
             yield warning(
                 n,
-                what,
+                sentence,
                 "Use least far below the integral of one peak (its width times its height), such as"
                 f" {whole / 100:.2g}",
             )

@@ -20,8 +20,8 @@ def check(wiring: Wiring) -> Iterator[Problem]:
     """Yield one warning per axis, at the first element that has it."""
     seen: set[Axis] = set()
     for n in wiring.declared:
-        own: Any = getattr(n.element, "axes", ())
-        for axis in (*own, *(a for a in (getattr(n.element, "axis", None),) if isinstance(a, Axis))):
+        axes: Any = getattr(n.element, "axes", ())
+        for axis in (*axes, *(a for a in (getattr(n.element, "axis", None),) if isinstance(a, Axis))):
             if axis not in seen:
                 seen.add(axis)
                 yield from _axis(n, axis)
@@ -29,13 +29,13 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 
 def _axis(n: Node, a: Axis) -> Iterator[Problem]:
     if a.periodic and a.samples > 2 and _round(a.range / (a.samples - 1)) and not _round(a.range / a.samples):
-        what = (
+        sentence = (
             f"the periodic axis {a.name!r} counts its end twice: {a.lower:g} and {a.upper:g} are one place,"
             f" so {a.samples} samples lie {a.range / a.samples:g} apart, not {a.range / (a.samples - 1):g}"
         )
-        yield warning(n, what, f"Write samples={a.samples - 1}")
+        yield warning(n, sentence, f"Write samples={a.samples - 1}")
     unit = a.unit.lower()
-    whole, other = (
+    whole, other_unit = (
         (360.0, "rad") if unit in DEGREES else (2 * math.pi, "deg") if unit in RADIANS else (0.0, "")
     )
     turns = (
@@ -44,17 +44,17 @@ def _axis(n: Node, a: Axis) -> Iterator[Problem]:
         else set[float]()
     )
     if any(math.isclose(a.range, t, rel_tol=1e-3) for t in turns):
-        what = (
-            f"the axis {a.name!r} is {a.range:g} long, a turn or half of one in {other}, but its unit is"
+        sentence = (
+            f"the axis {a.name!r} is {a.range:g} long, a turn or half of one in {other_unit}, but its unit is"
             f" {a.unit}"
         )
-        yield warning(n, what, f"Write unit={other!r}, or the bounds in {a.unit}")
+        yield warning(n, sentence, f"Write unit={other_unit!r}, or the bounds in {a.unit}")
     elif whole and not a.periodic and math.isclose(a.range, whole, rel_tol=1e-4):
-        what = (
+        sentence = (
             f"the axis {a.name!r} is a whole circle ({a.range:g} {a.unit}), but its ends do not meet: kernels"
             " treat its ends as far apart"
         )
-        yield warning(n, what, f"Write periodic=True and samples={a.samples - 1}")
+        yield warning(n, sentence, f"Write periodic=True and samples={a.samples - 1}")
 
 
 def _round(step: float) -> bool:

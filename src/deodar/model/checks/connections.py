@@ -33,11 +33,11 @@ def check(wiring: Wiring) -> Iterator[Problem]:
     motors: dict[str, Node] = {}
     for n in wiring.declared:
         if isinstance(n.element, Motor) and (first := motors.setdefault(n.element.motor, n)) is not n:
-            what = (
+            sentence = (
                 f"commands the motor {n.element.motor!r}, which {first.path} commands too: a motor takes one"
                 " command"
             )
-            yield warning(n, what, "Name another motor, or connect both signals to one element")
+            yield warning(n, sentence, "Name another motor, or connect both signals to one element")
     for shared in wiring.doc.parameters:
         if not shared.links and wiring.driven:
             fix = f"Link it: model.link('element.parameter', {shared.name!r}); or remove it"
@@ -81,5 +81,7 @@ def _twice(wiring: Wiring, n: Node) -> Iterator[Problem]:
                 and source[0] in direct
                 and not source[0].element.stateful
             ):
-                what = f"gets {source[0].path} twice: directly, and through {g.path}"
-                yield warning(n, what, f"Disconnect one: model.disconnect({source[0].path!r}, {n.path!r})")
+                sentence = f"gets {source[0].path} twice: directly, and through {g.path}"
+                yield warning(
+                    n, sentence, f"Disconnect one: model.disconnect({source[0].path!r}, {n.path!r})"
+                )

@@ -32,26 +32,26 @@ WIDE = 2.0
 def check(wiring: Wiring) -> Iterator[Problem]:
     """Check every kernel of every element."""
     for n in wiring.declared:
-        found: Any = getattr(n.element, "kernel", ())
-        kernels: Sequence[Any] = found if isinstance(found, tuple) else ()
+        parameter: Any = getattr(n.element, "kernel", ())
+        kernels: Sequence[Any] = parameter if isinstance(parameter, tuple) else ()
         for i, kernel in enumerate(kernels):
             if isinstance(kernel, Kernel):
                 yield from _kernel(n, f"kernel.{i}", kernel)
         for name in ("global_inhibition", "inhibition") if n.element.stateful else ():
-            value: Any = getattr(n.element, name, 0.0)
-            if value < 0:
-                what = (
-                    f"{name} is {value:g}: it is counted positive and subtracted, so a negative one excites"
-                    " everything that is on"
+            inhibition: Any = getattr(n.element, name, 0.0)
+            if inhibition < 0:
+                sentence = (
+                    f"{name} is {inhibition:g}: it is counted positive and subtracted, so a negative one"
+                    " excites everything that is on"
                 )
-                yield warning(n, what, f"Write {name}={-value:g}")
+                yield warning(n, sentence, f"Write {name}={-inhibition:g}")
 
 
 def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
-    own: Any = getattr(n.element, "axes", None)
-    axes = tuple(own) if own is not None else n.ins.get("input", ())
-    for what, fix in _faults(kernel, axes):
-        yield warning(n, f"{where}: {what}", fix)
+    element_axes: Any = getattr(n.element, "axes", None)
+    axes = tuple(element_axes) if element_axes is not None else n.ins.get("input", ())
+    for fault, fix in _faults(kernel, axes):
+        yield warning(n, f"{where}: {fault}", fix)
 
 
 def _faults(kernel: Kernel, axes: Axes) -> Iterator[Fault]:
@@ -81,10 +81,10 @@ def _beyond(kernel: Shifted, axes: Axes) -> Iterator[Fault]:
 def _signs(kernel: MexicanHat) -> Iterator[Fault]:
     if kernel.inhibition < 0 or kernel.excitation < 0:
         name, does = ("inhibition", "excites") if kernel.inhibition < 0 else ("excitation", "inhibits")
-        value: float = getattr(kernel, name)
+        strength: float = getattr(kernel, name)
         yield (
-            f"{name} is {value:g}, and both are counted positive, so it {does}",
-            f"Write {name}={-value:g}",
+            f"{name} is {strength:g}, and both are counted positive, so it {does}",
+            f"Write {name}={-strength:g}",
         )
     elif kernel.inhibition > kernel.excitation and not kernel.normalized:
         yield (

@@ -51,7 +51,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             if finite
             else "its sigmoid is a step"
         )
-        what = (
+        sentence = (
             f"holds peaks without input whose edges are narrower than a sample ({edge}): peaks stick to"
             " samples, and thresholds depend on the grid"
         )
@@ -62,7 +62,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             if finite
             else ""
         )
-        yield warning(n, what, 'Write quadrature="cell"' + (f"; or {finer}" if finer else ""))
+        yield warning(n, sentence, 'Write quadrature="cell"' + (f"; or {finer}" if finer else ""))
 
 
 def steepness(field: Field) -> list[float]:
@@ -121,7 +121,7 @@ def _beta(field: Field) -> float:
 
 def _terms(field: Field) -> list[tuple[float, list[float]]]:
     """Return the integral and the widths of each Gaussian of the kernel; empty for another kernel."""
-    found: list[tuple[float, list[float]]] = []
+    terms: list[tuple[float, list[float]]] = []
     for k in field.kernel:
         if isinstance(k, MexicanHat):
             parts = [
@@ -134,11 +134,11 @@ def _terms(field: Field) -> list[tuple[float, list[float]]]:
             return []
         for amplitude, sigma, normalized in parts:
             sigmas = [float(s) for s in per_axis(sigma, field.axes)]
-            found.append(
+            terms.append(
                 (
                     amplitude
                     * (1.0 if normalized else math.prod(math.sqrt(2 * math.pi) * s for s in sigmas)),
                     sigmas,
                 )
             )
-    return found
+    return terms

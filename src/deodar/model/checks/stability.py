@@ -32,12 +32,12 @@ def check(wiring: Wiring) -> Iterator[Problem]:
                 reported |= {m.id for m, _ in loop}
                 gain = math.prod(g for _, g in loop)
                 names = " -> ".join([m.path for m, _ in loop] + [n.path])
-                what = (
+                sentence = (
                     f"grows without bound: once round the loop {names} a signal is multiplied by {gain:.3g}"
                 )
                 yield warning(
                     n,
-                    what,
+                    sentence,
                     "Make the product of its gains smaller than 1, or take a sigmoid that saturates:"
                     " Logistic()",
                 )
@@ -95,14 +95,14 @@ def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
     edge = e.resting_level + sum(b for _, b in parts) / 2 - threshold
     if any(a for a, _ in parts) or not 0 < edge < math.inf or e.global_inhibition * whole > 0.5 * edge:
         return
-    what = (
+    sentence = (
         "a peak in it spreads over the whole field: half of its kernel's integral"
         f" ({sum(b for _, b in parts) / 2:.3g}) exceeds the resting level {e.resting_level:g}, and nothing"
         " inhibits distant positions"
     )
     yield warning(
         n,
-        what,
+        sentence,
         f"Give it global_inhibition (about {edge / (0.2 * whole):.2g}), a MexicanHat, or a weaker kernel",
     )
 
@@ -114,15 +114,15 @@ def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
     sources = wiring.sources(n)
     if e.noise > 0 or e.global_inhibition <= 0 or len(sources) < 2:
         return
-    found = sorted(sources, key=lambda m: wiring.position[m.id])
+    inputs = sorted(sources, key=lambda m: wiring.position[m.id])
     same = {
         dc.replace(m.element, name="", center=0.0)
-        for m in found
+        for m in inputs
         if isinstance(m.element, (GaussianStimulus, BoxStimulus))
     }
-    if len(same) == 1 and all(isinstance(m.element, (GaussianStimulus, BoxStimulus)) for m in found):
-        what = (
-            f"its inputs {' and '.join(m.path for m in found)} are equal, they compete, and noise is 0:"
+    if len(same) == 1 and all(isinstance(m.element, (GaussianStimulus, BoxStimulus)) for m in inputs):
+        sentence = (
+            f"its inputs {' and '.join(m.path for m in inputs)} are equal, they compete, and noise is 0:"
             " rounding decides which one wins"
         )
-        yield warning(n, what, "Give it noise, such as noise=0.1, or make one input stronger")
+        yield warning(n, sentence, "Give it noise, such as noise=0.1, or make one input stronger")

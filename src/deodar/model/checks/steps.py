@@ -42,22 +42,24 @@ def _constants(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
         yield dc.replace(problem, fix=f"{stated}{problem.fix}")
     for limit in step_limits(n.element):
         if limit.role == "time constant" and COARSE * limit.value < step < limit.value * (1 - 1e-9):
-            what = (
+            sentence = (
                 f"the step of {step:g} {unit} is long for {limit.path} = {limit.value:g}: the Euler method is"
                 f" inaccurate from {COARSE:g} of it"
             )
-            yield warning(n, what, f"Write dt={limit.value / n.every / 10:g}, a tenth of {limit.path}")
+            yield warning(n, sentence, f"Write dt={limit.value / n.every / 10:g}, a tenth of {limit.path}")
     for p in parameters(type(n.element)):
-        value: Any = getattr(n.element, p.name)
-        if p.role == "duration" and p.name in ("delay", "interval") and value < step * (1 - 1e-9):
-            what = f"{p.name} = {value:g} {unit} is shorter than the step of {step:g}, and counts as one step"
-            yield warning(n, what, f"Give it in {unit}, or take a smaller step")
+        duration: Any = getattr(n.element, p.name)
+        if p.role == "duration" and p.name in ("delay", "interval") and duration < step * (1 - 1e-9):
+            sentence = (
+                f"{p.name} = {duration:g} {unit} is shorter than the step of {step:g}, and counts as one step"
+            )
+            yield warning(n, sentence, f"Give it in {unit}, or take a smaller step")
     if isinstance(n.element, MemoryTrace) and n.element.tau_build > n.element.tau_decay:
-        what = (
+        sentence = (
             f"tau_build = {n.element.tau_build:g} is longer than tau_decay = {n.element.tau_decay:g}: it"
             " forgets faster than it learns"
         )
-        yield warning(n, what, "Exchange the two")
+        yield warning(n, sentence, "Exchange the two")
 
 
 def _windows(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
@@ -66,16 +68,18 @@ def _windows(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
         if not isinstance(w, Window) or w.stop <= w.start:
             continue
         if w.stop <= wiring.doc.t0:
-            what = f"windows.{k} ends at {w.stop:g}, before the run begins at {wiring.doc.t0:g}"
+            sentence = f"windows.{k} ends at {w.stop:g}, before the run begins at {wiring.doc.t0:g}"
             yield warning(
-                n, what, f"Windows are times on the document's clock: begin at {wiring.doc.t0:g} or later"
+                n, sentence, f"Windows are times on the document's clock: begin at {wiring.doc.t0:g} or later"
             )
         elif w.stop - w.start < step * (1 - 1e-9):
-            what = (
+            sentence = (
                 f"windows.{k} is {w.stop - w.start:g} {wiring.doc.time_unit} long, shorter than the step of"
                 f" {step:g}: it may never be on"
             )
-            yield warning(n, what, f"Give start and stop in {wiring.doc.time_unit}, or take a smaller step")
+            yield warning(
+                n, sentence, f"Give start and stop in {wiring.doc.time_unit}, or take a smaller step"
+            )
 
 
 def _learning(n: Node) -> Iterator[Problem]:
@@ -83,14 +87,14 @@ def _learning(n: Node) -> Iterator[Problem]:
     if not isinstance(e, (Hebbian, AdaptiveWeights)):
         return
     if e.rate == 0 and e.start is None and e.initial == 0:
-        what = "its rate is 0 and its weights begin at 0: it learns nothing, and gives 0"
-        yield warning(n, what, "Give it a rate, such as 0.01, or weights: start=...")
+        sentence = "its rate is 0 and its weights begin at 0: it learns nothing, and gives 0"
+        yield warning(n, sentence, "Give it a rate, such as 0.01, or weights: start=...")
     if isinstance(e, Hebbian) and 0 < e.saturation < e.initial and e.start is None:
-        what = (
+        sentence = (
             f"its initial weights of {e.initial:g} lie above its saturation {e.saturation:g}: the first"
             " learning step makes them smaller"
         )
-        yield warning(n, what, f"Write initial={e.saturation:g} or less, or a larger saturation")
+        yield warning(n, sentence, f"Write initial={e.saturation:g} or less, or a larger saturation")
 
 
 def _series(n: Node, step: float) -> Iterator[Problem]:
@@ -98,8 +102,8 @@ def _series(n: Node, step: float) -> Iterator[Problem]:
     if isinstance(e, TimeSeries) and isinstance(e.times, FrozenArray) and len(e.times.data) > 1:
         first, last = float(e.times.data[0]), float(e.times.data[-1])
         if last - first < step:
-            what = f"its times from {first:g} to {last:g} all lie inside one step of {step:g}"
-            yield warning(n, what, "Give times in the document's time unit")
+            sentence = f"its times from {first:g} to {last:g} all lie inside one step of {step:g}"
+            yield warning(n, sentence, "Give times in the document's time unit")
         elif 0 < e.period < last:
             yield warning(
                 n,
@@ -111,13 +115,13 @@ def _series(n: Node, step: float) -> Iterator[Problem]:
         for axis, center, sigma, velocity in every:
             c, s, v = float(center), float(sigma), float(velocity)
             if abs(v) * step > 2 * s:
-                what = (
+                sentence = (
                     f"its velocity of {v:g} carries it {abs(v) * step:g} in one step of {step:g}, further"
                     " than its width: it jumps"
                 )
                 yield warning(
                     n,
-                    what,
+                    sentence,
                     f"Give the velocity in units of the axis {axis.name!r} per unit of the document's time",
                 )
             elif (
@@ -125,13 +129,13 @@ def _series(n: Node, step: float) -> Iterator[Problem]:
                 and not axis.periodic
                 and ((c > axis.upper + 3 * s and v >= 0) or (c < axis.lower - 3 * s and v <= 0))
             ):
-                what = (
+                sentence = (
                     f"begins at {c:g}, outside the axis {axis.name!r} ({axis.lower:g}..{axis.upper:g}); its"
                     f" velocity {v:g} never brings it there"
                 )
                 yield warning(
                     n,
-                    what,
+                    sentence,
                     f"Use a center between {axis.lower:g} and {axis.upper:g}, or another sign of the"
                     " velocity",
                 )
