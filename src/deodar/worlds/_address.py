@@ -48,8 +48,8 @@ class Address:
         Raises:
             WorldError: the text is not an address, or hides credentials that nothing else states.
         """
-        shown = masked(text)
-        where = f"camera {shown}"
+        displayed = masked(text)
+        where = f"camera {displayed}"
         if not is_address(text):
             fix = f"Write {', '.join(f'{scheme}://' for scheme in PORTS)} or the path of a file"
             raise WorldError("is not an address of a camera", where=where, fix=fix)
@@ -61,9 +61,9 @@ class Address:
             if not host:
                 raise ValueError
         except ValueError:
-            what = "the address of a camera has no host, or characters that an address cannot have"
+            fault = "the address of a camera has no host, or characters that an address cannot have"
             fix = "Write rtsp://HOST:PORT/PATH, and %40 for @ in a password, %2F for /"
-            raise WorldError(what, where=masked(text.split()[0]) if text.split() else "", fix=fix) from None
+            raise WorldError(fault, where=masked(text.split()[0]) if text.split() else "", fix=fix) from None
         user, at, place = parts.netloc.rpartition("@")
         if user == HIDDEN:
             user = _login(host, where)
@@ -71,7 +71,7 @@ class Address:
             fix = "Name the camera again, with the whole address"
             raise WorldError("the address was stored without its secrets", where=where, fix=fix)
         full = parts._replace(netloc=f"{user}{at}{place}").geturl()
-        return cls(shown, parts.scheme, host, port, full, bool(at))
+        return cls(displayed, parts.scheme, host, port, full, bool(at))
 
 
 def _login(host: str, where: str) -> str:
@@ -79,11 +79,11 @@ def _login(host: str, where: str) -> str:
     file = Path(os.environ.get("NETRC") or Path.home() / ".netrc")
     fix = f"Add a line to it: machine {host} login USER password PASSWORD"
     try:
-        known = netrc.netrc(str(file)).hosts if file.is_file() else {}
+        hosts = netrc.netrc(str(file)).hosts if file.is_file() else {}
     except (OSError, netrc.NetrcParseError) as error:
         why = error.msg if isinstance(error, netrc.NetrcParseError) else str(error.strerror)
         raise WorldError(f"{file} cannot be read: {why}", where=where) from None
-    found = known.get(host)
-    if found is None:
+    login = hosts.get(host)
+    if login is None:
         raise WorldError(f"{file} states no login for {host}", where=where, fix=fix)
-    return f"{quote(found[0], safe='')}:{quote(found[2], safe='')}"
+    return f"{quote(login[0], safe='')}:{quote(login[2], safe='')}"

@@ -272,16 +272,16 @@ class World:
 def fitting(name: str, signal: Signal, axes: Axes) -> None:
     """Raise WorldError if the axes do not have the shape of a sensor or motor."""
     if signal.shape is not None and shape(axes) != signal.shape:
-        wanted = (
+        expected = (
             "no axes, it is one number"
             if not signal.shape
             else "axes of " + " x ".join(map(str, signal.shape)) + " samples"
         )
-        raise WorldError(f"{name!r} has {wanted}; the model gives it {list(shape(axes))}")
+        raise WorldError(f"{name!r} has {expected}; the model gives it {list(shape(axes))}")
 
 
-def _hint(name: str, known: Mapping[str, Signal], what: str) -> str:
-    if not known:
-        return f"It has no {what}"
-    near = did_you_mean(name, known)
-    return near if near.startswith("Valid names") else f"{near} Valid names: {', '.join(sorted(known))}"
+def _hint(name: str, signals: Mapping[str, Signal], direction: str) -> str:
+    if not signals:
+        return f"It has no {direction}"
+    hint = did_you_mean(name, signals)
+    return hint if hint.startswith("Valid names") else f"{hint} Valid names: {', '.join(sorted(signals))}"

@@ -75,12 +75,10 @@ class CameraReader:
         size: width and height in pixels.
     """
 
-    def __init__(
-        self, source: CameraSource, times: CameraTimes, wanted: tuple[int, int] | None = None
-    ) -> None:
+    def __init__(self, source: CameraSource, times: CameraTimes, size: tuple[int, int] | None = None) -> None:
         self.source, self.times = source, times
         _capture.opencv("a camera")
-        self._stream = _Stream(source, times, wanted)
+        self._stream = _Stream(source, times, size)
         self._thread = threading.Thread(target=self._stream.run, name=source.where, daemon=True)
         self._thread.start()
         weakref.finalize(self, self._stream.closing.set)
@@ -93,10 +91,10 @@ class CameraReader:
             raise self._failed(answered, max(times.opening - (time.monotonic() - began), 0.1))
         height, width = self._stream.newest.shape[:2]
         self.size = (int(width), int(height))
-        if wanted is not None and self.size != wanted:
+        if size is not None and self.size != size:
             self.close()
             raise WorldError(
-                f"has pictures of {width} x {height}, and {wanted[0]} x {wanted[1]} are stated",
+                f"has pictures of {width} x {height}, and {size[0]} x {size[1]} are stated",
                 where=source.where,
                 fix=f"State the size that it has: size=({width}, {height})",
             )
@@ -131,21 +129,21 @@ class CameraReader:
         """Return why no picture came."""
         where = self.source.where
         if self.source.address is not None:
-            found = unreachable(self.source.address, seconds)
-            if found is None and not answered:
+            reason = unreachable(self.source.address, seconds)
+            if reason is None and not answered:
                 peer = f"{self.source.address.host}:{self.source.address.port}"
-                what = f"{peer} accepts the connection and sends no picture within {self.times.opening:g} s"
-                found = Unreachable(what, "Check the port and the path, or allow more: open_timeout=10")
-            if found is None:
+                fault = f"{peer} accepts the connection and sends no picture within {self.times.opening:g} s"
+                reason = Unreachable(fault, "Check the port and the path, or allow more: open_timeout=10")
+            if reason is None:
                 fix = "Check the path: a player of videos has to show it, too"
-                found = Unreachable("sends nothing that OpenCV reads as pictures", fix)
-            return WorldError(found.what, where=where, fix=found.fix)
+                reason = Unreachable("sends nothing that OpenCV reads as pictures", fix)
+            return WorldError(reason.what, where=where, fix=reason.fix)
         if self.source.form == "file":
             return WorldError("cannot be read as a video", where=where, fix="Name an .mp4 or .avi file")
-        what = "there is no camera, or another program uses it"
+        fault = "there is no camera, or another program uses it"
         if not answered:
-            what = f"sends no picture within {self.times.opening:g} s"
-        return WorldError(what, where=where, fix="Try another number: --world camera:1")
+            fault = f"sends no picture within {self.times.opening:g} s"
+        return WorldError(fault, where=where, fix="Try another number: --world camera:1")
 
 
 class _Stream:
@@ -155,8 +153,8 @@ class _Stream:
     garbage-collected.
     """
 
-    def __init__(self, source: CameraSource, times: CameraTimes, wanted: tuple[int, int] | None) -> None:
-        self.source, self.times, self.wanted = source, times, wanted
+    def __init__(self, source: CameraSource, times: CameraTimes, size: tuple[int, int] | None) -> None:
+        self.source, self.times, self.size = source, times, size
         self.newest: np.ndarray | None = None
         self.since = time.monotonic()
         self.ended = False
@@ -167,7 +165,7 @@ class _Stream:
         with _capture.silence():
             opened: Any = None
             try:
-                opened = _opened(self.source, self.times, self.wanted)
+                opened = _opened(self.source, self.times, self.size)
                 if opened.isOpened():
                     self._watch(opened)
             except _capture.opencv("a camera").error:
@@ -181,17 +179,17 @@ class _Stream:
         pace = float(opened.get(_capture.RATE)) if self.source.form == "file" else 0.0
         least, next_kept, due = 1.0 / (self.times.rate or np.inf), 0.0, time.monotonic()
         while not self.closing.is_set():
-            there, picture = opened.read()
-            now = time.monotonic()
-            if there and now >= next_kept:
+            has_picture, picture = opened.read()
+            moment = time.monotonic()
+            if has_picture and moment >= next_kept:
                 self.newest = np.ascontiguousarray(picture[:, :, ::-1])
-                next_kept = now + least if self.times.rate else 0.0
-            if there:
-                self.since = now
+                next_kept = moment + least if self.times.rate else 0.0
+            if has_picture:
+                self.since = moment
                 self.ready.set()
-            elif self.source.form != "device" or now - self.since > self.times.patience:
+            elif self.source.form != "device" or moment - self.since > self.times.patience:
                 # FFmpeg gives up a stream that sends nothing for `patience`
-                self.ended = self.source.form != "device" and now - self.since < 0.9 * self.times.patience
+                self.ended = self.source.form != "device" and moment - self.since < 0.9 * self.times.patience
                 return
             else:
                 self.closing.wait(0.02)
@@ -210,7 +208,7 @@ def _leave(thread: threading.Thread, closing: threading.Event) -> None:
         thread.join(timeout=LEAVING)
 
 
-def _opened(source: CameraSource, times: CameraTimes, wanted: tuple[int, int] | None) -> Any:
+def _opened(source: CameraSource, times: CameraTimes, size: tuple[int, int] | None) -> Any:
     """Open what a camera names."""
     cv2 = _capture.opencv("a camera")
     if source.address is not None:
@@ -220,29 +218,29 @@ def _opened(source: CameraSource, times: CameraTimes, wanted: tuple[int, int] | 
     if source.form == "file":
         return _capture.capture(str(source.opened), "a camera")
     opened = cv2.VideoCapture(source.opened, cv2.CAP_ANY if isinstance(source.opened, int) else cv2.CAP_V4L2)
-    if wanted is not None:
-        opened.set(cv2.CAP_PROP_FRAME_WIDTH, wanted[0])
-        opened.set(cv2.CAP_PROP_FRAME_HEIGHT, wanted[1])
+    if size is not None:
+        opened.set(cv2.CAP_PROP_FRAME_WIDTH, size[0])
+        opened.set(cv2.CAP_PROP_FRAME_HEIGHT, size[1])
     if times.rate is not None:
         opened.set(cv2.CAP_PROP_FPS, times.rate)
     return opened
 
 
-def source_of(given: int | str) -> CameraSource:
+def source_of(name: int | str) -> CameraSource:
     """Return what the number of a device, the path of a device or file, or an address names.
 
     Raises:
         WorldError: it names none of these, or there is no such file.
     """
-    if not isinstance(given, str):
-        return CameraSource("device", int(given), int(given))
-    if "://" in given:
-        address = Address.of(given)
+    if not isinstance(name, str):
+        return CameraSource("device", int(name), int(name))
+    if "://" in name:
+        address = Address.of(name)
         return CameraSource("address", address.shown, address=address)
-    path = Path(given)
+    path = Path(name)
     if path.is_char_device():
-        return CameraSource("device", given, str(path.absolute()))
+        return CameraSource("device", name, str(path.absolute()))
     if not path.is_file():
         fix = "Name a number such as 0, a device, a file, or an address: rtsp://HOST/PATH"
-        raise WorldError("there is no such device or file", where=f"camera {given}", fix=fix)
-    return CameraSource("file", given, str(path.absolute()))
+        raise WorldError("there is no such device or file", where=f"camera {name}", fix=fix)
+    return CameraSource("file", name, str(path.absolute()))

@@ -102,12 +102,12 @@ class VideoReader:
 
         After the end of the video, return the last picture, or with `again` start from the first one.
         """
-        wanted = int(moment * self.rate / 1000 + 1e-6)
+        number = int(moment * self.rate / 1000 + 1e-6)
         if again and self.pictures is not None:
-            wanted %= self.pictures
-        if wanted < self._number:
+            number %= self.pictures
+        if number < self._number:
             self.rewind()
-        while self._number < wanted:
+        while self._number < number:
             picture = self._next()
             if picture is None:
                 self.pictures = self._number + 1
@@ -116,8 +116,8 @@ class VideoReader:
         return self._shown
 
     def _next(self) -> np.ndarray | None:
-        there, picture = self._opened.read()
-        return np.ascontiguousarray(picture[:, :, ::-1]) if there else None
+        has_picture, picture = self._opened.read()
+        return np.ascontiguousarray(picture[:, :, ::-1]) if has_picture else None
 
     def __getstate__(self) -> dict[str, Any]:
         return {"path": self.path}
@@ -142,8 +142,8 @@ def example(moves: bool = True) -> Path:
     film: Any = cv2.VideoWriter(str(file), cv2.VideoWriter_fourcc(*"MJPG"), 25.0, (64, 48))
     for k in range(25):
         picture = np.full((48, 64, 3), 128, np.uint8)
-        left = 2 * k if moves else 24
-        picture[16:32, left : left + 16] = (0, 0, 255)
+        corner = 2 * k if moves else 24
+        picture[16:32, corner : corner + 16] = (0, 0, 255)
         film.write(picture)
     film.release()
     return file

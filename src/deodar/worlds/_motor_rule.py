@@ -52,9 +52,9 @@ class MotorRule:
             command = np.clip(command, last - most, last + most).astype(command.dtype)
         return command if self.limits is None else np.clip(command, *self.limits)
 
-    def at_rest(self, like: np.ndarray) -> np.ndarray:
+    def at_rest(self, command: np.ndarray) -> np.ndarray:
         """Return the command at rest, with the shape and type of another command."""
-        return np.full_like(like, self.rest)
+        return np.full_like(command, self.rest)
 
     def to_data(self) -> JsonObject:
         """Return the rule as plain data, without what allows everything."""
@@ -72,12 +72,16 @@ class MotorRule:
         Raises:
             WorldError: a value is not what the rule needs.
         """
-        given = data.get("limits")
+        limits = data.get("limits")
         pair = (
-            [real(v) for v in given] if isinstance(given, (list, tuple)) else [] if given is None else [None]
+            [real(v) for v in limits]
+            if isinstance(limits, (list, tuple))
+            else []
+            if limits is None
+            else [None]
         )
-        if given is not None and (len(pair) != 2 or not _finite(*pair) or not pair[0] < pair[1]):  # type: ignore[operator]
-            raise WorldError(f"limits is {show(given)}; expected two finite numbers, the lower first", where)
+        if limits is not None and (len(pair) != 2 or not _finite(*pair) or not pair[0] < pair[1]):  # type: ignore[operator]
+            raise WorldError(f"limits is {show(limits)}; expected two finite numbers, the lower first", where)
         numbers = {}
         for name, lowest in (("slew", 0.0), ("rest", -math.inf), ("stops_after", 0.0)):
             if data.get(name) is None:
@@ -94,4 +98,4 @@ class MotorRule:
 
 
 def _finite(*values: float | None) -> bool:
-    return all(value is not None and math.isfinite(value) for value in values)
+    return all(number is not None and math.isfinite(number) for number in values)

@@ -21,16 +21,16 @@ def named_kind(text: str, where: str) -> tuple[type[World], str]:
     """
     where = masked(where)
     name, _, argument = ("camera", "", text) if is_address(text) else text.partition(":")
-    known = registry.kinds("worlds")
-    kinds = {cls.short: cls for cls in known.values() if cls.short}
-    kinds |= {kind.casefold(): cls for kind, cls in known.items()}
-    found = kinds.get(name.casefold().replace("-", ""))
-    if found is None:
+    worlds = registry.kinds("worlds")
+    kinds = {cls.short: cls for cls in worlds.values() if cls.short}
+    kinds |= {kind.casefold(): cls for kind, cls in worlds.items()}
+    world = kinds.get(name.casefold().replace("-", ""))
+    if world is None:
         raise WorldError(f"there is no world {name!r}", where=where, fix=did_you_mean(name.casefold(), kinds))
     if not argument:
         raise WorldError(
             "needs an argument",
             where=where,
-            fix=f"Write {name.lower()}:ARGUMENT; deodar elements {found.__name__} describes it",
+            fix=f"Write {name.lower()}:ARGUMENT; deodar elements {world.__name__} describes it",
         )
-    return found, argument
+    return world, argument

@@ -178,7 +178,7 @@ class PureWorld(World):
         """
         names = self._names(requests)
         slow = [self.sensors[sensor].period is not None for sensor, _ in names]
-        held = [a for a, is_slow in zip(before or [], slow, strict=False) if is_slow]
+        lasting = [a for a, is_slow in zip(before or [], slow, strict=False) if is_slow]
 
         def both(world: PureWorld) -> Callable[..., Any]:
             def advance(
@@ -193,7 +193,12 @@ class PureWorld(World):
             return jax.vmap(advance, in_axes=(None, 0, 0, 0, 0))
 
         self._state, seen = self.call(
-            ("exchange", len(held), *names), both, *self._values(), self._now(), self._commands(motors), held
+            ("exchange", len(lasting), *names),
+            both,
+            *self._values(),
+            self._now(),
+            self._commands(motors),
+            lasting,
         )
         self.passed()
         return [np.asarray(reading) for reading in seen]

@@ -43,12 +43,12 @@ def unreachable(address: Address, seconds: float) -> Unreachable | None:
     except OSError as error:
         return Unreachable(f"{peer} cannot be reached: {error.strerror or error}", "Check the network")
     if status in (401, 403):
-        shown = f"{address.scheme}://{HIDDEN}@{peer}/..."
+        address_to_write = f"{address.scheme}://{HIDDEN}@{peer}/..."
         line = f"machine {address.host} login USER password PASSWORD"
-        what = "refuses the user and password" if address.login else "asks for a user and password"
-        return Unreachable(what, f"Write {shown}, and into the file ~/.netrc: {line}")
+        fault = "refuses the user and password" if address.login else "asks for a user and password"
+        return Unreachable(fault, f"Write {address_to_write}, and into the file ~/.netrc: {line}")
     if status is not None and status >= 300:
-        names = {int(each): f", {each.phrase}" for each in HTTPStatus}
+        names = {int(status_code): f", {status_code.phrase}" for status_code in HTTPStatus}
         return Unreachable(f"{peer} answers {status}{names.get(status, '')}", "Check the path of the address")
     return None
 
@@ -59,17 +59,17 @@ def _status(address: Address, plain: socket.socket) -> int | None:
     place = f"{address.host}:{address.port}"
     path = f"{parts.path or '/'}{f'?{parts.query}' if parts.query else ''}"
     if address.scheme == "rtsp":
-        asked = f"DESCRIBE rtsp://{place}{path} RTSP/1.0\r\nCSeq: 1\r\n\r\n"
+        request = f"DESCRIBE rtsp://{place}{path} RTSP/1.0\r\nCSeq: 1\r\n\r\n"
     else:
-        asked = f"GET {path} HTTP/1.0\r\nHost: {place}\r\n\r\n"
+        request = f"GET {path} HTTP/1.0\r\nHost: {place}\r\n\r\n"
     try:
         peer = plain
         if address.scheme == "https":
             context = ssl.create_default_context()
             context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
             peer = context.wrap_socket(plain, server_hostname=address.host)
-        peer.sendall(asked.encode())
-        found = _STATUS.match(peer.recv(64))
+        peer.sendall(request.encode())
+        match = _STATUS.match(peer.recv(64))
     except OSError:
         return None
-    return int(found[1]) if found else None
+    return int(match[1]) if match else None

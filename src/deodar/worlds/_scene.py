@@ -111,7 +111,7 @@ class Scene:
             UnknownName: the scene has no box or mark of that name.
             WorldError: it is fixed.
         """
-        objects = {item.name: item for item in (*self.marks, *self.boxes)}
+        objects = {piece.name: piece for piece in (*self.marks, *self.boxes)}
         if name not in objects:
             raise UnknownName(f"nothing here is called {name!r}", fix=did_you_mean(name, objects))
         if objects[name].fixed:
@@ -135,19 +135,19 @@ class Scene:
                 raise WorldError(f"{at} lies inside {box.name!r}", where=name)
         if size is None:
             return
-        here, slack = (
+        covered, slack = (
             SceneBox(name, (x, y), pair(f"{name}.size", size), (0, 0, 0)),
             TOUCH * max(right - left, high - low),
         )
-        for other, radius in (*((b, b.radius) for b in self.bodies), *((m, 0.0) for m in self.marks)):
-            if other.name != name and here.gap(*other.center) < max(radius - slack, slack):
-                raise WorldError(f"at {at} it would cover {other.name!r}", where=name)
+        for piece, radius in (*((b, b.radius) for b in self.bodies), *((m, 0.0) for m in self.marks)):
+            if piece.name != name and covered.gap(*piece.center) < max(radius - slack, slack):
+                raise WorldError(f"at {at} it would cover {piece.name!r}", where=name)
 
 
-def pair(what: str, given: Sequence[float]) -> tuple[float, float]:
+def pair(label: str, x_y: Sequence[float]) -> tuple[float, float]:
     """Convert a value to two finite floats, or raise WorldError."""
-    numbers = [real(v) for v in given] if isinstance(given, Sequence) and not isinstance(given, str) else []
-    found = [n for n in numbers if n is not None and math.isfinite(n)]
-    if len(numbers) != 2 or len(found) != 2:
-        raise WorldError(f"is {show(given)}; expected two finite numbers", where=what)
-    return found[0], found[1]
+    numbers = [real(v) for v in x_y] if isinstance(x_y, Sequence) and not isinstance(x_y, str) else []
+    finite = [n for n in numbers if n is not None and math.isfinite(n)]
+    if len(numbers) != 2 or len(finite) != 2:
+        raise WorldError(f"is {show(x_y)}; expected two finite numbers", where=label)
+    return finite[0], finite[1]

@@ -67,8 +67,8 @@ class Camera(World):
         size: Sequence[int] | None = None,
         rate: float | None = None,
     ) -> None:
-        known = isinstance(source, (int, np.integer)) and not isinstance(source, bool) and source >= 0
-        if not known and not (isinstance(source, str) and source):
+        is_number = isinstance(source, (int, np.integer)) and not isinstance(source, bool) and source >= 0
+        if not is_number and not (isinstance(source, str) and source):
             raise WorldError(
                 f"the source of a camera is {show(source)}; expected a number, 0 for the first, a path or an"
                 " address"
@@ -111,13 +111,13 @@ class Camera(World):
         return frame(self._open().size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> dict[str, Json]:
-        said: dict[str, Json] = {
+        description: dict[str, Json] = {
             "world": "Camera",
             "source": self.source,
             "size": list(self._open().size),
             "period": self.period,
         }
-        return said if self.rate is None else said | {"rate": self.rate}
+        return description if self.rate is None else description | {"rate": self.rate}
 
     @classmethod
     def open(cls, argument: str) -> Camera:
@@ -128,9 +128,9 @@ class Camera(World):
         """Return a camera at the same place, whose pictures are other ones than those of the record. The user
         and password of an address come from ~/.netrc.
         """
-        given = cast("dict[str, Any]", described)
-        source = given["source"] if "source" in given else given["number"]  # in older records
-        return cls(source, given["period"], size=given["size"], rate=given.get("rate"))
+        settings = cast("dict[str, Any]", described)
+        source = settings["source"] if "source" in settings else settings["number"]  # in older records
+        return cls(source, settings["period"], size=settings["size"], rate=settings.get("rate"))
 
     def _open(self) -> CameraReader:
         if self._reader is None:

@@ -56,15 +56,15 @@ class Combined(OuterWorld):
         self.world, self.others = world, dict(sensors)
         if not self.others:
             raise WorldError("no sensor is read from another world", fix='For example {"camera": Camera(0)}')
-        self._names = {name: _read(name, other) for name, other in self.others.items()}
+        self._names = {name: _read(name, origin) for name, origin in self.others.items()}
         self.period, self.motors = world.period, world.motors
         taken = {name: self._signal(name) for name in self.others}
         self.sensors = {**world.sensors, **taken}
 
     def _signal(self, name: str) -> Signal:
-        other = self.others[name]
-        signal = other.sensors[self._names[name]]
-        period = other.period if signal.period is None else signal.period
+        origin = self.others[name]
+        signal = origin.sensors[self._names[name]]
+        period = origin.period if signal.period is None else signal.period
         step = self.period
         # a picture is new at an exchange only
         fits = step is not None and period is not None and period % step == 0
@@ -73,26 +73,26 @@ class Combined(OuterWorld):
     @property
     def repeatable(self) -> bool:  # type: ignore[override]
         """Whether a restored state leads to the same readings again."""
-        return all(one.repeatable for one in (self.world, *self.others.values()))
+        return all(member.repeatable for member in (self.world, *self.others.values()))
 
     @property
     def wall_clock(self) -> bool:  # type: ignore[override]
         """Whether it follows the wall clock."""
-        return any(one.wall_clock for one in (self.world, *self.others.values()))
+        return any(member.wall_clock for member in (self.world, *self.others.values()))
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
-        for one in (self.world, *self.others.values()):
-            with errors_of(one, "reset"):
-                one.reset(seed, trials, precision)
+        for member in (self.world, *self.others.values()):
+            with errors_of(member, "reset"):
+                member.reset(seed, trials, precision)
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         self.require(sensor)
-        other = self.others.get(sensor)
-        with errors_of(other or self.world, "sense"):
+        origin = self.others.get(sensor)
+        with errors_of(origin or self.world, "sense"):
             return (
                 self.world.sense(sensor, axes, time)
-                if other is None
-                else other.sense(self._names[sensor], axes, time)
+                if origin is None
+                else origin.sense(self._names[sensor], axes, time)
             )
 
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
@@ -100,20 +100,20 @@ class Combined(OuterWorld):
             self.world.act(motors, time)
 
     def validate_axes(self, sensor: str, axes: Axes) -> Iterator[Problem]:
-        other = self.others.get(sensor)
-        if other is None:
+        origin = self.others.get(sensor)
+        if origin is None:
             yield from self.world.validate_axes(sensor, axes)
         else:
-            yield from other.validate_axes(self._names[sensor], axes)
+            yield from origin.validate_axes(self._names[sensor], axes)
 
     def validate(self) -> Iterator[Problem]:
-        for one in (self.world, *self.others.values()):
-            yield from one.validate()
+        for member in (self.world, *self.others.values()):
+            yield from member.validate()
 
     def close(self) -> None:
         """Release the cameras and files of all worlds."""
-        for one in (self.world, *self.others.values()):
-            close = getattr(one, "close", None)
+        for member in (self.world, *self.others.values()):
+            close = getattr(member, "close", None)
             if callable(close):
                 close()
 
@@ -128,19 +128,19 @@ class Combined(OuterWorld):
     # -------------------------------------------------------------------------------------- state and records
 
     def keep(self) -> Any:
-        kept = {name: other.keep() for name, other in self.others.items()}
-        return {"world": self.world.keep(), "sensors": kept}
+        states = {name: origin.keep() for name, origin in self.others.items()}
+        return {"world": self.world.keep(), "sensors": states}
 
     def put(self, kept: Any) -> None:
         self.world.put(kept["world"])
-        for name, other in self.others.items():
-            other.put(kept["sensors"][name])
+        for name, origin in self.others.items():
+            origin.put(kept["sensors"][name])
 
     def describe(self) -> dict[str, Json]:
-        sensors: JsonObject = {name: other.describe() for name, other in self.others.items()}
-        said: JsonObject = {"world": "Combined", "of": self.world.describe(), "sensors": sensors}
-        text = codec.line(said, ascii=True, sort=True)
-        return {**said, "sha256": hashlib.sha256(text.encode()).hexdigest()}
+        sensors: JsonObject = {name: origin.describe() for name, origin in self.others.items()}
+        description: JsonObject = {"world": "Combined", "of": self.world.describe(), "sensors": sensors}
+        text = codec.line(description, ascii=True, sort=True)
+        return {**description, "sha256": hashlib.sha256(text.encode()).hexdigest()}
 
     @classmethod
     def open(cls, argument: str) -> Combined:
@@ -160,7 +160,7 @@ class Combined(OuterWorld):
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> Combined:
         sensors = cast("Mapping[str, Any]", described["sensors"])
-        return cls(_again(described["of"]), {name: _again(other) for name, other in sensors.items()})
+        return cls(_again(described["of"]), {name: _again(origin) for name, origin in sensors.items()})
 
     @classmethod
     def example(cls) -> Combined:
@@ -172,17 +172,17 @@ class Combined(OuterWorld):
         return Picture.example_axes("picture") if sensor == "camera" else Arena.example_axes(sensor)
 
 
-def _read(name: str, other: World) -> str:
+def _read(name: str, origin: World) -> str:
     """Return the sensor of another world that is read."""
-    kind = type(other).__name__
-    if other.motors:
+    kind = type(origin).__name__
+    if origin.motors:
         raise WorldError(f"the world {kind} has motors, which nothing would move", where=name)
-    if name in other.sensors:
+    if name in origin.sensors:
         return name
-    if len(other.sensors) != 1:
-        known = ", ".join(sorted(other.sensors)) or "none"
-        raise WorldError(f"the world {kind} has no sensor {name!r}, and not one alone: {known}", where=name)
-    return next(iter(other.sensors))
+    if len(origin.sensors) != 1:
+        names = ", ".join(sorted(origin.sensors)) or "none"
+        raise WorldError(f"the world {kind} has no sensor {name!r}, and not one alone: {names}", where=name)
+    return next(iter(origin.sensors))
 
 
 def _named(text: str) -> World:

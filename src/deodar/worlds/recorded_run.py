@@ -102,11 +102,13 @@ class Recording(World):
         if self.numbers is not None:
             missing = [t for t in trials if t not in self.numbers]
             if missing:
-                shown = ", ".join(map(str, self.numbers[:8])) + (", ..." if len(self.numbers) > 8 else "")
+                first_numbers = ", ".join(map(str, self.numbers[:8])) + (
+                    ", ..." if len(self.numbers) > 8 else ""
+                )
                 raise WorldError(
                     f"holds no trial {missing[0]}",
                     where=self.file or "the record",
-                    fix=f"Valid trials: {shown}",
+                    fix=f"Valid trials: {first_numbers}",
                 )
             self._copies = [self.numbers.index(t) for t in trials]
 
@@ -136,7 +138,7 @@ class Recording(World):
     @classmethod
     def example(cls) -> Recording:
         """Return a recording of one sensor: 20 readings in each of two trials."""
-        x, shown = Axis("x", 0, 4, 5), np.arange(200.0, dtype=np.float32).reshape(2, 20, 5)
+        x, light = Axis("x", 0, 4, 5), np.arange(200.0, dtype=np.float32).reshape(2, 20, 5)
         elements = {"eye": {"kind": "Sensor", "sensor": "light"}, "leg": {"kind": "Motor", "motor": "left"}}
         coords: dict[str, Any] = {
             "trial": [0, 5],
@@ -144,7 +146,7 @@ class Recording(World):
             "x": ("x", x.points, {"lower": 0.0}),
         }
         about = {"deodar": codec.line({"document": {"elements": elements}}, ascii=True)}
-        return cls(xarray.Dataset({"eye.output": (("trial", "time", "x"), shown)}, coords, about))
+        return cls(xarray.Dataset({"eye.output": (("trial", "time", "x"), light)}, coords, about))
 
     @staticmethod
     def example_axes(sensor: str) -> Axes:

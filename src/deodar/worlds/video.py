@@ -49,10 +49,10 @@ class Video(World):
     opens = (".mp4", ".avi", ".mov", ".mkv", ".webm", ".m4v", ".mpg", ".mpeg")
 
     def __init__(self, file: str | Path, period: float = 40.0, loop: bool = False) -> None:
-        value = real(period)
-        if value is None or not 0 < value < math.inf:
+        parsed = real(period)
+        if parsed is None or not 0 < parsed < math.inf:
             raise WorldError(f"period is {show(period)}; expected a number of ms above 0")
-        self.period, self.loop, self.name = float(value), bool(loop), str(file)
+        self.period, self.loop, self.name = float(parsed), bool(loop), str(file)
         self._reader = _capture.VideoReader(Path(file))
         self.size = self._reader.size
 
@@ -72,7 +72,7 @@ class Video(World):
         return frame(self.size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> JsonObject:
-        said = {
+        description = {
             "world": "Video",
             "file": self.name,
             "size": list(self.size),
@@ -80,7 +80,7 @@ class Video(World):
             "loop": self.loop,
         }
         with open(self.name, "rb") as file:
-            return {**said, "sha256": hashlib.file_digest(file, "sha256").hexdigest()}
+            return {**description, "sha256": hashlib.file_digest(file, "sha256").hexdigest()}
 
     @classmethod
     def open(cls, argument: str) -> Video:

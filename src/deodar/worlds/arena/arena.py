@@ -312,9 +312,9 @@ class Arena(PureWorld):
         vehicle of each copy.
         """
         state, trials = (self._now(), self._trials) if hasattr(self, "_state") else (None, (0,))
-        now = 0 if state is None else int(np.asarray(state["tick"])[0])
+        period = 0 if state is None else int(np.asarray(state["tick"])[0])
         scale, k = self.scale, trials[0]
-        present = self.objects.present(now, k)
+        present = self.objects.present(period, k)
         boxes = tuple(
             SceneBox(
                 t.name,
@@ -405,10 +405,10 @@ class Arena(PureWorld):
         deviates = self._deviates(own, tick, boxes.dtype)
         ordered = limited(self.vehicle, motors["left"], motors["right"]) * (self.physics.period / 1000)
         rolled = ordered * (1 + shared["slip"] * deviates["slip"][:2])
-        way, turn = drive(self.vehicle, state["heading"], rolled)
+        step, turn = drive(self.vehicle, state["heading"], rolled)
         position, touched = move(
             state["position"],
-            way,
+            step,
             boxes,
             _there(own, state["tick"]),
             self.vehicle.radius,
@@ -498,8 +498,8 @@ class Arena(PureWorld):
 
     def alternative(self, signal: str, shape: Sequence[int]) -> str:
         for vehicle in VEHICLES.values():
-            known = signals(vehicle, self.unit, goal=False)
-            if signal in known and known[signal].shape == tuple(shape):
+            vehicle_signals = signals(vehicle, self.unit, goal=False)
+            if signal in vehicle_signals and vehicle_signals[signal].shape == tuple(shape):
                 return f"Choose another vehicle of the arena: vehicle={vehicle.name}"
         return ""
 
@@ -510,7 +510,7 @@ class Arena(PureWorld):
         if self.physics.camera_every > 1:
             pose = state["frame"][:2], state["frame"][2]
             tick = tick - tick % jnp.uint32(self.physics.camera_every)
-        shown = surfaces(
+        seen_surfaces = surfaces(
             camera,
             pose,
             own["boxes"],
@@ -520,7 +520,7 @@ class Arena(PureWorld):
         )
         levels = {name: shared[name] for name in self.noise.in_pictures}
         noise = PictureNoise(levels, own["keys"], tick, sensor)
-        seen = picture(shown, own["colours"], self.objects.room, noise)
+        seen = picture(seen_surfaces, own["colours"], self.objects.room, noise)
         return seen if sensor == "camera" else seen[:, 0]
 
     def _permanent(self) -> list[list[ArenaObject]]:
@@ -529,15 +529,15 @@ class Arena(PureWorld):
 
     def _goals(self) -> np.ndarray | None:
         """Return the goals of the layouts, m; None if they have none."""
-        found = [layout.goal for layout in self.layouts]
-        if None in found and any(goal is not None for goal in found):
+        goals = [layout.goal for layout in self.layouts]
+        if None in goals and any(goal is not None for goal in goals):
             raise WorldError(
-                f"the layout of trial {found.index(None)} has no goal, and that of another trial has one",
+                f"the layout of trial {goals.index(None)} has no goal, and that of another trial has one",
                 fix="State a goal in each layout or in none",
             )
-        return None if None in found else np.asarray(found)
+        return None if None in goals else np.asarray(goals)
 
-    def _settled(self, wanted: Sequence[Sequence[float] | np.ndarray | None]) -> np.ndarray:
+    def _settled(self, stated: Sequence[Sequence[float] | np.ndarray | None]) -> np.ndarray:
         """Check starts and goals, and return the starts; choose those that are None.
 
         Raises:
@@ -550,17 +550,17 @@ class Arena(PureWorld):
         def room(k: int) -> Room:
             return Room(self.layout, radius, np.asarray([t.box for t in permanent[k]]))
 
-        given: list[Sequence[float] | np.ndarray] = []
-        for k, start in enumerate(wanted):
-            found = room(k % len(permanent)).near_middle() if start is None else ()
-            if found is None:
+        chosen: list[Sequence[float] | np.ndarray] = []
+        for k, start in enumerate(stated):
+            middle = room(k % len(permanent)).near_middle() if start is None else ()
+            if middle is None:
                 raise WorldError(
                     f"the {self.vehicle.name} fits nowhere: it is {2 * radius / self.scale:g} {self.unit}"
                     " wide",
-                    where=self.source if len(wanted) == 1 else f"the layout of trial {k}",
+                    where=self.source if len(stated) == 1 else f"the layout of trial {k}",
                 )
-            given.append((*found, 0.0) if start is None else start)
-        starts = np.asarray(given)
+            chosen.append((*middle, 0.0) if start is None else start)
+        starts = np.asarray(chosen)
         problems = self.places.misplaced(starts, "start", radius, permanent)
         if self.goals is not None:
             problems += self.places.misplaced(self.goals, "goal", 0.0, permanent)
@@ -584,7 +584,7 @@ class Arena(PureWorld):
             **dc.asdict(self.noise),
         }
         # without settings of later versions that have their default, so that rows of older versions fit
-        said: JsonObject = {
+        description: JsonObject = {
             "settings": {name: value for name, value in settings.items() if LATER.get(name) != value},
             "start": (self.starts / [self.scale, self.scale, 1]).tolist(),
             "goal": None if self.goals is None else (self.goals / self.scale).tolist(),
@@ -595,8 +595,8 @@ class Arena(PureWorld):
             ),
             "things": self.objects.to_data(),
         }
-        digest = hashlib.sha256(codec.line(said, ascii=True, sort=True).encode()).hexdigest()
-        return {"world": "Arena", "file": self.source, **said, "sha256": digest}
+        digest = hashlib.sha256(codec.line(description, ascii=True, sort=True).encode()).hexdigest()
+        return {"world": "Arena", "file": self.source, **description, "sha256": digest}
 
     @classmethod
     def names(cls) -> list[str]:
@@ -612,11 +612,11 @@ class Arena(PureWorld):
         settings = dict(described["settings"])
         if settings["vehicle"] not in VEHICLES:
             raise WorldError("was run with a custom vehicle, which a record does not contain", where="arena")
-        found = cls(described["layout"], described["start"], described["goal"], **arguments(cls, settings))
-        found.objects.restore(described["things"])
-        found.objects.fixed = frozenset(t.name for layout in found.layouts for t in layout.objects)
-        found.source = str(described.get("file", ""))
-        return found
+        arena = cls(described["layout"], described["start"], described["goal"], **arguments(cls, settings))
+        arena.objects.restore(described["things"])
+        arena.objects.fixed = frozenset(t.name for layout in arena.layouts for t in layout.objects)
+        arena.source = str(described.get("file", ""))
+        return arena
 
     @classmethod
     def example(cls) -> Arena:
@@ -660,5 +660,5 @@ class Arena(PureWorld):
 
 
 def _there(own: ArenaCopy, tick: Array) -> Array:
-    now = tick.astype(jnp.int32)
-    return (own["windows"][:, 0] <= now) & (now < own["windows"][:, 1])
+    period = tick.astype(jnp.int32)
+    return (own["windows"][:, 0] <= period) & (period < own["windows"][:, 1])

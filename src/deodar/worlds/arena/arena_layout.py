@@ -90,26 +90,26 @@ class ArenaLayout:
             area["height"] = self.height
         blocks: list[Json] = []
         for t in self.objects:
-            said: JsonObject = {
+            block: JsonObject = {
                 "name": t.name,
                 "center": list(t.center),
                 "size": list(t.size),
                 "color": list(t.color),
             }
-            blocks.append(said if t.height is None else said | {"height": t.height})
-        data: JsonObject = {"unit": "m", "arena": area, "blocks": blocks}
+            blocks.append(block if t.height is None else block | {"height": t.height})
+        layout: JsonObject = {"unit": "m", "arena": area, "blocks": blocks}
         if self.start is not None:
-            data |= {"start": list(self.start[:2]), "heading": self.start[2]}
-        return data if self.goal is None else data | {"goal": list(self.goal)}
+            layout |= {"start": list(self.start[:2]), "heading": self.start[2]}
+        return layout if self.goal is None else layout | {"goal": list(self.goal)}
 
 
 def builtin() -> JsonObject:
     """Return the data of the arenas that come with deodar, by name."""
-    found: JsonObject = {}
+    layouts: JsonObject = {}
     for file in sorted((resources.files("deodar.worlds.arena") / "layouts").iterdir(), key=lambda f: f.name):
         if file.name.endswith(".json"):
-            found |= codec.read(file.read_bytes())
-    return found
+            layouts |= codec.read(file.read_bytes())
+    return layouts
 
 
 def load_each(source: LayoutSource | Sequence[LayoutSource]) -> tuple[ArenaLayout, ...]:
@@ -122,15 +122,15 @@ def load_each(source: LayoutSource | Sequence[LayoutSource]) -> tuple[ArenaLayou
         return (load(source),)
     if not source:
         raise WorldError("the list of layouts is empty", fix="Give one layout, or one for each trial")
-    found = tuple(load(one) for one in source)
-    for k, layout in enumerate(found):
-        if layout.border != found[0].border:
+    layouts = tuple(load(single) for single in source)
+    for k, layout in enumerate(layouts):
+        if layout.border != layouts[0].border:
             raise WorldError(
                 f"the arena of trial {k} has the border {show(layout.border)} m, and that of trial 0"
-                f" {show(found[0].border)} m",
+                f" {show(layouts[0].border)} m",
                 fix="Give all layouts the same arena",
             )
-    return found
+    return layouts
 
 
 def load(source: LayoutSource) -> ArenaLayout:
@@ -143,41 +143,41 @@ def load(source: LayoutSource) -> ArenaLayout:
         return _layout(source, "arena")
     if not isinstance(source, (str, Path)):
         raise WorldError(f"an arena is a name, a file or a dictionary, not {show(source)}")
-    known = builtin()
-    if str(source) in known:
-        return _layout(known[str(source)], str(source))
+    layouts = builtin()
+    if str(source) in layouts:
+        return _layout(layouts[str(source)], str(source))
     file, _, name = str(source).partition("#")
     if not Path(file).is_file():
-        hint = did_you_mean(str(source), known) + ". Or name a .json file" if known else ""
+        hint = did_you_mean(str(source), layouts) + ". Or name a .json file" if layouts else ""
         raise WorldError(
             "there is no arena and no file of this name", where=str(source), fix=hint.replace("?.", "?")
         )
-    data = _read(Path(file))
-    if "arena" in data:
-        return _layout(data, str(source))
-    if not name and len(data) == 1:
-        name = next(iter(data))
-    if name not in data:
-        what = f"holds no arena {name!r}" if name else "holds several arenas" if data else "holds no arena"
-        shown = ", ".join(f"{file}#{n}" for n in list(data)[:8])
-        raise WorldError(what, where=file, fix=f"Type one of: {shown}" if shown else "")
-    return _layout(data[name], str(source))
+    arenas = _read(Path(file))
+    if "arena" in arenas:
+        return _layout(arenas, str(source))
+    if not name and len(arenas) == 1:
+        name = next(iter(arenas))
+    if name not in arenas:
+        fault = f"holds no arena {name!r}" if name else "holds several arenas" if arenas else "holds no arena"
+        names = ", ".join(f"{file}#{n}" for n in list(arenas)[:8])
+        raise WorldError(fault, where=file, fix=f"Type one of: {names}" if names else "")
+    return _layout(arenas[name], str(source))
 
 
 def _read(path: Path) -> JsonObject:
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB", where=str(path))
-        data = codec.read(path.read_bytes())
+        arenas = codec.read(path.read_bytes())
     except DocumentError as error:
         raise WorldError(
             [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
         ) from None
     except OSError as error:
         raise WorldError(f"cannot be read: {error.strerror}", where=str(path)) from None
-    if not isinstance(data, dict):
-        raise WorldError(f"holds {show(data)}; an arena is an object with walls", where=str(path))
-    return data
+    if not isinstance(arenas, dict):
+        raise WorldError(f"holds {show(arenas)}; an arena is an object with walls", where=str(path))
+    return arenas
 
 
 class _Faults(list[Problem]):
@@ -187,8 +187,8 @@ class _Faults(list[Problem]):
         super().__init__()
         self.where = where
 
-    def say(self, place: str, what: str, fix: str = "") -> None:
-        self.append(Problem(": ".join(p for p in (self.where, place) if p), what, fix))
+    def say(self, place: str, fault: str, fix: str = "") -> None:
+        self.append(Problem(": ".join(p for p in (self.where, place) if p), fault, fix))
 
     def pair(self, place: str, value: Json) -> tuple[float, float] | None:
         numbers = (
@@ -208,54 +208,54 @@ class _Faults(list[Problem]):
         return None if number is None else float(number) * scale
 
 
-def _layout(data: Json, where: str) -> ArenaLayout:
+def _layout(layout: Json, where: str) -> ArenaLayout:
     faults = _Faults(where)
-    if not isinstance(data, Mapping):
-        raise WorldError(f"is {show(data)}; an arena is an object with walls", where=where)
-    for key in data:
-        near = [] if key in KNOWN else difflib.get_close_matches(str(key), KNOWN, n=1, cutoff=0.75)
-        if near:  # keys that are not similar to a known one are notes of the author
-            faults.say("", f"has the unknown key {key!r}", f"Did you mean {near[0]!r}?")
-    unit = data.get("unit", "m")
+    if not isinstance(layout, Mapping):
+        raise WorldError(f"is {show(layout)}; an arena is an object with walls", where=where)
+    for key in layout:
+        similar = [] if key in KNOWN else difflib.get_close_matches(str(key), KNOWN, n=1, cutoff=0.75)
+        if similar:  # keys that are not similar to a known one are notes of the author
+            faults.say("", f"has the unknown key {key!r}", f"Did you mean {similar[0]!r}?")
+    unit = layout.get("unit", "m")
     scale = UNITS.get(unit, 0.0) if isinstance(unit, str) else 0.0
     if not scale:
         faults.say("unit", f"is {show(unit)}; expected one of {', '.join(UNITS)}")
         scale = 1.0
-    names = str(data.get("plane", "x,y")).split(" ")[0]
+    names = str(layout.get("plane", "x,y")).split(" ")[0]
     if names not in ("x,y", "x,z"):
         faults.say("plane", f"is {names!r}; expected x,y, or x,z (y up)")
         names = "x,y"
     # as in Webots: y is up, and heading 0 points along -z; so x is the file's -z, and y its -x
     turned = names == "x,z"
-    border = _border(data, names.split(","), turned, scale, faults)
-    objects = tuple(_objects(data, turned, scale, faults))
-    start = _place(data, "start", turned, scale, faults)
-    heading = real(data.get("heading", 0.0))
+    border = _border(layout, names.split(","), turned, scale, faults)
+    objects = tuple(_objects(layout, turned, scale, faults))
+    start = _place(layout, "start", turned, scale, faults)
+    heading = real(layout.get("heading", 0.0))
     if heading is None or not math.isfinite(heading):
-        faults.say("heading", f"is {show(data.get('heading'))}; expected an angle in rad")
-    area = data.get("goal_area")
+        faults.say("heading", f"is {show(layout.get('heading'))}; expected an angle in rad")
+    area = layout.get("goal_area")
     goal = _place(
-        data if "goal" in data or not isinstance(area, Mapping) else {"goal": area.get("center")},
+        layout if "goal" in layout or not isinstance(area, Mapping) else {"goal": area.get("center")},
         "goal",
         turned,
         scale,
         faults,
     )
-    walls = data.get("arena")
+    walls = layout.get("arena")
     height = faults.height("arena.height", walls.get("height") if isinstance(walls, Mapping) else None, scale)
     if faults or border is None:
         raise WorldError(faults)
     begin = None if start is None else (*start, float(heading or 0))
-    blocks = data.get("blocks")
+    blocks = layout.get("blocks")
     count = len(blocks) if isinstance(blocks, Sequence) else 0
     fixed = frozenset(t.name for t in objects[: len(objects) - count])  # blocks are listed last
     return ArenaLayout(border, objects, begin, goal, WALL_HEIGHT if height is None else height, fixed)
 
 
 def _border(
-    data: Mapping[str, Json], names: Sequence[str], turned: bool, scale: float, faults: _Faults
+    layout: Mapping[str, Json], names: Sequence[str], turned: bool, scale: float, faults: _Faults
 ) -> tuple[float, float, float, float] | None:
-    area = data.get("arena")
+    area = layout.get("arena")
     if not isinstance(area, Mapping) or not set(names) <= set(area):
         faults.say(
             "arena", f"is {show(area)}; expected {{{', '.join(f'{n!r}: [lower, upper]' for n in names)}}}"
@@ -281,18 +281,20 @@ def _turn(place: tuple[float, float], turned: bool, scale: float) -> tuple[float
 
 
 def _place(
-    data: Mapping[str, Json], key: str, turned: bool, scale: float, faults: _Faults
+    layout: Mapping[str, Json], key: str, turned: bool, scale: float, faults: _Faults
 ) -> tuple[float, float] | None:
-    if data.get(key) is None:
+    if layout.get(key) is None:
         return None
-    found = faults.pair(key, data[key])
-    return None if found is None else _turn(found, turned, scale)
+    position = faults.pair(key, layout[key])
+    return None if position is None else _turn(position, turned, scale)
 
 
-def _objects(data: Mapping[str, Json], turned: bool, scale: float, faults: _Faults) -> Iterator[ArenaObject]:
+def _objects(
+    layout: Mapping[str, Json], turned: bool, scale: float, faults: _Faults
+) -> Iterator[ArenaObject]:
     taken: set[str] = set()
     for kind, colour in COLOURS.items():
-        listed = data.get(kind, [])
+        listed = layout.get(kind, [])
         if not isinstance(listed, Sequence) or isinstance(listed, str):
             faults.say(kind, f"is {show(listed)}; expected a list")
             continue
@@ -304,12 +306,14 @@ def _objects(data: Mapping[str, Json], turned: bool, scale: float, faults: _Faul
             if name in taken:
                 faults.say(name, "is the name of two objects")
             taken.add(name)
-            item = _object(name, entry.get("center"), entry.get("size"), entry.get("color", colour), faults)
+            unscaled = _object(
+                name, entry.get("center"), entry.get("size"), entry.get("color", colour), faults
+            )
             height = faults.height(f"{name}.height", entry.get("height"), scale)
-            if item is not None:
-                (w, h), center = item.size, _turn(item.center, turned, scale)
+            if unscaled is not None:
+                (w, h), center = unscaled.size, _turn(unscaled.center, turned, scale)
                 size = (h * scale, w * scale) if turned else (w * scale, h * scale)
-                yield ArenaObject(name, center, size, item.color, height)
+                yield ArenaObject(name, center, size, unscaled.color, height)
 
 
 def make(
@@ -324,23 +328,23 @@ def make(
             height is invalid.
     """
     faults = _Faults("")
-    item = _object(name, center, size, color, faults)
+    unscaled = _object(name, center, size, color, faults)
     tall = faults.height(f"{name}.height", height, scale)
-    if item is None or faults:
+    if unscaled is None or faults:
         raise WorldError(faults)
-    (x, y), (w, h) = item.center, item.size
-    return ArenaObject(name, (x * scale, y * scale), (w * scale, h * scale), item.color, tall)
+    (x, y), (w, h) = unscaled.center, unscaled.size
+    return ArenaObject(name, (x * scale, y * scale), (w * scale, h * scale), unscaled.color, tall)
 
 
-def _object(name: str, center: Json, size: Json, color: Json, found: _Faults) -> ArenaObject | None:
-    before = len(found)
-    middle, extent = found.pair(f"{name}.center", center), found.pair(f"{name}.size", size)
+def _object(name: str, center: Json, size: Json, color: Json, faults: _Faults) -> ArenaObject | None:
+    before = len(faults)
+    middle, extent = faults.pair(f"{name}.center", center), faults.pair(f"{name}.size", size)
     if extent is not None and not min(extent) > 0:
-        found.say(name, f"has the size {show(size)}; both are above 0, or it has no area")
+        faults.say(name, f"has the size {show(size)}; both are above 0, or it has no area")
     parts = [real(c) for c in color] if isinstance(color, Sequence) and not isinstance(color, str) else []
     if len(parts) != 3 or not all(c is not None and 0 <= c <= 1 for c in parts):
-        found.say(f"{name}.color", f"is {show(color)}; expected red, green and blue, each from 0 to 1")
-    if len(found) > before:
+        faults.say(f"{name}.color", f"is {show(color)}; expected red, green and blue, each from 0 to 1")
+    if len(faults) > before:
         return None
     assert middle is not None and extent is not None
     return ArenaObject(

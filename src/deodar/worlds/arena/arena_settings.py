@@ -72,10 +72,10 @@ class ArenaNoise:
     clutter: float = 0.0
 
     def __post_init__(self) -> None:
-        for name, given in dc.asdict(self).items():
-            object.__setattr__(self, name, number(name, given))
+        for name, share in dc.asdict(self).items():
+            object.__setattr__(self, name, number(name, share))
             if name in SHARES and getattr(self, name) > 1:
-                raise WorldError(f"{name} is {show(given)}; expected a share, from 0 to 1")
+                raise WorldError(f"{name} is {show(share)}; expected a share, from 0 to 1")
 
     @property
     def in_pictures(self) -> tuple[str, ...]:

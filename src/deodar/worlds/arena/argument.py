@@ -42,9 +42,9 @@ def _place(name: str, value: str, argument: str) -> list[float]:
     least, most = PLACES[name]
     numbers = [_float(word) for word in value.split()]
     if not least <= len(numbers) <= most or None in numbers:
-        what = "x and y, and a heading in rad if wanted" if most > least else "x and y"
+        coordinates = "x and y, and a heading in rad if wanted" if most > least else "x and y"
         raise WorldError(
-            f"{name} is {value!r}; expected {what}, with spaces between",
+            f"{name} is {value!r}; expected {coordinates}, with spaces between",
             where=f"arena:{argument}",
             fix=f"For example {name}=20 30",
         )

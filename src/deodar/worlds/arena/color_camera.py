@@ -46,12 +46,12 @@ def picture_rays(camera: VehicleCamera, sensor: str, axes: Axes) -> tuple[np.nda
     Raises:
         WorldError: the sensor is sampled over other axes.
     """
-    wanted = 2 if sensor == "line" else 3
-    if len(axes) != wanted or axes[-1].samples != 3:
-        shape = "columns and three channels" if wanted == 2 else "columns, rows and three channels"
+    dimensions = 2 if sensor == "line" else 3
+    if len(axes) != dimensions or axes[-1].samples != 3:
+        shape = "columns and three channels" if dimensions == 2 else "columns, rows and three channels"
         raise WorldError(f"is seen over {shape}, not over {[a.samples for a in axes]} samples", where=sensor)
     columns = slopes(axes[0].samples, camera.horizontal)
-    return columns, np.zeros(1) if wanted == 2 else slopes(axes[1].samples, camera.vertical)
+    return columns, np.zeros(1) if dimensions == 2 else slopes(axes[1].samples, camera.vertical)
 
 
 def surfaces(
@@ -84,16 +84,16 @@ def surfaces(
     far = jnp.where(present[:, None], far, -1.0)
     enter, leave = _between(camera, heights, jnp.asarray(up, dtype))
     loops = -(-count // AT_ONCE)
-    each = -(-count // loops)
-    last = jnp.pad(far, ((0, loops * each - count), (0, 0)), constant_values=-1.0)
+    per_loop = -(-count // loops)
+    last = jnp.pad(far, ((0, loops * per_loop - count), (0, 0)), constant_values=-1.0)
     spans = [
-        jnp.pad(a, ((0, loops * each - count), (0, 0)))
+        jnp.pad(a, ((0, loops * per_loop - count), (0, 0)))
         for a in (_numbered(near, count), _numbered(enter, count), leave)
     ]
 
     def nearer(k: Array | int, best: Array) -> Array:
-        one, two, end, stop = (lax.dynamic_slice_in_dim(a, k * each, each) for a in (*spans, last))
-        for b in range(each):
+        one, two, end, stop = (lax.dynamic_slice_in_dim(a, k * per_loop, per_loop) for a in (*spans, last))
+        for b in range(per_loop):
             depth = jnp.maximum(one[b][:, None], two[b])
             best = jnp.minimum(
                 best, jnp.where(depth <= jnp.minimum(stop[b][:, None], end[b]), depth, jnp.inf)
@@ -106,8 +106,8 @@ def surfaces(
         return nearer(0, nothing) if loops == 1 else lax.fori_loop(0, loops, nearer, nothing)
 
     best = computed_once(jnp.any(present), nearest, nothing)
-    other = np.where(up < 0, count, count + 1).astype(np.int32)
-    return jnp.where(best < jnp.inf, _number(best, count), other)
+    missed = np.where(up < 0, count, count + 1).astype(np.int32)
+    return jnp.where(best < jnp.inf, _number(best, count), missed)
 
 
 def _footprints(
@@ -120,8 +120,11 @@ def _footprints(
     rays = front + across[:, None] * jnp.stack([-front[1], front[0]])
     tiny = jnp.asarray(1e-30, boxes.dtype)
     inverse = 1.0 / jnp.where(jnp.abs(rays) < tiny, tiny, rays)
-    one, other = ((side[:, None] - eye) * inverse for side in (boxes[:, :2], boxes[:, 2:]))
-    near, far = jnp.max(jnp.minimum(one, other), axis=-1), jnp.min(jnp.maximum(one, other), axis=-1)
+    to_lower, to_upper = ((side[:, None] - eye) * inverse for side in (boxes[:, :2], boxes[:, 2:]))
+    near, far = (
+        jnp.max(jnp.minimum(to_lower, to_upper), axis=-1),
+        jnp.min(jnp.maximum(to_lower, to_upper), axis=-1),
+    )
     return jnp.maximum(near, NEAREST), far
 
 

@@ -40,15 +40,15 @@ Carry = tuple[jax.Array, jax.Array, jax.Array]
 def gaps(position: jax.Array, boxes: jax.Array, radius: jax.Array | float) -> tuple[jax.Array, jax.Array]:
     """Return for each box (n, 4) its gap to the disc, negative inside, and its outward unit vector (n, 2)."""
     lower, upper = boxes[:, :2], boxes[:, 2:]
-    away = position - jnp.clip(position, lower, upper)
-    square = jnp.sum(away * away, axis=1)
+    offset = position - jnp.clip(position, lower, upper)
+    square = jnp.sum(offset * offset, axis=1)
     outside = square > 0
     distance = jnp.sqrt(jnp.where(outside, square, 1.0))
     faces = jnp.concatenate([position - lower, upper - position], axis=1)  # depth below each face
     face = jnp.argmin(faces, axis=1)
     normals = jnp.asarray([[-1, 0], [0, -1], [1, 0], [0, 1]], boxes.dtype)[face]
     gap = jnp.where(outside, distance, -jnp.min(faces, axis=1)) - radius
-    return gap, jnp.where(outside[:, None], away / distance[:, None], normals)
+    return gap, jnp.where(outside[:, None], offset / distance[:, None], normals)
 
 
 def push_out(
@@ -86,20 +86,24 @@ def move(
     start = push_out(position, boxes, present, radius)
 
     def advance(_: int, carry: Carry) -> Carry:
-        p, rest, touched = carry
+        p, remaining, touched = carry
         gap, normal = gaps(p, boxes, radius)
-        length = jnp.sqrt(jnp.sum(rest * rest))
-        inward = jnp.sum(normal * rest, axis=1) < -GRAZING * length
-        share = jnp.where(gap <= CLOSE, jnp.where(inward, 0.0, NOT_HIT), first_touch(p, rest, boxes, radius))
+        length = jnp.sqrt(jnp.sum(remaining * remaining))
+        inward = jnp.sum(normal * remaining, axis=1) < -GRAZING * length
+        share = jnp.where(
+            gap <= CLOSE, jnp.where(inward, 0.0, NOT_HIT), first_touch(p, remaining, boxes, radius)
+        )
         share = jnp.where(present, share, NOT_HIT)
         wall = jnp.argmin(share)
         hit = (share[wall] < 1.0) & (length > 0)
         part = jnp.minimum(share[wall], 1.0)
-        q = p + part * rest
+        q = p + part * remaining
         gap, normal = gaps(q, boxes, radius)
-        out, left = normal[wall], (1.0 - part) * rest
+        out, unspent = normal[wall], (1.0 - part) * remaining
         q = q + jnp.where(hit, jnp.maximum(SKIN - gap[wall], 0.0), 0.0) * out
-        along = jnp.zeros_like(left) if sticks else left - jnp.minimum(jnp.sum(left * out), 0.0) * out
+        along = (
+            jnp.zeros_like(unspent) if sticks else unspent - jnp.minimum(jnp.sum(unspent * out), 0.0) * out
+        )
         return q, jnp.where(hit, along, 0.0), touched | hit
 
     end, _, touched = lax.fori_loop(0, SLIDES, advance, (start, step, jnp.asarray(False)))
@@ -124,9 +128,9 @@ def _into_box(position: jax.Array, step: jax.Array, lower: jax.Array, upper: jax
     """Return the share of the step at which a point enters boxes (..., 2); 0 inside, NOT_HIT for a miss."""
     tiny = jnp.asarray(1e-30, step.dtype)
     inverse = 1.0 / jnp.where(jnp.abs(step) < tiny, tiny, step)
-    one, other = (lower - position) * inverse, (upper - position) * inverse
-    enters = jnp.max(jnp.minimum(one, other), axis=-1)
-    leaves = jnp.min(jnp.maximum(one, other), axis=-1)
+    to_lower, to_upper = (lower - position) * inverse, (upper - position) * inverse
+    enters = jnp.max(jnp.minimum(to_lower, to_upper), axis=-1)
+    leaves = jnp.min(jnp.maximum(to_lower, to_upper), axis=-1)
     return jnp.where((enters <= leaves) & (leaves >= 0), jnp.maximum(enters, 0.0), NOT_HIT)
 
 
@@ -134,11 +138,11 @@ def _into_disc(
     position: jax.Array, step: jax.Array, middles: jax.Array, radius: jax.Array | float
 ) -> jax.Array:
     """Return the share of the step at which a point enters discs round `middles` (..., 2)."""
-    away = position - middles
+    offset = position - middles
     square = jnp.sum(step * step)
-    approach = -jnp.sum(away * step, axis=-1)
+    approach = -jnp.sum(offset * step, axis=-1)
     # exact for near passes, unlike the difference of squares
-    across = away[..., 0] * step[1] - away[..., 1] * step[0]
+    across = offset[..., 0] * step[1] - offset[..., 1] * step[0]
     depth = square * radius * radius - across * across
     meets = (depth >= 0) & (approach > 0) & (square > 0)
     share = (approach - jnp.sqrt(jnp.where(meets, depth, 0.0))) / jnp.where(square > 0, square, 1.0)

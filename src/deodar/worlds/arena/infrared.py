@@ -19,15 +19,15 @@ def distances(
     Rays end at ten times the largest distance of the table; readings are constant beyond the table.
     """
     dtype = boxes.dtype
-    forward, left = jnp.asarray(sensors.forward, dtype), jnp.asarray(sensors.left, dtype)
+    forward, leftward = jnp.asarray(sensors.forward, dtype), jnp.asarray(sensors.left, dtype)
     front = ahead(heading)
     side = jnp.stack([-front[1], front[0]])
-    origins = position + forward[:, None] * front + left[:, None] * side
+    origins = position + forward[:, None] * front + leftward[:, None] * side
     looks = ahead(heading + jnp.asarray(sensors.angles, dtype)).T
     # an object that reflects twice as well as the table's surface is detected up to twice the range
     longest = 10 * sensors.distances[-1]
-    found = jnp.minimum(rays(origins, looks, boxes, present, longest), longest)
-    return found / reflection if sensors.reflects else found
+    lengths = jnp.minimum(rays(origins, looks, boxes, present, longest), longest)
+    return lengths / reflection if sensors.reflects else lengths
 
 
 def readings(sensors: Infrared, distance: Array, deviates: Array) -> Array:
@@ -36,6 +36,6 @@ def readings(sensors: Infrared, distance: Array, deviates: Array) -> Array:
     Reading and noise are interpolated linearly between the entries of the table.
     """
     at = jnp.asarray(np.asarray(sensors.distances), distance.dtype)
-    value = jnp.interp(distance, at, jnp.asarray(np.asarray(sensors.readings), distance.dtype))
+    reading = jnp.interp(distance, at, jnp.asarray(np.asarray(sensors.readings), distance.dtype))
     share = jnp.interp(distance, at, jnp.asarray(np.asarray(sensors.noise), distance.dtype))
-    return jnp.maximum(value * (1 + share * deviates), 0.0)
+    return jnp.maximum(reading * (1 + share * deviates), 0.0)

@@ -55,14 +55,16 @@ class ArenaSlot:
 
     def for_trial(self, trial: int) -> ArenaSlot:
         """Return the slot with the row of one trial alone."""
-        item, window = self.item(trial), of([trial], self.windows, f"windows of {self.name}")
-        return ArenaSlot(self.name, (item,), np.asarray([NEVER], np.int32) if item is None else window)
+        arena_object, window = self.item(trial), of([trial], self.windows, f"windows of {self.name}")
+        return ArenaSlot(
+            self.name, (arena_object,), np.asarray([NEVER], np.int32) if arena_object is None else window
+        )
 
     def to_data(self) -> Json:
         """Return plain data."""
-        windows, item = self.windows.tolist(), self.rows[0]
-        if len(self.rows) == 1 and item is not None:
-            numbers, height = _numbers(item)
+        windows, first = self.windows.tolist(), self.rows[0]
+        if len(self.rows) == 1 and first is not None:
+            numbers, height = _numbers(first)
             return [self.name, *numbers, windows, *height]
         rows = [None if t is None else [value for part in _numbers(t) for value in part] for t in self.rows]
         return [self.name, rows, windows]
@@ -70,9 +72,9 @@ class ArenaSlot:
     @classmethod
     def from_data(cls, data: Any) -> ArenaSlot:
         """Return the slot that `to_data` described."""
-        name, own = data[0], isinstance(data[1], list)
-        given, windows = (data[1], data[2]) if own else ([[*data[1:8], *data[9:]]], data[8])
-        rows = tuple(None if row is None else _object(name, row) for row in given)
+        name, has_rows = data[0], isinstance(data[1], list)
+        described, windows = (data[1], data[2]) if has_rows else ([[*data[1:8], *data[9:]]], data[8])
+        rows = tuple(None if row is None else _object(name, row) for row in described)
         return cls(name, rows, np.asarray(windows, np.int32))
 
 
@@ -121,11 +123,11 @@ class ArenaObjects:
         """
         name, times = rows[0].name, _always()
         if windows is not None:
-            what = f"windows of {name}"
-            given = rows_of(what, windows, [1.0, 1.0])
-            if not (given[:, 0] <= given[:, 1]).all():
-                raise WorldError("begins after it ends", where=what)
-            times = np.clip(np.ceil(given / self.period - 0.5), *ALWAYS).astype(np.int32)
+            label = f"windows of {name}"
+            times_in_ms = rows_of(label, windows, [1.0, 1.0])
+            if not (times_in_ms[:, 0] <= times_in_ms[:, 1]).all():
+                raise WorldError("begins after it ends", where=label)
+            times = np.clip(np.ceil(times_in_ms / self.period - 0.5), *ALWAYS).astype(np.int32)
         names = [s.name if s is not None else None for s in self.slots]
         if name not in names and None not in names:
             raise WorldError(
@@ -157,18 +159,18 @@ class ArenaObjects:
 
     def permanent(self, trial: int = 0) -> list[ArenaObject]:
         """Return the objects of a trial that are always present."""
-        found = (s.item(trial) for s in self.slots if s is not None and (s.windows == ALWAYS).all())
-        return [item for item in found if item is not None]
+        objects = (s.item(trial) for s in self.slots if s is not None and (s.windows == ALWAYS).all())
+        return [block for block in objects if block is not None]
 
     def present(self, period: int, trial: int) -> list[ArenaObject]:
         """Return the objects that are present in a period of a trial."""
-        found = ((s.item(trial), s.window(trial)) for s in self.slots if s is not None)
-        return [item for item, (start, stop) in found if item is not None and start <= period < stop]
+        objects = ((s.item(trial), s.window(trial)) for s in self.slots if s is not None)
+        return [block for block, (start, stop) in objects if block is not None and start <= period < stop]
 
     def all(self, trial: int = 0) -> list[ArenaObject]:
         """Return the objects that a trial has at any time."""
-        found = (s.item(trial) for s in self.slots if s is not None)
-        return [item for item in found if item is not None]
+        objects = (s.item(trial) for s in self.slots if s is not None)
+        return [block for block in objects if block is not None]
 
     def for_trial(self, trial: int) -> ArenaObjects:
         """Return the objects of one trial, as those of all trials."""
@@ -226,8 +228,8 @@ class ArenaObjects:
         out[:, self.room :] = border
         for k, slot in enumerate(self.slots):
             rows = (None,) if slot is None else slot.rows
-            given = np.asarray([free if t is None else numbers(t) for t in rows])
-            out[:, k] = of(trials, given, "" if slot is None else slot.name)
+            rows_of_slot = np.asarray([free if t is None else numbers(t) for t in rows])
+            out[:, k] = of(trials, rows_of_slot, "" if slot is None else slot.name)
         return out
 
     def to_data(self) -> list[Json]:
@@ -244,10 +246,10 @@ class ArenaObjects:
         self.slots = [*slots, *[None] * (self.room - len(slots))]
 
     def _slot(self, name: str) -> tuple[int, ArenaSlot]:
-        found = {s.name: (k, s) for k, s in enumerate(self.slots) if s is not None}
-        if name not in found:
-            raise UnknownName(f"nothing in the arena is called {name!r}", fix=did_you_mean(str(name), found))
-        return found[name]
+        slots = {s.name: (k, s) for k, s in enumerate(self.slots) if s is not None}
+        if name not in slots:
+            raise UnknownName(f"nothing in the arena is called {name!r}", fix=did_you_mean(str(name), slots))
+        return slots[name]
 
 
 def made(
@@ -263,15 +265,15 @@ def made(
     values = {"center": _rows(center), "size": _rows(size), "color": _rows(color)}
     values["height"] = list(height) if isinstance(height, (list, tuple, np.ndarray)) else [height]
     count = max(map(len, values.values()))
-    for what, rows in values.items():
+    for parameter, rows in values.items():
         if len(rows) not in (1, count):
             raise WorldError(
                 f"has {len(rows)} rows, and another value has {count}",
-                where=f"{name}.{what}",
+                where=f"{name}.{parameter}",
                 fix="Give one for all trials, or a row for each",
             )
-    chosen = [{what: rows[k % len(rows)] for what, rows in values.items()} for k in range(count)]
-    return [make(name, scale=scale, **one) for one in chosen]
+    by_trial = [{parameter: rows[k % len(rows)] for parameter, rows in values.items()} for k in range(count)]
+    return [make(name, scale=scale, **arguments) for arguments in by_trial]
 
 
 def _rows(value: Any) -> list[Any]:
@@ -290,10 +292,10 @@ def _always() -> np.ndarray:
     return np.asarray([ALWAYS], np.int32)
 
 
-def _numbers(item: ArenaObject) -> tuple[list[float], list[float]]:
+def _numbers(block: ArenaObject) -> tuple[list[float], list[float]]:
     """Return centre, size and colour, and the height, if one is stated."""
-    height = [] if item.height is None else [item.height]
-    return [*item.center, *item.size, *item.color], height
+    height = [] if block.height is None else [block.height]
+    return [*block.center, *block.size, *block.color], height
 
 
 def _object(name: str, numbers: Sequence[float]) -> ArenaObject:

@@ -42,38 +42,38 @@ class BlockCheck:
         corners, windows, inside = self.corners, self.windows, np.asarray(self.places.border)
         for s in self.slots:
             lower, upper = _common(corners[s.name], inside[None])
-            here = windows[s.name][:, 0] < windows[s.name][:, 1]
-            outside = here & (upper - lower < self.least).any(axis=1)
+            exists = windows[s.name][:, 0] < windows[s.name][:, 1]
+            outside = exists & (upper - lower < self.least).any(axis=1)
             if outside.any():
-                what = f"the block {s.name!r} lies outside the arena{self._of(outside)}: no camera sees it"
-                yield Problem("arena", what, "Move it inside", "warning")
+                fault = f"the block {s.name!r} lies outside the arena{self._of(outside)}: no camera sees it"
+                yield Problem("arena", fault, "Move it inside", "warning")
         for s in self.slots:
             x_y = np.resize(starts[:, :2], (max(self.trials, len(starts)), 2))
             box, window = (np.resize(a[s.name], (len(x_y), a[s.name].shape[1])) for a in (corners, windows))
-            away = np.maximum(np.maximum(box[:, :2] - x_y, x_y - box[:, 2:]), 0.0)
-            covers = (window[:, 0] <= 0) & (window[:, 1] > 0) & (np.hypot(*away.T) < radius - self.least)
+            offset = np.maximum(np.maximum(box[:, :2] - x_y, x_y - box[:, 2:]), 0.0)
+            covers = (window[:, 0] <= 0) & (window[:, 1] > 0) & (np.hypot(*offset.T) < radius - self.least)
             if covers.any():
-                what = f"the block {s.name!r} covers the start of the {vehicle}{self._of(covers)}"
-                yield Problem("arena", f"{what}, which is pushed aside", "Move one of them", "warning")
+                fault = f"the block {s.name!r} covers the start of the {vehicle}{self._of(covers)}"
+                yield Problem("arena", f"{fault}, which is pushed aside", "Move one of them", "warning")
         yield from self.overlaps()
 
     def overlaps(self, block: str | None = None) -> Iterator[Problem]:
         """Yield a warning for each pair of blocks that overlap at one time; with `block` for its pairs."""
         corners, windows, inside = self.corners, self.windows, np.asarray(self.places.border)
-        for one, other in itertools.combinations([s.name for s in self.slots], 2):
-            if block not in (None, one, other):
+        for first, second in itertools.combinations([s.name for s in self.slots], 2):
+            if block not in (None, first, second):
                 continue
-            lower, upper = _common(corners[one], corners[other])
-            start = np.maximum(windows[one][:, 0], windows[other][:, 0])
-            together = start < np.minimum(windows[one][:, 1], windows[other][:, 1])
+            lower, upper = _common(corners[first], corners[second])
+            start = np.maximum(windows[first][:, 0], windows[second][:, 0])
+            together = start < np.minimum(windows[first][:, 1], windows[second][:, 1])
             seen, to = _common(np.concatenate([lower, upper], axis=1), inside[None])
             overlap = together & (to - seen > self.least).all(axis=1)
             if overlap.any():
                 k = int(np.argmax(overlap))
                 w, h = (upper - lower)[k] / self.places.scale
-                what = f"the blocks {one!r} and {other!r} overlap by {w:.4g} x {h:.4g} {self.places.unit}"
-                fix = f"Move one of them, or give them different times: arena.place({other!r}, windows=...)"
-                yield Problem("arena", what + self._of(overlap), fix, "warning")
+                fault = f"the blocks {first!r} and {second!r} overlap by {w:.4g} x {h:.4g} {self.places.unit}"
+                fix = f"Move one of them, or give them different times: arena.place({second!r}, windows=...)"
+                yield Problem("arena", fault + self._of(overlap), fix, "warning")
 
     def _of(self, trials: np.ndarray) -> str:
         return f" in trial {int(np.argmax(trials))}" if len(trials) > 1 else ""
@@ -81,12 +81,12 @@ class BlockCheck:
     def _corners(self, slot: ArenaSlot) -> np.ndarray:
         """Return lower x, lower y, upper x, upper y in each trial, m; NaN where there is no such block."""
         items = [slot.item(k) for k in range(self.trials)]
-        return np.asarray([[np.nan] * 4 if item is None else item.box for item in items])
+        return np.asarray([[np.nan] * 4 if block is None else block.box for block in items])
 
     def _windows(self, slot: ArenaSlot) -> np.ndarray:
         return np.asarray([slot.window(k) for k in range(self.trials)])
 
 
-def _common(one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _common(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the lower and the upper corner of what boxes (n, 4) have in common."""
-    return np.maximum(one[:, :2], other[:, :2]), np.minimum(one[:, 2:], other[:, 2:])
+    return np.maximum(first[:, :2], second[:, :2]), np.minimum(first[:, 2:], second[:, 2:])

@@ -100,11 +100,15 @@ def _hues_changed(numbers: Array, palette: Array, noise: PictureNoise) -> Array:
     of it then gives with the second one a standard normal deviate, or the second one the outlier's hue.
     """
     dtype = palette.dtype
-    one, turn = (uniform(w) for w in _pixel_words(numbers.shape, "hues", 0, noise))
+    chance, turn = (uniform(w) for w in _pixel_words(numbers.shape, "hues", 0, noise))
     share = noise.levels.get("outliers", jnp.zeros((), dtype))
-    is_outlier = one < share
-    left = jnp.clip((one - share) / (1 - jnp.minimum(share, 0.999)), 2.0**-24, 1.0).astype(one.dtype)
-    deviate = box_muller(left, turn, dtype)[0] * noise.levels.get("hue_noise", jnp.zeros((), dtype)) / 360
+    is_outlier = chance < share
+    remainder = jnp.clip((chance - share) / (1 - jnp.minimum(share, 0.999)), 2.0**-24, 1.0).astype(
+        chance.dtype
+    )
+    deviate = (
+        box_muller(remainder, turn, dtype)[0] * noise.levels.get("hue_noise", jnp.zeros((), dtype)) / 360
+    )
     hue, saturation, value = hue_saturation_value(palette)
     of_surface = jnp.stack([hue, saturation * value, value])
 

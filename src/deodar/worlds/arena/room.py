@@ -51,9 +51,9 @@ class Room:
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
         left, low, right, high = self.border
         far = (x - (left + right) / 2) ** 2 + (y - (low + high) / 2) ** 2
-        for wanted in (self.radius / 2, 0.0):
-            if (self.gap > wanted).any():
-                k = np.argmin(np.where(self.gap > wanted, far, np.inf))
+        for needed in (self.radius / 2, 0.0):
+            if (self.gap > needed).any():
+                k = np.argmin(np.where(self.gap > needed, far, np.inf))
                 return float(x.flat[k]), float(y.flat[k])
         return None
 
@@ -63,11 +63,11 @@ class Room:
             # start-up time
             from scipy.ndimage import label
 
-            found: Any = label(self.gap > -self.cell, np.ones((3, 3)))
-            self._labels = np.asarray(found[0])
-        here = self._around(start, self.cell)
-        there = self._around(goal, self.radius + self.cell)
-        return bool((set(here) & set(there)) - {0})
+            labelled: Any = label(self.gap > -self.cell, np.ones((3, 3)))
+            self._labels = np.asarray(labelled[0])
+        start_labels = self._around(start, self.cell)
+        goal_labels = self._around(goal, self.radius + self.cell)
+        return bool((set(start_labels) & set(goal_labels)) - {0})
 
     def _around(self, place: Sequence[float], reach: float) -> list[int]:
         assert self._labels is not None

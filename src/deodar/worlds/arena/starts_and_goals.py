@@ -16,9 +16,9 @@ FAR = 2.0
 """Largest distance of an object from the border, in lengths of its longer side."""
 
 
-def rows_of(what: str, given: npt.ArrayLike, scale: Sequence[float]) -> np.ndarray:
+def rows_of(label: str, numbers: npt.ArrayLike, scale: Sequence[float]) -> np.ndarray:
     """Convert a value to rows with one finite number per scale, multiplied by the scales."""
-    return finite_rows(what, given, len(scale)) * np.asarray(scale)
+    return finite_rows(label, numbers, len(scale)) * np.asarray(scale)
 
 
 class Places:
@@ -36,13 +36,13 @@ class Places:
         self.border, self.unit, self.scale, self.source = border, unit, scale, source
 
     def misplaced(
-        self, rows: np.ndarray, what: str, radius: float, objects: Sequence[Sequence[ArenaObject]]
+        self, rows: np.ndarray, label: str, radius: float, objects: Sequence[Sequence[ArenaObject]]
     ) -> list[Problem]:
         """Return problems of positions that are outside the arena or too near to an object for the radius.
 
         Args:
             rows: one position for all trials, or one for each; m.
-            what: what is there, in messages.
+            label: what is there, in messages.
             radius: free distance around it, m.
             objects: the objects of all trials, or of each.
         """
@@ -57,12 +57,12 @@ class Places:
                     f"{a / self.scale:g} to {b / self.scale:g}" for a, b in ((left, right), (low, high))
                 )
                 text = f"lies outside the arena, {span} {self.unit}{needs}"
-                problems.append(self.fault(what, rows, k, text, count))
+                problems.append(self.fault(label, rows, k, text, count))
                 continue
-            here = objects[k % len(objects)]
-            inside = [t.name for t in here if _distance(t.box, x, y) < max(radius, 1e-12)]
+            present = objects[k % len(objects)]
+            inside = [t.name for t in present if _distance(t.box, x, y) < max(radius, 1e-12)]
             if inside:
-                problems.append(self.fault(what, rows, k, f"lies inside {inside[0]!r}{needs}", count))
+                problems.append(self.fault(label, rows, k, f"lies inside {inside[0]!r}{needs}", count))
         return problems
 
     def require_near(self, name: str, centers: Sequence[Sequence[float]]) -> None:
@@ -83,9 +83,9 @@ class Places:
                     fix=f"Give lengths in {self.unit}, or choose the unit: dd.Arena(..., unit='cm')",
                 )
 
-    def fault(self, what: str, rows: np.ndarray, k: int, text: str, count: int) -> Problem:
+    def fault(self, label: str, rows: np.ndarray, k: int, text: str, count: int) -> Problem:
         """Return a problem of the position of trial `k` of `count`."""
-        place = what if count == 1 else f"{what} of trial {k}"
+        place = label if count == 1 else f"{label} of trial {k}"
         return Problem(
             f"{self.source}: {place}" if self.source else place, f"{self.shown(rows[k % len(rows)])} {text}"
         )

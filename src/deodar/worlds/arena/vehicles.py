@@ -11,14 +11,14 @@ from deodar.worlds.arena.vehicle import Vehicle
 VEHICLES = {vehicle.name: vehicle for vehicle in (EPUCK, KHEPERA)}
 
 
-def vehicle_of(given: str | Vehicle) -> Vehicle:
+def vehicle_of(vehicle: str | Vehicle) -> Vehicle:
     """Return the vehicle of a name, or the one that was given.
 
     Raises:
         WorldError: there is no vehicle of this name.
     """
-    if isinstance(given, Vehicle):
-        return given
-    if given not in VEHICLES:
-        raise WorldError(f"there is no vehicle {show(given)}", fix=did_you_mean(str(given), VEHICLES))
-    return VEHICLES[given]
+    if isinstance(vehicle, Vehicle):
+        return vehicle
+    if vehicle not in VEHICLES:
+        raise WorldError(f"there is no vehicle {show(vehicle)}", fix=did_you_mean(str(vehicle), VEHICLES))
+    return VEHICLES[vehicle]

@@ -26,11 +26,11 @@ def sides(axes: Axes, boxes: Array, scale: float) -> tuple[Array, Array]:
         scale: metres per unit of an axis that states no unit of length.
     """
     across = 0 if axes[1].name != "x" else 1
-    one, other = (
+    along_x, along_y = (
         _along(axes[d], boxes[:, k], boxes[:, k + 2], metres(axes[d], scale))
         for d, k in ((0, across), (1, 1 - across))
     )
-    return one, other
+    return along_x, along_y
 
 
 def metres(axis: Axis, scale: float) -> float:
@@ -64,8 +64,8 @@ def judge_plane(
             continue
         size = metres(axis, scale)
         bounds = border[k] / size, border[k + 2] / size
-        for what, fix in barely_overlap(axis, bounds, "the walls of the arena", "" if axis.unit else unit):
-            yield Problem("", what, fix, "warning")
+        for fault, fix in barely_overlap(axis, bounds, "the walls of the arena", "" if axis.unit else unit):
+            yield Problem("", fault, fix, "warning")
 
 
 def _along(axis: Axis, lower: Array, upper: Array, scale: float) -> Array:
@@ -85,9 +85,10 @@ def coloured(cover: Array, colours: Array) -> Array:
 
 def require_plane(sensor: str, axes: Axes, channels: bool) -> None:
     """Raise WorldError unless the axes are two dimensions, with three channels if `channels`."""
-    wanted = 3 if channels else 2
-    if len(axes) != wanted or (channels and axes[2].samples != 3):
-        more = " and three channels" if channels else ""
+    dimensions = 3 if channels else 2
+    if len(axes) != dimensions or (channels and axes[2].samples != 3):
+        channels_text = " and three channels" if channels else ""
         raise WorldError(
-            f"is seen over two dimensions{more}, not over {[a.samples for a in axes]} samples", where=sensor
+            f"is seen over two dimensions{channels_text}, not over {[a.samples for a in axes]} samples",
+            where=sensor,
         )
