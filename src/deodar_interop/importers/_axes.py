@@ -35,12 +35,12 @@ class LengthAxes:
         self.names = names
         self.used: list[Counter[int]] = [Counter() for _ in names]
         self.wraps: Counter[int] = Counter()
-        for own, circular in elements:
-            for d, count in enumerate(own):
+        for counts, circular in elements:
+            for d, count in enumerate(counts):
                 self.used[d][count] += count > 1
             for d, wraps in circular.items():
-                if d < len(own):
-                    self.wraps[own[d]] += 1 if wraps else -1
+                if d < len(counts):
+                    self.wraps[counts[d]] += 1 if wraps else -1
         self.common = [max(used, key=lambda n: (used[n], n), default=0) for used in self.used]
 
     def of(self, counts: Sequence[int]) -> Dims:

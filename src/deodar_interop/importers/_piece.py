@@ -91,7 +91,7 @@ def projection(
     """Return a projection in which each axis of the source becomes the axis at its index, or is summed if
     that is None.
     """
-    here = axes(target)
+    target_axes = axes(target)
     names = {
         a.name: b.name for a, b in zip(source, places, strict=True) if b is not None and a.name != b.name
     }
@@ -99,9 +99,9 @@ def projection(
     names |= {
         a.name: f"{a.name} added up"
         for a, b in zip(source, places, strict=True)
-        if b is None and a.name in [c.name for c in here]
+        if b is None and a.name in [c.name for c in target_axes]
     }
-    return Project(here, reduce, names, name=name)
+    return Project(target_axes, reduce, names, name=name)
 
 
 class Unfit(ValueError):

@@ -18,16 +18,16 @@ def repeated_keys(data: Any, label: Callable[[dict[str, Any]], str | None]) -> l
         label: returns the label of an object that is an element, else None; the line then belongs to it.
     """
     lines: list[Line] = []
-    for found in repeated(data):
+    for repetition in repeated(data):
         inside, owner, path = data, "", list[Any]()
-        for step in found.path:
+        for step in repetition.path:
             inside = inside[step]
             path.append(step)
             name = label(cast("dict[str, Any]", inside)) if isinstance(inside, dict) else None
             if name is not None:
                 owner, path = name, []
-        what = ".".join(str(step) for step in (*path, found.key))
-        values = ", ".join(show(value) for value in found.values)
-        why = f"it occurs {len(found.values)} times, with the values {values}; the last one is used"
-        lines.append(Line(owner, "key", what, "approximated", why))
+        key = ".".join(str(step) for step in (*path, repetition.key))
+        values = ", ".join(show(value) for value in repetition.values)
+        why = f"it occurs {len(repetition.values)} times, with the values {values}; the last one is used"
+        lines.append(Line(owner, "key", key, "approximated", why))
     return lines

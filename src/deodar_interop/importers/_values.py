@@ -44,12 +44,12 @@ class ForeignValues:
         """Return one number; a value that is not a number or out of bounds is replaced and reported."""
         if name not in self.body:
             return self.absent(name, default)
-        value = self.single(name)
-        if value is None or not math.isfinite(value):
+        stated = self.single(name)
+        if stated is None or not math.isfinite(stated):
             return self.instead(name, default)
-        inside = min(max(value, lower), upper)
-        if inside != value:
-            self.say(name, "approximated", f"{value:g} is out of range; {inside:g} is used")
+        inside = min(max(stated, lower), upper)
+        if inside != stated:
+            self.say(name, "approximated", f"{stated:g} is out of range; {inside:g} is used")
         else:
             self.say(name)
         return inside

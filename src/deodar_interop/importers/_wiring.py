@@ -71,7 +71,7 @@ class SourceWiring:
         for e in self.elements:
             piece = self.pieces[e.label]
             self.connections += [
-                (a, "output", b, rest[0] if rest else "input", "") for a, b, *rest in piece.inner
+                (a, "output", b, ports[0] if ports else "input", "") for a, b, *ports in piece.inner
             ]
             arriving: dict[Inlet, list[tuple[Outlet, str, str]]] = {}
             for k, source in enumerate(e.sources):
@@ -79,14 +79,14 @@ class SourceWiring:
             for k in range(piece.needs):
                 for inlet in piece.inlets[k] if k < len(piece.inlets) else ():
                     arriving.setdefault(inlet, [])
-            for inlet, found in arriving.items():
-                self.join(e, inlet, found)
+            for inlet, sources in arriving.items():
+                self.join(e, inlet, sources)
 
     def connect(
         self, e: Foreign, k: int, s: Source, arriving: dict[Inlet, list[tuple[Outlet, str, str]]]
     ) -> None:
         """Connect one input of the file to its targets, and report it."""
-        piece, what = self.pieces[e.label], f"{s.label}.{s.component}" if s.component else s.label
+        piece, origin = self.pieces[e.label], f"{s.label}.{s.component}" if s.component else s.label
         inlets = (
             piece.inlets[0 if piece.sums else k]
             if piece.inlets and (piece.sums or k < len(piece.inlets))
@@ -94,12 +94,14 @@ class SourceWiring:
         )
         source = self.pieces.get(s.label)
         if source is None:
-            self.drop(e, what, "there is no such element")
+            self.drop(e, origin, "there is no such element")
             return
         outlet = source.outlets.get(s.component) if s.component else next(iter(source.outlets.values()), None)
         if outlet is None:
             self.drop(
-                e, what, f"{s.label!r} gives no {s.component!r} here; it gives {', '.join(source.outlets)}"
+                e,
+                origin,
+                f"{s.label!r} gives no {s.component!r} here; it gives {', '.join(source.outlets)}",
             )
             return
         if not inlets:
@@ -107,7 +109,7 @@ class SourceWiring:
                 Line(
                     e.label,
                     "connection",
-                    what,
+                    origin,
                     "carried",
                     f"without effect, as in {self.tool}: {e.kind} does not read its input {k + 1}",
                 )
@@ -117,12 +119,12 @@ class SourceWiring:
             sizes = " into ".join(
                 str([1 if a is None else a.samples for a in dims]) for dims in (outlet.dims, inlets[0].dims)
             )
-            self.drop(e, what, f"its size does not fit: {sizes}")
+            self.drop(e, origin, f"its size does not fit: {sizes}")
             return
         for inlet in inlets:
             read = source.outlets.get(inlet.component, outlet)
             arriving.setdefault(inlet, []).append((read, self.reads(read, s.label, e.label), s.label))
-        self.lines.append(Line(e.label, "connection", what, "carried"))
+        self.lines.append(Line(e.label, "connection", origin, "carried"))
 
     def reads(self, outlet: Outlet, source: str, target: str) -> str:
         """Return `reads` of a connection, from the order of its ends."""
@@ -133,9 +135,9 @@ class SourceWiring:
             return ""
         return "delayed"
 
-    def join(self, e: Foreign, inlet: Inlet, found: list[tuple[Outlet, str, str]]) -> None:
+    def join(self, e: Foreign, inlet: Inlet, sources: list[tuple[Outlet, str, str]]) -> None:
         """Join the sources of one inlet, each with the axes it needs; without a source the input is zero."""
-        if not found:
+        if not sources:
             name = self.names.new(f"nothing to {inlet.name}")
             self.extra.append(Boost(name, axes(inlet.dims), 0.0))
             self.connections.append((name, "output", inlet.name, inlet.port, ""))
@@ -149,9 +151,9 @@ class SourceWiring:
                 )
             )
             return
-        whole = any(outlet.dims == inlet.dims for outlet, *_ in found)
-        times = Counter((outlet.name, outlet.port, reads) for outlet, reads, _ in found)
-        for k, (outlet, reads, source) in enumerate(found):
+        whole = any(outlet.dims == inlet.dims for outlet, *_ in sources)
+        times = Counter((outlet.name, outlet.port, reads) for outlet, reads, _ in sources)
+        for k, (outlet, reads, source) in enumerate(sources):
             name, port = outlet.name, outlet.port
             count = times.pop((name, port, reads), 0)
             if not count:
@@ -167,23 +169,23 @@ class SourceWiring:
                 self.connections.append((name, port, through, "input", reads))
                 name, port, reads = through, "output", ""
             if count > 1:
-                again = self.names.new(f"{outlet.name} {count} times to {inlet.name}")
-                self.extra.append(Gain(float(count), name=again))
-                self.connections.append((name, port, again, "input", reads))
-                name, port, reads = again, "output", ""
+                repeated = self.names.new(f"{outlet.name} {count} times to {inlet.name}")
+                self.extra.append(Gain(float(count), name=repeated))
+                self.connections.append((name, port, repeated, "input", reads))
+                name, port, reads = repeated, "output", ""
             self.connections.append((name, port, inlet.name, inlet.port, reads))
 
-    def compatible(self, given: Dims, wanted: Dims) -> bool:
+    def compatible(self, source: Dims, target: Dims) -> bool:
         """Return whether one size can be expanded to another, dimension by dimension."""
-        longer = max(len(given), len(wanted))
+        longer = max(len(source), len(target))
         pairs = zip(
-            given + (None,) * (longer - len(given)), wanted + (None,) * (longer - len(wanted)), strict=True
+            source + (None,) * (longer - len(source)), target + (None,) * (longer - len(target)), strict=True
         )
         return all(a is None or (b is not None and shape((a,)) == shape((b,))) for a, b in pairs)
 
-    def adapter(self, name: str, given: Dims, wanted: Dims) -> Element:
+    def adapter(self, name: str, source: Dims, target: Dims) -> Element:
         """Return the element between a source and an inlet of other axes."""
-        return projection(name, axes(given), wanted, _fits(given, wanted))
+        return projection(name, axes(source), target, _fits(source, target))
 
     def delay(self, outlet: Outlet) -> str:
         """Return a register that delays an outlet by one step.
@@ -209,12 +211,12 @@ class SourceWiring:
         ]
         rows, columns = zip(*pairs, strict=True) if pairs else ((), ())
         graph = coo_array((np.ones(len(pairs)), (rows, columns)), shape=(len(followers), len(followers)))
-        _, found = connected_components(graph, connection="strong")
-        return {label: int(found[k]) for label, k in number.items()}
+        _, components = connected_components(graph, connection="strong")
+        return {label: int(components[k]) for label, k in number.items()}
 
-    def drop(self, e: Foreign, what: str, why: str) -> None:
+    def drop(self, e: Foreign, source: str, why: str) -> None:
         """Report a connection that is not made."""
-        self.lines.append(Line(e.label, "connection", what, "dropped", why))
+        self.lines.append(Line(e.label, "connection", source, "dropped", why))
 
     def _noisy(self) -> set[str]:
         """Return elements of noise alone, all of whose readers come before them.
@@ -222,23 +224,23 @@ class SourceWiring:
         Noise of this step and noise of the last step are equivalent for their readers, so they need no
         register.
         """
-        found: set[str] = set()
+        noisy: set[str] = set()
         for e in self.elements:
             noise = any(o.noise for o in self.pieces[e.label].outlets.values())
             chained = (
                 bool(e.sources)
                 and self.pieces[e.label].passes_noise
-                and all(s.label in found for s in e.sources)
+                and all(s.label in noisy for s in e.sources)
             )
             if noise or chained:
-                found.add(e.label)
+                noisy.add(e.label)
         return {
             n
-            for n in found
-            if all(self.place[t] < self.place[n] for t in self.feeds.get(n, ()) if t not in found)
+            for n in noisy
+            if all(self.place[t] < self.place[n] for t in self.feeds.get(n, ()) if t not in noisy)
         }
 
 
-def _fits(given: Dims, wanted: Dims) -> tuple[Axis | None, ...]:
+def _fits(source: Dims, target: Dims) -> tuple[Axis | None, ...]:
     """Return the axes of one size among those of another."""
-    return tuple(b for a, b in zip(given, wanted, strict=False) if a is not None)
+    return tuple(b for a, b in zip(source, target, strict=False) if a is not None)

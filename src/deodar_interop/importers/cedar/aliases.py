@@ -66,8 +66,8 @@ def renamed(kind: str, values: Mapping[str, Any]) -> Mapping[str, Any]:
 
 def _numbered(values: dict[str, Any]) -> dict[str, Any]:
     """Return the parameters with `lateralKernel0`, `lateralKernel1`, ... as a list of kernels."""
-    found = [values.pop(name) for k in range(MOST_KERNELS) if (name := f"lateralKernel{k}") in values]
+    kernels = [values.pop(name) for k in range(MOST_KERNELS) if (name := f"lateralKernel{k}") in values]
     count = str(values.pop("numberOfKernels"))
-    kept = found[: int(count)] if count.isdigit() else found
-    values.setdefault("lateral kernels", collect([(GAUSS, kernel) for kernel in kept]))
+    counted = kernels[: int(count)] if count.isdigit() else kernels
+    values.setdefault("lateral kernels", collect([(GAUSS, kernel) for kernel in counted]))
     return values

@@ -28,26 +28,26 @@ class CedarBorder:
         """Return the border of a convolution object; FFTW is cyclic whatever the object states."""
         values = members(body)
         fourier = text(members(values.get("engine")).get("type")) == FASTEST or dimensions > 2
-        given = text(values.get("borderType"))
-        kind = "Cyclic" if fourier else given if given in BORDERS else "Zero"
+        stated = text(values.get("borderType"))
+        kind = "Cyclic" if fourier else stated if stated in BORDERS else "Zero"
         later = fourier or text(values.get("alternate even kernel center")) == "true"
         return cls(kind, fourier, later)
 
     def ends(self, axes: Sequence[Axis]) -> list[str] | None:
         """Return the boundary of each axis; None if it is that of the axes themselves."""
-        own = ["periodic" if a.periodic else "zero" for a in axes]
-        wanted = [ENDS[self.type]] * len(axes)
-        return None if own == wanted else wanted
+        axis_ends = ["periodic" if a.periodic else "zero" for a in axes]
+        kernel_ends = [ENDS[self.type]] * len(axes)
+        return None if axis_ends == kernel_ends else kernel_ends
 
 
 def border(values: StepValues, name: str, dimensions: int) -> CedarBorder:
     """Read a convolution object, with report lines."""
-    found = CedarBorder.of(values.body.get(name), dimensions)
+    convolution = CedarBorder.of(values.body.get(name), dimensions)
     if name not in values.body:
-        return found
+        return convolution
     inside = values.inside(name)
-    given = inside.word("borderType", "Zero", BORDERS)
-    if found.type != given:
+    stated = inside.word("borderType", "Zero", BORDERS)
+    if convolution.type != stated:
         who = "FFTW" if dimensions <= 2 else "FFTW, which cedar takes from three dimensions on,"
         inside.say("borderType", "carried", f"{who} is always cyclic")
     inside.word("mode", "Same", ("Same",))
@@ -55,4 +55,4 @@ def border(values: StepValues, name: str, dimensions: int) -> CedarBorder:
     if "alternate even kernel center" in inside.body:
         inside.flag("alternate even kernel center", False)
     values.say(name)
-    return found
+    return convolution

@@ -72,10 +72,10 @@ def _places(
         body = members(entry)
         match text(body.get("type")):
             case "step":
-                found = by.get((*group.path, text(body.get("step"))))
+                step = by.get((*group.path, text(body.get("step"))))
                 x, y = number(body.get("positionX")), number(body.get("positionY"))
-                if found is not None and x is not None and y is not None:
-                    places[found.id] = (left + x, top + y)
+                if step is not None and x is not None and y is not None:
+                    places[step.id] = (left + x, top + y)
             case "stickyNote":
                 x, y, words = number(body.get("x")), number(body.get("y")), text(body.get("text"))
                 if words and x is not None and y is not None:
@@ -83,8 +83,8 @@ def _places(
             case _:
                 continue
     for inside in group.groups.values():
-        own = members(inside.values.get("ui generic"))
-        x, y = number(own.get("positionX")) or 0.0, number(own.get("positionY")) or 0.0
+        generic = members(inside.values.get("ui generic"))
+        x, y = number(generic.get("positionX")) or 0.0, number(generic.get("positionY")) or 0.0
         _places(inside, left + x, top + y, by, places, notes)
 
 

@@ -60,15 +60,15 @@ class Composition:
             self.piece.needs = (*self.piece.needs, name)
         return StepSignal(name, slot=True)
 
-    def named(self, what: str) -> str:
+    def named(self, role: str) -> str:
         """Return the name of a new element."""
-        return self.b.named(what) if what else self.b.label
+        return self.b.named(role) if role else self.b.label
 
     def add(self, element: Element, **ports: StepSignal | Sequence[StepSignal]) -> StepSignal:
         """Add an element with its inputs; several signals at a port are added up."""
         self.piece.elements.append(element)
-        for port, given in ports.items():
-            for signal in (given,) if isinstance(given, StepSignal) else given:
+        for port, sources in ports.items():
+            for signal in (sources,) if isinstance(sources, StepSignal) else sources:
                 self.connect(signal, element.name, port)
         return StepSignal(element.name)
 
@@ -79,49 +79,49 @@ class Composition:
         else:
             self.piece.inner.append((signal.name, name, port, signal.reads, signal.port))
 
-    def constant(self, what: str, value: float) -> StepSignal:
+    def constant(self, role: str, value: float) -> StepSignal:
         """Add one number."""
-        return self.add(Boost(self.named(what), (), value))
+        return self.add(Boost(self.named(role), (), value))
 
-    def total(self, what: str, *signals: StepSignal) -> StepSignal:
+    def total(self, role: str, *signals: StepSignal) -> StepSignal:
         """Add a sum; the first signal has the axes of the sum."""
-        return self.add(Sum(name=self.named(what)), input=signals)
+        return self.add(Sum(name=self.named(role)), input=signals)
 
-    def gain(self, what: str, factor: float, signal: StepSignal) -> StepSignal:
+    def gain(self, role: str, factor: float, signal: StepSignal) -> StepSignal:
         """Add a multiple."""
-        return self.add(Gain(factor, name=self.named(what)), input=signal)
+        return self.add(Gain(factor, name=self.named(role)), input=signal)
 
-    def product(self, what: str, first: StepSignal, second: StepSignal) -> StepSignal:
+    def product(self, role: str, first: StepSignal, second: StepSignal) -> StepSignal:
         """Add a product; the second signal may be one number."""
-        return self.add(Product(name=self.named(what)), input=first, factor=second)
+        return self.add(Product(name=self.named(role)), input=first, factor=second)
 
-    def quotient(self, what: str, over: StepSignal, under: StepSignal, least: float) -> StepSignal:
+    def quotient(self, role: str, over: StepSignal, under: StepSignal, least: float) -> StepSignal:
         """Add a quotient; the divisor may be one number, and a smaller one than `least` is `least`."""
-        return self.add(Quotient(least, name=self.named(what)), input=over, divisor=under)
+        return self.add(Quotient(least, name=self.named(role)), input=over, divisor=under)
 
-    def limit(self, what: str, side: str, signal: StepSignal, other: StepSignal) -> StepSignal:
+    def limit(self, role: str, side: str, signal: StepSignal, other: StepSignal) -> StepSignal:
         """Add the larger (`upper`) or the smaller (`lower`) of two signals."""
-        return self.add(Envelope(side, name=self.named(what)), input=signal, other=other)
+        return self.add(Envelope(side, name=self.named(role)), input=signal, other=other)
 
-    def function(self, what: str, function: str, signal: StepSignal) -> StepSignal:
+    def function(self, role: str, function: str, signal: StepSignal) -> StepSignal:
         """Add a function of each sample, by the names of `Pointwise`."""
-        return self.add(Pointwise(function, name=self.named(what)), input=signal)
+        return self.add(Pointwise(function, name=self.named(role)), input=signal)
 
-    def above(self, what: str, threshold: float, signal: StepSignal) -> StepSignal:
+    def above(self, role: str, threshold: float, signal: StepSignal) -> StepSignal:
         """Add 1 where a signal is larger than a threshold, else 0."""
-        return self.add(Sigmoid(Step(threshold), name=self.named(what)), input=signal)
+        return self.add(Sigmoid(Step(threshold), name=self.named(role)), input=signal)
 
-    def below(self, what: str, threshold: float, signal: StepSignal) -> StepSignal:
+    def below(self, role: str, threshold: float, signal: StepSignal) -> StepSignal:
         """Add 1 where a signal is smaller than a threshold, else 0."""
-        return self.above(what, -threshold, self.gain(f"minus {what}", -1.0, signal))
+        return self.above(role, -threshold, self.gain(f"minus {role}", -1.0, signal))
 
-    def rest(self, what: str, signal: StepSignal) -> StepSignal:
+    def rest(self, role: str, signal: StepSignal) -> StepSignal:
         """Add 1 minus a signal."""
-        return self.total(what, self.gain(f"minus {what}", -1.0, signal), self.constant(f"one {what}", 1.0))
+        return self.total(role, self.gain(f"minus {role}", -1.0, signal), self.constant(f"one {role}", 1.0))
 
-    def before(self, what: str, signal: StepSignal, axes: Sequence[Axis] = ()) -> StepSignal:
+    def before(self, role: str, signal: StepSignal, axes: Sequence[Axis] = ()) -> StepSignal:
         """Add the value of a signal in the last step; 0 in the first."""
-        return self.add(Delay(tuple(axes), name=self.named(what)), input=signal)
+        return self.add(Delay(tuple(axes), name=self.named(role)), input=signal)
 
     def started(self) -> StepSignal:
         """Add 0 in the first step and 1 from then on."""
@@ -129,7 +129,7 @@ class Composition:
 
     def projected(
         self,
-        what: str,
+        role: str,
         signal: StepSignal,
         source: Sequence[Axis],
         target: Sequence[Axis],
@@ -139,7 +139,7 @@ class Composition:
         """Add a projection in which each axis of the source becomes the axis at its index, or is reduced if
         that is None; axes of the target that remain are filled.
         """
-        return self.add(projection(self.named(what), source, tuple(target), places, reduce), input=signal)
+        return self.add(projection(self.named(role), source, tuple(target), places, reduce), input=signal)
 
     def outlet(
         self, slot: str, signal: StepSignal, dims: Counts, state: bool = False, doubt: str = ""

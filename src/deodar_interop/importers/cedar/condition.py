@@ -83,21 +83,23 @@ def condition(body: Mapping[str, Any], level: int = 0) -> TrialCondition | None:
             data = _data(body)
             return None if data is None else TrialCondition(data=(data,))
         case "And" if level < DEEPEST:
-            both = [condition(members(body.get(f"Condition {k}")), level + 1) for k in (1, 2)]
-            return None if both[0] is None or both[1] is None else both[0].and_also(both[1])
+            parts = [condition(members(body.get(f"Condition {k}")), level + 1) for k in (1, 2)]
+            return None if parts[0] is None or parts[1] is None else parts[0].and_also(parts[1])
         case _:
             return None
 
 
 def _data(body: Mapping[str, Any]) -> DataCondition | None:
-    given = body.get("Step Data")
-    parts = [text(v) for v in members(given).values()] or [text(v) for v in items(given)]
+    step_data = body.get("Step Data")
+    parts = [text(v) for v in members(step_data).values()] or [text(v) for v in items(step_data)]
     value, compare = number(body.get("value")), text(body.get("compare operator"))
     count = number(body.get("number of elements", 1))
     if value is None or count is None or compare not in (">", "<", "="):
         return None
     whole = text(body.get("check full matrix")) != "false"
-    return DataCondition(text(given) or ".".join(parts), compare, value, 0 if whole else max(int(count), 1))
+    return DataCondition(
+        text(step_data) or ".".join(parts), compare, value, 0 if whole else max(int(count), 1)
+    )
 
 
 def rounded(at: float, dt: float) -> float:

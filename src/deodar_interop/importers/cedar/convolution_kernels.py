@@ -33,20 +33,20 @@ MOST_WEIGHTS = 1_000_000
 
 
 def kernels(
-    found: Sequence[tuple[str, StepValues]], axes: Sequence[Axis], border: CedarBorder
+    listed: Sequence[tuple[str, StepValues]], axes: Sequence[Axis], border: CedarBorder
 ) -> list[Kernel]:
     """Return the kernels of a list for the axes of an array."""
-    return [made for kind, values in found if (made := kernel(kind, values, axes, border)) is not None]
+    return [k for kind, values in listed if (k := kernel(kind, values, axes, border)) is not None]
 
 
-def too_long(found: Sequence[tuple[str, StepValues]], axes: Sequence[Axis], border: CedarBorder) -> str:
+def too_long(listed: Sequence[tuple[str, StepValues]], axes: Sequence[Axis], border: CedarBorder) -> str:
     """Return why FFTW refuses the kernels of a list; "" if it does not.
 
     It raises an exception for a kernel with more samples than the array along any axis.
     """
     if not border.fourier:
         return ""
-    for kind, values in found:
+    for kind, values in listed:
         quiet = StepValues(values.body, values.where)
         if kind.endswith("Gauss"):
             limit = quiet.number("limit", 5.0, 1e-6, 1e3)

@@ -30,10 +30,10 @@ def solved(equation: str, source: float) -> float | None:
     if len(text) > LONGEST or (sign and left.strip() != "target"):
         return None
     try:
-        value = _value(ast.parse(text, mode="eval").body, source)
+        target = _value(ast.parse(text, mode="eval").body, source)
     except (SyntaxError, ValueError, ArithmeticError, RecursionError, MemoryError):
         return None
-    return value if math.isfinite(value) else None
+    return target if math.isfinite(target) else None
 
 
 def _value(node: ast.expr, source: float) -> float:

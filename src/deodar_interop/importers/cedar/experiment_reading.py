@@ -92,10 +92,10 @@ class ExperimentReading:
         self.parameters = TrialParameters(parts.steps, entries)
         self.names = FreeNames([e.path for e in doc.entries])
         self.titles = FreeNames((*OWN, ""))
-        asked = max(int(number(body.get("repetitions")) or 1), 1)
-        self.repetitions = min(asked, MOST_TRIALS)
-        if asked != self.repetitions:
-            self.say("", "repetitions", "approximated", f"{asked} are too many; {MOST_TRIALS} are run")
+        repetitions = max(int(number(body.get("repetitions")) or 1), 1)
+        self.repetitions = min(repetitions, MOST_TRIALS)
+        if repetitions != self.repetitions:
+            self.say("", "repetitions", "approximated", f"{repetitions} are too many; {MOST_TRIALS} are run")
         sequences = [s for k, e in enumerate(items(body["ActionSequences"])) if (s := self.sequence(k, e))]
         listed = [values for s in sequences for kind, values in s.actions if kind == "EndTrial"]
         self.reloads = any(text(values.get("Reset type")) == "Reload" for values in listed)
@@ -107,55 +107,55 @@ class ExperimentReading:
                 self.action(sequence, kind, values)
         self.start()
 
-    def say(self, where: str, what: str, verdict: Verdict, why: str = "") -> None:
-        self.lines.append(Line(where, "parameter", what, verdict, why))
+    def say(self, where: str, name: str, verdict: Verdict, why: str = "") -> None:
+        self.lines.append(Line(where, "parameter", name, verdict, why))
 
     def sequence(self, k: int, entry: Any) -> ActionSequence | None:
         """Return a sequence; None if its condition has no counterpart, or never holds."""
         body = members(entry)
         name = self.titles.new(text(body.get("name")) or f"sequence {k + 1}")
-        given = members(body.get("Condition"))
-        kind, found = short(text(given.get("type"))), condition(given)
-        if found is None:
+        condition_body = members(body.get("Condition"))
+        kind, when = short(text(condition_body.get("type"))), condition(condition_body)
+        if when is None:
             self.say(name, kind or "Condition", "dropped", "deodar has no such condition")
             return None
         dt = self.doc.step
-        found = dc.replace(found, at=rounded(found.at, dt))
-        if not 0 <= found.trial <= self.repetitions:
+        when = dc.replace(when, at=rounded(when.at, dt))
+        if not 0 <= when.trial <= self.repetitions:
             why = f"it never holds: there are {self.repetitions} trials"
             self.say(name, kind, "carried", why)
             return None
-        parts = [self.compared(name, data) for data in found.data]
+        parts = [self.compared(name, data) for data in when.data]
         if any(part is None for part in parts):
             self.say(name, kind, "dropped", "its data have no counterpart")
             return None
         self.say(name, kind, "carried")
         actions = [(short(kind), members(values)) for kind, values in pairs(body.get("ActionSet"))]
         return ActionSequence(
-            name, found, actions, self.event(name, found, [p for p in parts if p is not None])
+            name, when, actions, self.event(name, when, [p for p in parts if p is not None])
         )
 
     def event(self, name: str, when: TrialCondition, parts: list[Crosses]) -> str:
         """Add the event of a condition, and return its name; "" if a time in every trial is enough."""
         if not parts and not when.trial:
             return ""
-        found: list[Crosses | Reached | All] = list(parts)
+        events: list[Crosses | Reached | All] = list(parts)
         if when.at or not parts:
-            found.append(Reached(name, when.at, ends=False))
-        if len(found) > 1:
-            titles = [self.titles.new(f"{name}, part {k + 1}") for k in range(len(found))]
-            many = [dc.replace(each, name=title) for each, title in zip(found, titles, strict=True)]
-            self.events |= {each.name: each for each in many}
-            found = [All(name, [each.name for each in many], ends=False)]
-        self.events[name] = found[0]
+            events.append(Reached(name, when.at, ends=False))
+        if len(events) > 1:
+            titles = [self.titles.new(f"{name}, part {k + 1}") for k in range(len(events))]
+            listed = [dc.replace(member, name=title) for member, title in zip(events, titles, strict=True)]
+            self.events |= {member.name: member for member in listed}
+            events = [All(name, [member.name for member in listed], ends=False)]
+        self.events[name] = events[0]
         return name
 
     def compared(self, name: str, data: DataCondition) -> Crosses | None:
         """Return the event of a comparison; what counts entries becomes elements of the model."""
-        found = DATA.match(data.path)
-        path = () if found is None else tuple(found[1].split("."))
+        match = DATA.match(data.path)
+        path = () if match is None else tuple(match[1].split("."))
         piece = self.parts.pieces.get(path)
-        slot = "" if found is None else found[2]
+        slot = "" if match is None else match[2]
         outlet = None if piece is None else piece.outlets.get(slot, piece.outlets.get(f"{BUFFER}{slot}"))
         source = None if outlet is None else self.doc.by_names().get((*path[:-1], outlet.name))
         if outlet is None or source is None:
@@ -165,16 +165,16 @@ class ExperimentReading:
         if data.compare != "=" and data.count <= 1:
             reduce = "min" if (data.count == 0) == above else "max"
             return Crosses(name, port, data.value, "above" if above else "below", reduce, ends=False)
-        own = self.counter(name, path[:-1], source, outlet.port, data)
+        count_port = self.counter(name, path[:-1], source, outlet.port, data)
         if not data.count:
-            return Crosses(name, own, 0.5, "above", "min", ends=False)
-        return Crosses(name, own, data.count - 0.5, "above", "sum", ends=False)
+            return Crosses(name, count_port, 0.5, "above", "min", ends=False)
+        return Crosses(name, count_port, data.count - 0.5, "above", "sum", ends=False)
 
     def counter(self, name: str, group: StepPath, source: Entry, port: str, data: DataCondition) -> str:
         """Add elements that give 1 at each entry for which a comparison holds; return their port."""
 
-        def new(what: str) -> str:
-            return self.names.new(f"{name} {what}".replace(".", " "))
+        def new(role: str) -> str:
+            return self.names.new(f"{name} {role}".replace(".", " "))
 
         holds: Element
         inner: list[Element]
@@ -197,8 +197,8 @@ class ExperimentReading:
             self.doc = edit.connect(self.doc, before, out, entry, "input")
             entries.append(entry)
         if data.compare == "=":
-            for value, target in ((-data.value, entries[0]), (1.0, entries[-1])):
-                self.doc, constant = edit.add(self.doc, Boost(new("constant"), (), value), group)
+            for constant_value, target in ((-data.value, entries[0]), (1.0, entries[-1])):
+                self.doc, constant = edit.add(self.doc, Boost(new("constant"), (), constant_value), group)
                 self.doc = edit.connect(self.doc, constant, "output", target, "input")
         holds = entries[-1].element
         return f"{display((*group, holds.name))}.output"
@@ -244,8 +244,8 @@ class ExperimentReading:
         if sequence.when.trial:
             self.schedule(sequence, lambda at, event: End(at, f"{sequence.name} ends", event))
         elif sequence.event:
-            found: Any = self.events[sequence.event]
-            self.events[sequence.event] = dc.replace(found, ends=True)
+            event: Any = self.events[sequence.event]
+            self.events[sequence.event] = dc.replace(event, ends=True)
         else:
             name = self.titles.new(f"{sequence.name} ends")
             self.events[name] = Reached(name, sequence.when.at)
@@ -266,32 +266,32 @@ class ExperimentReading:
 
     def changing(self, sequence: ActionSequence, kind: str, body: Mapping[str, Any]) -> None:
         """Read an action that sets or increments a parameter."""
-        given, adds = named(body), kind == "IncrementParameter"
-        found = self.parameters.find(given)
-        raw = given.get("parameter value", body.get("step value", body.get("step size")))
-        value = None if found is None else self.parameters.given(found, raw)
-        if found is None or value is None:
+        action, adds = named(body), kind == "IncrementParameter"
+        parameter = self.parameters.find(action)
+        raw = action.get("parameter value", body.get("step value", body.get("step size")))
+        parameter_value = None if parameter is None else self.parameters.given(parameter, raw)
+        if parameter is None or parameter_value is None:
             self.say(sequence.name, kind, "dropped", "its parameter or its value has no counterpart")
         elif not sequence.when.at and not sequence.when.data:
-            self.starting.append((sequence, found, value, adds))
+            self.starting.append((sequence, parameter, parameter_value, adds))
         elif adds:
             why = "an increment during a trial; increments at the start of trials are factors"
             self.say(sequence.name, kind, "dropped", why)
         else:
-            self.later(sequence, found, value)
+            self.later(sequence, parameter, parameter_value)
 
-    def later(self, sequence: ActionSequence, found: ChangedParameter, value: float) -> None:
+    def later(self, sequence: ActionSequence, parameter: ChangedParameter, value: float) -> None:
         """Set a parameter during a trial."""
-        key = (found.step, found.name)
-        number = self.parameters.here(found, {**self.begun(1, {}), key: value})
-        verdict, why = "carried", found.path
+        key = (parameter.step, parameter.name)
+        number = self.parameters.here(parameter, {**self.begun(1, {}), key: value})
+        verdict, why = "carried", parameter.path
         always = any(
             (p.step, p.name) == key and not s.when.trial for s, p, _, adds in self.starting if not adds
         )
         if self.repetitions > 1 and not self.reloads and not always:
             verdict = "approximated"
-            why = f"{found.path}; cedar keeps the value for the next trial, which begins with the file's here"
-        self.schedule(sequence, lambda at, event: Set(at, found.path, number, event))
+            why = f"{why}; cedar keeps the value for the next trial, which begins with the file's here"
+        self.schedule(sequence, lambda at, event: Set(at, parameter.path, number, event))
         self.say(sequence.name, "SetParameterValue", verdict, why)
 
     def begun(self, trial: int, values: Mapping[ParameterPath, float]) -> dict[ParameterPath, float]:
@@ -300,20 +300,22 @@ class ExperimentReading:
         `values` are those when the trial before had begun.
         """
         out = {} if self.reloads else dict(values)
-        for sequence, found, value, adds in self.starting:
+        for sequence, parameter, value, adds in self.starting:
             if sequence.when.trial in (0, trial):
-                key = (found.step, found.name)
-                out[key] = value + (out.get(key, found.value) if adds else 0.0)
+                key = (parameter.step, parameter.name)
+                out[key] = value + (out.get(key, parameter.value) if adds else 0.0)
         return out
 
     def start(self) -> None:
         """Give parameters their values at the start of trials: the same in all, or a factor."""
-        changed = {found.path: found for _, found, _, _ in self.starting}
+        changed = {parameter.path: parameter for _, parameter, _, _ in self.starting}
         rows: list[dict[str, float]] = []
         values: dict[ParameterPath, float] = {}
         for k in range(self.repetitions if changed else 0):
             values = self.begun(k + 1, values)
-            rows.append({path: self.parameters.here(found, values) for path, found in changed.items()})
+            rows.append(
+                {path: self.parameters.here(parameter, values) for path, parameter in changed.items()}
+            )
         levels = [row[path] for row in rows for path in row]
         if all(row == rows[0] for row in rows):
             same = rows[0] if rows else {}
@@ -324,6 +326,6 @@ class ExperimentReading:
         else:
             name = self.titles.new("values at the start")
             self.factors = [Factor(name, {f"{k + 1}": row for k, row in enumerate(rows)})]
-        for sequence, found, _, adds in self.starting:
+        for sequence, parameter, _, adds in self.starting:
             kind = "IncrementParameter" if adds else "SetParameterValue"
-            self.say(sequence.name, kind, "carried", found.path)
+            self.say(sequence.name, kind, "carried", parameter.path)

@@ -150,10 +150,10 @@ def pairs(value: Any) -> list[tuple[str, Any]]:
 
 def members(value: Any) -> dict[str, Any]:
     """Return an object, with the first value of a repeated key, as cedar reads it; else an empty one."""
-    found: dict[str, Any] = {}
+    first_values: dict[str, Any] = {}
     for key, inside in pairs(value):
-        found.setdefault(key, inside)
-    return found
+        first_values.setdefault(key, inside)
+    return first_values
 
 
 def items(value: Any) -> list[Any]:
@@ -165,8 +165,8 @@ def text(value: Any) -> str:
     """Return a name as valid text: unpaired surrogates and control characters are replaced."""
     if isinstance(value, bool) or not isinstance(value, (str, int, float)):
         return ""
-    found = str(value)[:500].encode("utf-8", "replace").decode()
-    return "".join(c if c.isprintable() else " " for c in found).strip()
+    valid = str(value)[:500].encode("utf-8", "replace").decode()
+    return "".join(c if c.isprintable() else " " for c in valid).strip()
 
 
 class _FileReader:
@@ -181,20 +181,20 @@ class _FileReader:
         if level > DEEPEST:
             raise DocumentError(f"holds groups nested deeper than {DEEPEST} levels")
         body = self.whole(path, body)
-        found = CedarGroup(path, values=body)
+        group = CedarGroup(path, values=body)
         for kind, values in pairs(body.get("steps")):
-            self.step(found, kind, values)
+            self.step(group, kind, values)
         for key in ("groups", "networks"):
             for name, inside in pairs(body.get(key)):
-                name = self.free(found, text(name) or "group", "group")
-                found.groups[name] = self.group((*path, name), members(inside), level + 1)
+                name = self.free(group, text(name) or "group", "group")
+                group.groups[name] = self.group((*path, name), members(inside), level + 1)
         for entry in items(body.get("connections")):
-            self.wire(found, entry)
-        for name, way in pairs(body.get("connectors")):
-            found.connectors[text(name)] = text(way) == "true"
+            self.wire(group, entry)
+        for name, is_input in pairs(body.get("connectors")):
+            group.connectors[text(name)] = text(is_input) == "true"
         for kind, values in pairs(body.get("triggers")):
-            self.trigger(found, kind, members(values))
-        found.links += [members(entry) for entry in items(body.get("parameter links"))]
+            self.trigger(group, kind, members(values))
+        group.links += [members(entry) for entry in items(body.get("parameter links"))]
         if not level:
             for entry in items(body.get("scripts")):
                 self.lines.append(
@@ -202,30 +202,32 @@ class _FileReader:
                         "", "file", text(members(entry).get("type")) or "script", "dropped", "a script in C++"
                     )
                 )
-        return found
+        return group
 
     def whole(self, path: StepPath, body: Mapping[str, Any]) -> Mapping[str, Any]:
         """Return a group with the content that it links; cedar does not store it with the group."""
         template, linked = text(body.get("linked group template")), body.get("linked file")
         if not template and not linked:
             return body
-        where, own = ".".join(path), text(body.get("linked group name")) or template
+        where, group_name = ".".join(path), text(body.get("linked group name")) or template
         name = text(members(linked).get("path")) or text(linked)
         name = name.replace("\\", "/").rpartition("/")[2]
         for file in [name] if name else TEMPLATES:
             try:
                 content = self.beside(file)
             except DocumentError as error:
-                self.lines.append(Line(where, "element", own, "dropped", error.problems[0].what))
+                self.lines.append(Line(where, "element", group_name, "dropped", error.problems[0].what))
                 continue
             listed = {} if content is None else members(members(codec.foreign(content)).get("groups"))
-            if own in listed:
-                self.lines.append(Line(where, "element", own, "carried", f"the group of {file}, as a copy"))
-                kept = {key: value for key, value in body.items() if key in ("ui generic", "name")}
-                return {**members(listed[own]), **kept}
-        wanted = name or " or ".join(TEMPLATES)
-        why = f"its content is in another file; put {wanted} beside this file"
-        self.lines.append(Line(where, "element", own or "group", "dropped", why))
+            if group_name in listed:
+                self.lines.append(
+                    Line(where, "element", group_name, "carried", f"the group of {file}, as a copy")
+                )
+                own_values = {key: value for key, value in body.items() if key in ("ui generic", "name")}
+                return {**members(listed[group_name]), **own_values}
+        files = name or " or ".join(TEMPLATES)
+        why = f"its content is in another file; put {files} beside this file"
+        self.lines.append(Line(where, "element", group_name or "group", "dropped", why))
         return body
 
     def step(self, group: CedarGroup, kind: str, values: Any) -> None:
@@ -260,21 +262,21 @@ class _FileReader:
                     "its name contains a dot, where cedar splits it: connections to it do not exist",
                 )
             )
-        again, key = name, (group.path, name)
-        while again in group.steps or again in group.groups:
+        free_name, key = name, (group.path, name)
+        while free_name in group.steps or free_name in group.groups:
             self.numbers[key] = self.numbers.get(key, 1) + 1
-            again = f"{name} ({self.numbers[key]})"
-        if again != name:
+            free_name = f"{name} ({self.numbers[key]})"
+        if free_name != name:
             self.lines.append(
                 Line(
-                    ".".join((*group.path, again)),
+                    ".".join((*group.path, free_name)),
                     "element",
                     kind,
                     "approximated",
                     f"a second element named {name!r}; connections lead to the first",
                 )
             )
-        return again
+        return free_name
 
     def wire(self, group: CedarGroup, entry: Any) -> None:
         self.wires += 1
@@ -296,5 +298,5 @@ class _FileReader:
         if kind != TRIGGER:
             self.lines.append(Line(where, "element", kind, "dropped", "deodar has no such trigger"))
             return
-        listeners = tuple(text(each) for each in items(body.get("listeners")))
+        listeners = tuple(text(listener) for listener in items(body.get("listeners")))
         group.triggers.append(LoopedTrigger(name, listeners, body))

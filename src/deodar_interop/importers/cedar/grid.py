@@ -35,8 +35,8 @@ class SampleGrid:
         self.used: list[Counter[int]] = [Counter() for _ in NAMES]
         self.wraps: Counter[int] = Counter()
         for step in architecture.root.all_steps():
-            own = [n for n in (number(v) for v in items(step.values.get("sizes"))) if n is not None]
-            for d, count in enumerate(own[: len(NAMES)]):
+            sizes = [n for n in (number(v) for v in items(step.values.get("sizes"))) if n is not None]
+            for d, count in enumerate(sizes[: len(NAMES)]):
                 self.used[d][int(count)] += 1
                 if step.short == "NeuralField":
                     self.wraps[int(count)] += 1 if _cyclic(step) else -1

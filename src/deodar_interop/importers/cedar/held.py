@@ -74,13 +74,13 @@ def held(step: CedarStep, entry: Entry, parameter: str) -> HeldNumber | None:
         return None
     sign = -1.0 if parameter in OPPOSITE else 1.0
     try:
-        value = sign * float(get(entry.element, leaf))
+        signed = sign * float(get(entry.element, leaf))
     except (DeodarError, TypeError, ValueError):  # a kernel that the field does not have
         return None
-    found = stated(step.values, parameter)
-    if found is not None and not math.isclose(found, value, rel_tol=RELATIVE, abs_tol=ABSOLUTE):
+    in_file = stated(step.values, parameter)
+    if in_file is not None and not math.isclose(in_file, signed, rel_tol=RELATIVE, abs_tol=ABSOLUTE):
         return None
-    return HeldNumber(leaf, sign, value)
+    return HeldNumber(leaf, sign, signed)
 
 
 def stated(values: Any, parameter: str) -> float | None:
@@ -88,9 +88,9 @@ def stated(values: Any, parameter: str) -> float | None:
     for name in parameter.split("."):
         listed = LISTED.match(name)
         if listed:
-            found = pairs(members(values).get(listed[1]))
+            entries = pairs(members(values).get(listed[1]))
             k = int(listed[2])
-            values = found[k][1] if k < len(found) else None
+            values = entries[k][1] if k < len(entries) else None
         else:
             values = members(values).get(name)
     return milliseconds(values) if parameter in TIMES else number(values)

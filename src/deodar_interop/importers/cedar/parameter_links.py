@@ -55,9 +55,9 @@ class CedarLink:
         """Return what the file states."""
         direct = text(entry.get("type")).endswith("DirectParameterLink")
         equation = None if direct else text(members(entry.get("configuration")).get("equation"))
-        source, given = text(entry.get("source element")), text(entry.get("source parameter"))
+        source, parameter = text(entry.get("source element")), text(entry.get("source parameter"))
         target, taken = text(entry.get("target element")), text(entry.get("target parameter"))
-        return cls(group, source, given, target, taken, equation)
+        return cls(group, source, parameter, target, taken, equation)
 
     @property
     def where(self) -> str:
@@ -93,21 +93,25 @@ def _applied(doc: Document, link: CedarLink, by: Mapping[StepPath, Entry]) -> tu
     first = _end(link.group, link.source, link.given, by) if link.source else None
     if link.source and first is None:
         raise DeodarError("its source has no counterpart here")
-    value = number(link.group.values.get(link.given)) if first is None else first.value
-    if value is None:
+    source = number(link.group.values.get(link.given)) if first is None else first.value
+    if source is None:
         raise DeodarError("its source holds no number")
-    result = link.result(value)
-    if result is None:
+    target = link.result(source)
+    if target is None:
         why = f"the equation {link.equation!r} cannot be read; the parameter has the file's value"
         raise DeodarError(why)
-    if not link.keeps(value) or (first is not None and first.sign != end.sign):
-        doc = edit.put(doc, end.ident, end.leaf, end.sign * result)
-        return doc, "approximated", f"as the value {result:g}; it does not follow when its source changes"
+    if not link.keeps(source) or (first is not None and first.sign != end.sign):
+        doc = edit.put(doc, end.ident, end.leaf, end.sign * target)
+        return (
+            doc,
+            "approximated",
+            f"as the value {target:g}; it does not follow when its source changes",
+        )
     ends = [end] if first is None else [first, end]
     name = next((doc.links()[e.place] for e in ends if e.place in doc.links()), "")
     if not name:
         name = link.name
-        doc = edit.document_parameter(doc, name, end.sign * value)
+        doc = edit.document_parameter(doc, name, end.sign * source)
     for e in ends:
         if e.place not in doc.links():
             doc = edit.link(doc, *e.place, name)
@@ -139,7 +143,7 @@ class LinkEnd:
 def _end(group: CedarGroup, name: str, parameter: str, by: Mapping[StepPath, Entry]) -> LinkEnd | None:
     """Return one end of a link; None without a parameter of deodar that holds cedar's number."""
     entry, step = by.get((*group.path, name)), group.steps.get(name)
-    found = None if entry is None or step is None else held(step, entry, parameter)
-    if entry is None or found is None:
+    holder = None if entry is None or step is None else held(step, entry, parameter)
+    if entry is None or holder is None:
         return None
-    return LinkEnd(entry.id, found.leaf, found.sign, found.value)
+    return LinkEnd(entry.id, holder.leaf, holder.sign, holder.value)

@@ -109,24 +109,24 @@ class SourceStep:
 
     def stored(self, slot: str, shape: Counts) -> np.ndarray | None:
         """Return what the file stores of a slot; None without it. Another size is reported."""
-        found = self._stored.of(self.step.label, slot, self.step.values)
-        if found is None:
+        array = self._stored.of(self.step.label, slot, self.step.values)
+        if array is None:
             return None
-        wanted = tuple(n for n in shape if n > 1)
-        if found.shape != wanted:
-            why = f"it has the size {list(found.shape)}, not {list(wanted)}"
+        size = tuple(n for n in shape if n > 1)
+        if array.shape != size:
+            why = f"it has the size {list(array.shape)}, not {list(size)}"
             self.values.say(f"stored {slot}", "dropped", why)
             return None
         self.values.say(f"stored {slot}", "carried", "as the value at the start")
-        return found.reshape(shape)
+        return array.reshape(shape)
 
     def axes(self, dims: Counts) -> tuple[Axis, ...]:
         """Return the axes of a size."""
         return self.grid.axes(dims)
 
-    def named(self, what: str) -> str:
+    def named(self, role: str) -> str:
         """Return a name for a further deodar element: the label and what it is."""
-        return self._names.new(f"{self.label} {what}")
+        return self._names.new(f"{self.label} {role}")
 
     def first(self, slot: str) -> Counts:
         """Return the size that arrives first at a slot.
@@ -154,9 +154,9 @@ class SourceStep:
             raise Refused(f"a step that feeds {slot!r} does not run")
         return [dims for dims in arriving if dims is not None]
 
-    def bug(self, what: str) -> None:
+    def bug(self, error: str) -> None:
         """Note a known error of cedar that this step touches, and that is corrected here."""
-        self.met.append(f"{self.step.label}: {what}; corrected")
+        self.met.append(f"{self.step.label}: {error}; corrected")
 
 
 class Refused(ValueError):

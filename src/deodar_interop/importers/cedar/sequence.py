@@ -49,19 +49,19 @@ def _listeners(root: CedarGroup, looped: Collection[StepPath], lines: list[Line]
     first = list(members)
     others: list[list[str]] = []
     for trigger in root.triggers:
-        own = first if trigger.name in FIRST else list[str]()
+        called = first if trigger.name in FIRST else list[str]()
         for name in trigger.listeners:
             if name not in members:
-                known = name in root.steps or name in root.groups
-                why = "it has no state of its own" if known else "there is no such element"
-                lines.append(Line(trigger.name, "connection", name, "carried" if known else "dropped", why))
+                exists = name in root.steps or name in root.groups
+                why = "it has no state of its own" if exists else "there is no such element"
+                lines.append(Line(trigger.name, "connection", name, "carried" if exists else "dropped", why))
                 continue
             for listed in (first, *others):
                 if name in listed:
                     listed.remove(name)
-            own.append(name)
-        if own is not first:
-            others.append(own)
+            called.append(name)
+        if called is not first:
+            others.append(called)
     return [*first, *(name for listed in others for name in listed)]
 
 
@@ -82,23 +82,23 @@ class _Iteration:
     def run(self, path: StepPath) -> None:
         """Run a looped step and the steps that follow from it."""
         self.place[path] = len(self.place)
-        for each in self.following(path):
-            if each not in self.place:
-                self.place[each] = len(self.place)
+        for follower in self.following(path):
+            if follower not in self.place:
+                self.place[follower] = len(self.place)
 
     def following(self, path: StepPath) -> Sequence[StepPath]:
         """Return the steps that follow, those with the longest way last."""
-        found: list[StepPath] = []
+        reverse: list[StepPath] = []
         seen: set[StepPath] = set()
         stack: list[tuple[StepPath, bool]] = [(path, False)]
         while stack:  # depth first, so that the reverse of leaving is an order by the longest way
-            here, left = stack.pop()
-            if left:
-                found.append(here)
+            step, leaving = stack.pop()
+            if leaving:
+                reverse.append(step)
                 continue
-            if here in seen:
+            if step in seen:
                 continue
-            seen.add(here)
-            stack.append((here, True))
-            stack += [(t, False) for t in self.feeds.get(here, ()) if not self.looped.get(t, True)]
-        return [each for each in reversed(found) if each != path]
+            seen.add(step)
+            stack.append((step, True))
+            stack += [(t, False) for t in self.feeds.get(step, ()) if not self.looped.get(t, True)]
+        return [follower for follower in reversed(reverse) if follower != path]

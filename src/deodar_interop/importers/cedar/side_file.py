@@ -40,13 +40,13 @@ class SideFile:
     def _add(self, label: str, roles: Any) -> None:
         for _, slots in pairs(roles):
             for slot, text in pairs(slots):
-                found = array(text)
-                if found is None:
+                numbers = array(text)
+                if numbers is None:
                     self.lines.append(
                         Line(label, "file", f"{self.name}: {slot}", "dropped", "it is no array")
                     )
                 else:
-                    self.arrays[label, slot] = found
+                    self.arrays[label, slot] = numbers
 
     def of(self, label: str, slot: str, values: Mapping[str, Any]) -> np.ndarray | None:
         """Return the stored array of a slot: from the file beside, or from the step itself."""
@@ -61,18 +61,18 @@ def array(text: Any) -> np.ndarray | None:
     """Return the array of a text, without axes of one sample; None if it is none, or not finite."""
     if not isinstance(text, str):
         return None
-    head, _, rest = text.partition("\n")
+    head, _, body = text.partition("\n")
     words = [w.strip() for w in head.split(",")]
     if len(words) < 3 or words[0] != "Mat":
         return None
     try:
         dims = [int(w) for w in words[2:] if w and w != "compact"]
-        numbers = np.array([float(v) for v in rest.replace("\n", ",").split(",") if v.strip()])
+        numbers = np.array([float(v) for v in body.replace("\n", ",").split(",") if v.strip()])
     except (ValueError, OverflowError):
         return None
     if not dims or min(dims) < 1 or math.prod(dims) != numbers.size or numbers.size > MOST_CELLS:
         return None
     if not np.isfinite(numbers).all():
         return None
-    found = numbers.reshape(dims, order="F")
-    return found.reshape([n for n in dims if n > 1]) if len(dims) <= 2 else found
+    arranged = numbers.reshape(dims, order="F")
+    return arranged.reshape([n for n in dims if n > 1]) if len(dims) <= 2 else arranged

@@ -19,10 +19,10 @@ def sigmoid(values: StepValues, name: str, default: SigmoidFunction) -> SigmoidF
 
     An object without a type has the type of the default, as files of early versions have it.
     """
-    found = values.object(name)
-    if found is None:
+    typed = values.object(name)
+    if typed is None:
         return default
-    kind, inside = found
+    kind, inside = typed
     if "type" in inside.body:
         inside.say("type")
     match kind.rpartition(".")[2] or type(default).__name__:
@@ -36,8 +36,8 @@ def sigmoid(values: StepValues, name: str, default: SigmoidFunction) -> SigmoidF
             return _linear(inside)
         case "SemiLinearTransferFunction" | "SemiLinearSigmoid":
             return _semilinear(inside)
-        case other:
-            values.say(name, "approximated", f"deodar has no {other} here; {default} is used")
+        case unknown:
+            values.say(name, "approximated", f"deodar has no {unknown} here; {default} is used")
             return default
 
 

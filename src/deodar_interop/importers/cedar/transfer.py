@@ -14,10 +14,10 @@ def special(values: StepValues, name: str) -> str:
 
     These are the logarithm, constants, and semi-linear functions with a threshold, at which cedar's jump.
     """
-    found = values.object(name)
-    if found is None:
+    typed = values.object(name)
+    if typed is None:
         return ""
-    kind, inside = found[0].rpartition(".")[2], found[1]
+    kind, inside = typed[0].rpartition(".")[2], typed[1]
     match kind.replace("Sigmoid", "TransferFunction"):
         case "SemiLinearTransferFunction" if inside.number("threshold", 0.0):
             return "SemiLinear"
@@ -30,13 +30,13 @@ def special(values: StepValues, name: str) -> str:
 
 
 def transferred(
-    c: Composition, what: str, name: str, default: SigmoidFunction, signal: StepSignal
+    c: Composition, role: str, name: str, default: SigmoidFunction, signal: StepSignal
 ) -> StepSignal:
     """Add a transfer function of a signal.
 
     Args:
         c: the step.
-        what: name of the element that gives the result, after that of the step.
+        role: name of the element that gives the result, after that of the step.
         name: the parameter.
         default: the function without the parameter.
         signal: its input.
@@ -44,16 +44,16 @@ def transferred(
     values = c.b.values
     kind = special(values, name)
     if not kind:
-        return c.add(Sigmoid(sigmoid(values, name, default), name=c.named(what)), input=signal)
+        return c.add(Sigmoid(sigmoid(values, name, default), name=c.named(role)), input=signal)
     inside = values.inside(name)
     inside.say("type")
-    of = f"{what} " if what else ""
+    of = f"{role} " if role else ""
     if kind == "Logarithm":
-        return c.function(what, "log", signal)
+        return c.function(role, "log", signal)
     if kind == "Linear":
         offset = c.constant(f"{of}offset", inside.number("offset", 0.0))
-        return c.total(what, c.gain(f"{of}nothing", 0.0, signal), offset)
+        return c.total(role, c.gain(f"{of}nothing", 0.0, signal), offset)
     beta, threshold = inside.number("beta", 1.0), inside.number("threshold", 0.0)
     begun = c.rest(f"{of}begun", c.below(f"{of}below", threshold, signal))
     above = c.product(f"{of}above", c.gain(f"{of}slope", beta, signal), begun)
-    return c.total(what, above, c.constant(f"{of}threshold", threshold))
+    return c.total(role, above, c.constant(f"{of}threshold", threshold))

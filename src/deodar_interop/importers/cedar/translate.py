@@ -73,7 +73,7 @@ class StepTranslation:
         self.architecture = architecture
         self.grid = SampleGrid(architecture)
         self.met: list[str] = []
-        self.said: list[Line] = []
+        self.report: list[Line] = []
         root = architecture.root
         self.dt, clock_lines = clock(root)
         self.steps = {step.path: step for step in root.all_steps()}
@@ -95,39 +95,39 @@ class StepTranslation:
         early = loaded(self.pieces, place, feeds, looped)
         self.wiring = CedarWiring(self.pieces, self.into, place, self.halted, self.names, self.grid, early)
         self.wiring.connect_all()
-        self.said += [*clock_lines, *wire_lines, *order_lines]
+        self.report += [*clock_lines, *wire_lines, *order_lines]
 
     def translated(self) -> dict[StepPath, StepPiece]:
         """Return the translations: first of steps with a size of their own, then of what follows."""
-        found: dict[StepPath, StepPiece] = {}
+        pieces: dict[StepPath, StepPiece] = {}
         lacks: dict[StepPath, int] = {}
         for path, step in self.steps.items():
             if step.kind in CLASSES and step.kind not in DECLARED:
                 lacks[path] = len(self.into.get(path, ()))
         ready = [path for path in self.steps if not lacks.get(path)]
-        while len(found) < len(self.steps):
+        while len(pieces) < len(self.steps):
             if not ready:
                 why = "its size follows from a loop of steps without a size of their own"
-                ready = [next(path for path in self.steps if path not in found)]
-                found[ready[0]] = self.piece(self.steps[ready[0]], found, why)
+                ready = [next(path for path in self.steps if path not in pieces)]
+                pieces[ready[0]] = self.piece(self.steps[ready[0]], pieces, why)
             for path in ready:
-                if path not in found:
-                    found[path] = self.piece(self.steps[path], found)
+                if path not in pieces:
+                    pieces[path] = self.piece(self.steps[path], pieces)
             after: list[StepPath] = []
             for wire in (w for path in ready for w in self.out.get(path, ())):
-                if wire.target in lacks and wire.target not in found:
+                if wire.target in lacks and wire.target not in pieces:
                     lacks[wire.target] -= 1
                     if not lacks[wire.target]:
                         after.append(wire.target)
             ready = after
-        return {path: found[path] for path in self.steps}
+        return {path: pieces[path] for path in self.steps}
 
-    def piece(self, step: CedarStep, known: dict[StepPath, StepPiece], stops: str = "") -> StepPiece:
+    def piece(self, step: CedarStep, pieces: dict[StepPath, StepPiece], stops: str = "") -> StepPiece:
         """Return the translation of one step, or a placeholder with the reason."""
         ins: dict[str, list[Counts | None]] = {}
         unknown = ""
         for wire in self.into.get(step.path, ()):
-            source = known.get(wire.source)
+            source = pieces.get(wire.source)
             outlet = None if source is None else source.outlets.get(wire.source_slot)
             if source is None and step.kind in DECLARED:
                 ins.setdefault(wire.target_slot, []).append(())
@@ -142,31 +142,31 @@ class StepTranslation:
                 raise Refused(stops)
             if unknown and step.kind not in DECLARED:
                 self.unknown.add(step.path)
-                found = self.missing(step, f"its size is that of {unknown!r}, which is not known")
+                translation = self.missing(step, f"its size is that of {unknown!r}, which is not known")
             elif step.kind in CLASSES:
-                found = CLASSES[step.kind](context)
+                translation = CLASSES[step.kind](context)
             else:
                 self.unknown.add(step.path)
-                found = self.missing(step)
+                translation = self.missing(step)
         except Refused as error:
-            found = self.missing(step, f"cedar does not run it: {error}", str(error))
+            translation = self.missing(step, f"cedar does not run it: {error}", str(error))
         except (Unfit, TooManySamples) as error:
             self.unknown.add(step.path)
-            found = self.missing(step, str(error))
+            translation = self.missing(step, str(error))
         except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
             self.unknown.add(step.path)
-            found = self.missing(step, f"its parameters are inconsistent ({error})")
+            translation = self.missing(step, f"its parameters are inconsistent ({error})")
         self.met += context.met
-        self.said.append(Line(step.label, "element", step.kind, found.verdict, found.why))
-        if isinstance(found.elements[0], Placeholder):
-            self.said += [
+        self.report.append(Line(step.label, "element", step.kind, translation.verdict, translation.why))
+        if isinstance(translation.elements[0], Placeholder):
+            self.report += [
                 Line(step.label, "parameter", name, "dropped", "its element is a placeholder")
                 for name in step.values
                 if name not in ("name", "threaded", "comments")
             ]
         else:
-            self.said += context.values.rest(step.short)
-        return found
+            self.report += context.values.rest(step.short)
+        return translation
 
     def missing(self, step: CedarStep, why: str = "", stops: str = "") -> StepPiece:
         """Return a placeholder for a step, with the slots that connections name."""
@@ -180,8 +180,8 @@ class StepTranslation:
         for path, piece in self.pieces.items():
             first, *others = piece.elements
             if path in self.halted:
-                own = {f.name for f in dc.fields(first)}  # pyright: ignore
-                first = dc.replace(first, **{k: v for k, v in STILL.items() if k in own})
+                fields = {f.name for f in dc.fields(first)}  # pyright: ignore
+                first = dc.replace(first, **{k: v for k, v in STILL.items() if k in fields})
             elements += [(element, path[:-1], 1) for element in (first, *others)]
         elements += [(element, group, 1) for group, element in self.wiring.extra]
         doc, entries = edit.add_all(doc, elements)
@@ -209,8 +209,10 @@ class StepTranslation:
             for path, why in self.halted.items()
             if not isinstance(self.pieces[path].elements[0], Placeholder)
         ]
-        told = {line.where for line in halted}
-        said = [
-            x for x in self.said if not (x.part == "element" and x.where in told and x.verdict == "carried")
+        labels = {line.where for line in halted}
+        report = [
+            x
+            for x in self.report
+            if not (x.part == "element" and x.where in labels and x.verdict == "carried")
         ]
-        return [*self.architecture.lines, *self.stored.lines, *said, *halted, *self.wiring.lines]
+        return [*self.architecture.lines, *self.stored.lines, *report, *halted, *self.wiring.lines]

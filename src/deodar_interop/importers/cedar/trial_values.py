@@ -54,14 +54,14 @@ class TrialParameters:
         step, entry = self.steps.get(path), self.entries.get(path)
         if step is None or entry is None:
             return None
-        own = f"{display(entry.names)}."
+        prefix = f"{display(entry.names)}."
         if step.short == "Boost" and name in (SWITCH, STRENGTH):
-            value = float(self.boost(path)[name == STRENGTH])
-            return ChangedParameter(path, name, f"{own}amplitude", 1.0, value)
-        found = held(step, entry, name)
-        if found is None:
+            boost_value = float(self.boost(path)[name == STRENGTH])
+            return ChangedParameter(path, name, f"{prefix}amplitude", 1.0, boost_value)
+        holder = held(step, entry, name)
+        if holder is None:
             return None
-        return ChangedParameter(path, name, f"{own}{found.leaf}", found.sign, found.value)
+        return ChangedParameter(path, name, f"{prefix}{holder.leaf}", holder.sign, holder.value)
 
     def given(self, parameter: ChangedParameter, value: Any) -> float | None:
         """Return the number of a value for a parameter; None if it is none."""
@@ -80,9 +80,9 @@ class TrialParameters:
         if self.steps[parameter.step].short != "Boost":
             return parameter.sign * values.get((parameter.step, parameter.name), parameter.value)
         active, strength = self.boost(parameter.step)
-        own = {SWITCH: float(active), STRENGTH: strength}
-        return values.get((parameter.step, SWITCH), own[SWITCH]) * values.get(
-            (parameter.step, STRENGTH), own[STRENGTH]
+        in_file = {SWITCH: float(active), STRENGTH: strength}
+        return values.get((parameter.step, SWITCH), in_file[SWITCH]) * values.get(
+            (parameter.step, STRENGTH), in_file[STRENGTH]
         )
 
 

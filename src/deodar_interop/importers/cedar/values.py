@@ -44,21 +44,21 @@ class StepValues(ForeignValues):
 
     def inside(self, name: str, body: Any = None) -> StepValues:
         """Return the parameters of an object inside this one; its lines are added to these."""
-        found = members(self.body.get(name) if body is None else body)
-        return StepValues(found, self.where, f"{self.prefix}{name}.", self.lines)
+        inner = members(self.body.get(name) if body is None else body)
+        return StepValues(inner, self.where, f"{self.prefix}{name}.", self.lines)
 
     def time(self, name: str, default: float) -> float:
         """Return a time in ms; a number without a unit is in ms."""
         if name not in self.body:
             return default
-        value = milliseconds(self.body[name])
-        if value is None:
+        duration = milliseconds(self.body[name])
+        if duration is None:
             return self.instead(name, default)
-        if value < 0:
-            self.say(name, "approximated", f"{value:g} ms is out of range; 0 is used")
+        if duration < 0:
+            self.say(name, "approximated", f"{duration:g} ms is out of range; 0 is used")
             return 0.0
         self.say(name)
-        return value
+        return duration
 
     def whole(self, name: str, default: int, lower: int, upper: int) -> int:
         """Return a whole number."""
@@ -68,25 +68,25 @@ class StepValues(ForeignValues):
         """Return a switch, written as `true` or `false`."""
         if name not in self.body:
             return default
-        value = (
+        word = (
             text(self.body[name]).lower()
             if not isinstance(self.body[name], bool)
             else str(self.body[name]).lower()
         )
-        if value not in ("true", "false", "1", "0"):
+        if word not in ("true", "false", "1", "0"):
             return bool(self.instead(name, default))
         self.say(name)
-        return value in ("true", "1")
+        return word in ("true", "1")
 
     def word(self, name: str, default: str, choices: Sequence[str] = ()) -> str:
         """Return a word; one that is not among the choices is replaced and reported."""
         if name not in self.body:
             return default
-        value = text(self.body[name])
-        if choices and value not in choices:
+        word = text(self.body[name])
+        if choices and word not in choices:
             return str(self.instead(name, default))
         self.say(name)
-        return value
+        return word
 
     def numbers(
         self, name: str, default: float, count: int, lower: float = -LARGEST, upper: float = LARGEST
@@ -96,12 +96,12 @@ class StepValues(ForeignValues):
         """
         if name not in self.body:
             return [default] * count
-        given = items(self.body[name])
-        if not given and text(self.body[name]):
-            given = [self.body[name]]
-        found = [number(v) for v in given]
-        out = [default if v is None else min(max(v, lower), upper) for v in found[:count]]
-        if any(v is None for v in found[:count]) or out != found[:count]:
+        entries = items(self.body[name])
+        if not entries and text(self.body[name]):
+            entries = [self.body[name]]
+        parsed = [number(v) for v in entries]
+        out = [default if v is None else min(max(v, lower), upper) for v in parsed[:count]]
+        if any(v is None for v in parsed[:count]) or out != parsed[:count]:
             self.say(name, "approximated", f"it is {show(self.body[name])}; {out} is used")
         elif len(out) < count:
             self.say(
@@ -121,27 +121,27 @@ class StepValues(ForeignValues):
 
     def objects(self, name: str) -> list[tuple[str, StepValues]]:
         """Return the objects of a list: the type of each and its parameters."""
-        found = pairs(self.body.get(name))
+        typed = pairs(self.body.get(name))
         if name in self.body:
             self.say(name)
-        return [(kind, self.inside(f"{name}[{k}]", body)) for k, (kind, body) in enumerate(found)]
+        return [(kind, self.inside(f"{name}[{k}]", body)) for k, (kind, body) in enumerate(typed)]
 
 
 def number(value: Any) -> float | None:
     """Return a number from text; None if it is none, not finite or too large."""
     if isinstance(value, bool):
         return float(value)
-    found = NUMBER.match(str(value)) if isinstance(value, (str, int, float)) else None
-    if found is None:
+    match = NUMBER.match(str(value)) if isinstance(value, (str, int, float)) else None
+    if match is None:
         return None
-    out = float(found[1].replace(",", "."))
+    out = float(match[1].replace(",", "."))
     return out if math.isfinite(out) and abs(out) <= LARGEST else None
 
 
 def milliseconds(value: Any) -> float | None:
     """Return a time in ms from text such as `0.02 s`; a bare number is in ms."""
-    found = NUMBER.match(str(value)) if isinstance(value, (str, int, float)) else None
+    match = NUMBER.match(str(value)) if isinstance(value, (str, int, float)) else None
     plain = number(value)
-    if found is None or plain is None or (found[2] and found[2] not in UNITS):
+    if match is None or plain is None or (match[2] and match[2] not in UNITS):
         return None
-    return plain * UNITS.get(found[2], 1.0)
+    return plain * UNITS.get(match[2], 1.0)

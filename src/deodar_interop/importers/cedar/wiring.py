@@ -99,18 +99,18 @@ def _end(group: CedarGroup, name: str, slot: str, wire: CedarWire, lines: list[L
 
 def _origins(target: WireEnd, into: Mapping[WireEnd, list[WireEnd]]) -> list[WireEnd]:
     """Return the output slots that lead to a node, through any number of connectors."""
-    found: list[WireEnd] = []
+    slots: list[WireEnd] = []
     seen: set[WireEnd] = {target}
     stack = list(reversed(into[target]))
     while stack:
         node = stack.pop()
         if node[0] == "step":
-            if node not in found:
-                found.append(node)
+            if node not in slots:
+                slots.append(node)
         elif node not in seen:
             seen.add(node)
             stack += reversed(into.get(node, []))
-    return found
+    return slots
 
 
 InGroup = tuple[tuple[str, ...], str]
@@ -184,12 +184,12 @@ class CedarWiring:
         source = self.pieces[wire.source]
         outlet = source.outlets.get(wire.source_slot)
         if outlet is None:
-            given = ", ".join(source.outlets) or "none"
-            self.drop(where, wire, f"there is no output slot {wire.source_slot!r}; there is {given}")
+            outlets = ", ".join(source.outlets) or "none"
+            self.drop(where, wire, f"there is no output slot {wire.source_slot!r}; there is {outlets}")
             return
-        wanted = piece.wanted.get(wire.target_slot)
-        if wanted is not None and not fits(outlet.dims, wanted, wire.target_slot in piece.sums):
-            why = f"cedar refuses it: size {list(outlet.dims)} into {list(wanted)}"
+        input_size = piece.wanted.get(wire.target_slot)
+        if input_size is not None and not fits(outlet.dims, input_size, wire.target_slot in piece.sums):
+            why = f"cedar refuses it: size {list(outlet.dims)} into {list(input_size)}"
             self.drop(where, wire, why)
             return
         name, port, reads = self.tap(wire.source, outlet, self.lag(wire.source, wire.target))
@@ -281,9 +281,9 @@ class CedarWiring:
 def inside(piece: StepPiece, group: StepPath, names: Mapping[str, str]) -> list[PlacedWire]:
     """Return the connections among the elements of one step; `names` are their names here."""
     out: list[PlacedWire] = []
-    for a, c, *rest in piece.inner:
-        port, reads, shown = (*rest, *("input", "", "output")[len(rest) :])
-        out.append(((group, names[a]), shown, (group, names[c]), port, reads))
+    for a, c, *ports in piece.inner:
+        port, reads, out_port = (*ports, *("input", "", "output")[len(ports) :])
+        out.append(((group, names[a]), out_port, (group, names[c]), port, reads))
     return out
 
 
@@ -296,19 +296,19 @@ def loaded(
     """Return the steps of an iteration that are computed when a file is loaded: what sources feed, possibly
     through other steps.
     """
-    found: set[StepPath] = set()
+    reached: set[StepPath] = set()
     stack = [path for path in pieces if path not in place]
     while stack:
         for target in feeds.get(stack.pop(), ()):
-            if target in place and target not in looped and target not in found:
-                found.add(target)
+            if target in place and target not in looped and target not in reached:
+                reached.add(target)
                 stack.append(target)
-    return frozenset(found)
+    return frozenset(reached)
 
 
-def fits(given: Counts, wanted: Counts, adds: bool) -> bool:
+def fits(source: Counts, target: Counts, adds: bool) -> bool:
     """Return whether cedar accepts a size at a slot; one number is added to all samples."""
-    return given == wanted or (adds and not given)
+    return source == target or (adds and not source)
 
 
 def _way(reads: str) -> str:
@@ -320,21 +320,21 @@ def halts(pieces: Mapping[StepPath, StepPiece], wires: Sequence[StepWire]) -> di
 
     One input that does not fit stops the whole step, and so does one from a step that gives nothing.
     """
-    found = {path: why for path, piece in pieces.items() if (why := piece.stops or piece.fails)}
+    reasons = {path: why for path, piece in pieces.items() if (why := piece.stops or piece.fails)}
     arriving: dict[StepPath, set[str]] = {}
     for wire in wires:
         piece, source = pieces[wire.target], pieces[wire.source]
         arriving.setdefault(wire.target, set()).add(wire.target_slot)
         outlet = source.outlets.get(wire.source_slot)
-        wanted = piece.wanted.get(wire.target_slot)
-        if wire.target in found or outlet is None or wanted is None:
+        input_size = piece.wanted.get(wire.target_slot)
+        if wire.target in reasons or outlet is None or input_size is None:
             continue
         if source.stops:
-            found[wire.target] = f"{wire.what} gives nothing: {source.stops}"
-        elif not fits(outlet.dims, wanted, wire.target_slot in piece.sums):
-            found[wire.target] = f"size {list(outlet.dims)} of {wire.what} into {list(wanted)}"
+            reasons[wire.target] = f"{wire.what} gives nothing: {source.stops}"
+        elif not fits(outlet.dims, input_size, wire.target_slot in piece.sums):
+            reasons[wire.target] = f"size {list(outlet.dims)} of {wire.what} into {list(input_size)}"
     for path, piece in pieces.items():
         missing = [slot for slot in piece.needs if slot not in arriving.get(path, set())]
-        if path not in found and missing:
-            found[path] = f"nothing is connected to {missing[0]!r}"
-    return found
+        if path not in reasons and missing:
+            reasons[path] = f"nothing is connected to {missing[0]!r}"
+    return reasons

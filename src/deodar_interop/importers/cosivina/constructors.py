@@ -139,7 +139,7 @@ PATTERNS = {
 """The parameter whose shape is the size."""
 
 
-def parameters_of(kind: str, given: Sequence[Any]) -> dict[str, Any]:
+def parameters_of(kind: str, arguments: Sequence[Any]) -> dict[str, Any]:
     """Return the parameters of an element after its constructor: arguments, and defaults for the others.
 
     Arguments are arrays of at least two dimensions, or text. A size of one number becomes a row, as in all
@@ -147,12 +147,12 @@ def parameters_of(kind: str, given: Sequence[Any]) -> dict[str, Any]:
 
     Args:
         kind: the class; of an unknown class the first argument is its size if it can be one.
-        given: the arguments after the label.
+        arguments: the arguments after the label.
     """
     if kind not in CONSTRUCTORS:
-        return {"size": row(given[0])} if given and _is_size(given[0]) else {}
+        return {"size": row(arguments[0])} if arguments and _is_size(arguments[0]) else {}
     names = CONSTRUCTORS[kind]
-    values: dict[str, Any] = {**names, **dict(zip(names, given, strict=False))}
+    values: dict[str, Any] = {**names, **dict(zip(names, arguments, strict=False))}
     for name in ("size", "inputSize", "outputSize", "sensorOutputSize"):
         if name in values:
             values[name] = row(values[name])
@@ -202,18 +202,18 @@ def _transform(values: dict[str, Any]) -> None:
     count = 1 if len(size) == 2 and 1 in size else len(size)
     for name in ("sigmaExc", "sigmaInh", "circular"):
         if name in values:
-            given = values[name]
-            values[name] = np.ones((count, 1)) if given is None else np.asarray(given).reshape(-1, 1)
+            flags = values[name]
+            values[name] = np.ones((count, 1)) if flags is None else np.asarray(flags).reshape(-1, 1)
 
 
 def _expand_dimension(values: dict[str, Any]) -> None:
     """A vector may give one number: the dimension that it becomes."""
-    own, mapping = _numbers(values["inputSize"]), _numbers(values["dimensionMapping"])
-    if own and all(n == 1 for n in own):
-        values["dimensionMapping"] = tuple(range(1, len(own) + 1))
-    elif len(mapping) == 1 and len(own) == 2:
-        other = 2.0 if mapping[0] == 1 else 1.0
-        values["dimensionMapping"] = tuple(mapping[0] if n > 1 else other for n in own)
+    input_size, mapping = _numbers(values["inputSize"]), _numbers(values["dimensionMapping"])
+    if input_size and all(n == 1 for n in input_size):
+        values["dimensionMapping"] = tuple(range(1, len(input_size) + 1))
+    elif len(mapping) == 1 and len(input_size) == 2:
+        place = 2.0 if mapping[0] == 1 else 1.0
+        values["dimensionMapping"] = tuple(mapping[0] if n > 1 else place for n in input_size)
 
 
 def _diagonal_sum(values: dict[str, Any]) -> None:

@@ -22,7 +22,7 @@ class SourceElement:
         simulator: Simulator,
         dims: Dimensions,
         element: Foreign,
-        asked: set[str],
+        components_read: set[str],
         names: FreeNames,
         bugs: bool,
     ) -> None:
@@ -31,7 +31,7 @@ class SourceElement:
         self.element = element
         self.label = element.label
         self.values = Values(element.values, element.label)
-        self.asked = asked
+        self.components_read = components_read
         self.reproduce = bugs
         self.met: list[str] = []
         self._dims = dims
@@ -50,24 +50,24 @@ class SourceElement:
         if k >= len(self.element.sources):
             return None
         s = self.element.sources[k]
-        found = self.simulator.by_label.get(s.label)
+        element = self.simulator.by_label.get(s.label)
         passed: set[str] = set()
         while (
-            found is not None
-            and found.kind == "HebbianConnection"
-            and len(found.sources) > 1
-            and found.label not in passed
+            element is not None
+            and element.kind == "HebbianConnection"
+            and len(element.sources) > 1
+            and element.label not in passed
         ):
-            passed.add(found.label)  # its size is that of its second input, and is not in the file
-            s = found.sources[1]
-            found = self.simulator.by_label.get(s.label)
-        return None if found is None else self._dims.of(output_size(found, s.component))
+            passed.add(element.label)  # its size is that of its second input, and is not in the file
+            s = element.sources[1]
+            element = self.simulator.by_label.get(s.label)
+        return None if element is None else self._dims.of(output_size(element, s.component))
 
-    def named(self, what: str) -> str:
+    def named(self, role: str) -> str:
         """Return a name for a further deodar element: the label and what it is."""
-        return self._names.new(f"{self.label} {what}")
+        return self._names.new(f"{self.label} {role}")
 
-    def bug(self, what: str) -> bool:
+    def bug(self, error: str) -> bool:
         """Return whether to reproduce a known error of cosivina that this element touches."""
-        self.met.append(f"{self.label}: {what}; {'reproduced' if self.reproduce else 'corrected'}")
+        self.met.append(f"{self.label}: {error}; {'reproduced' if self.reproduce else 'corrected'}")
         return self.reproduce

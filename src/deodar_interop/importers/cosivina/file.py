@@ -56,8 +56,8 @@ def parse(content: bytes) -> Simulator:
     Raises:
         DocumentError: the content is not JSON, is nested too deeply, or does not describe a simulator.
     """
-    data = codec.foreign(content)
-    root = cast("dict[str, Any]", data) if isinstance(data, dict) else {}
+    parsed = codec.foreign(content)
+    root = cast("dict[str, Any]", parsed) if isinstance(parsed, dict) else {}
     inside = root.get("simulator", root)
     if not isinstance(inside, dict) or not {"elements", "elementLabels", "nElements"} & set(
         cast(Any, inside)
@@ -67,25 +67,25 @@ def parse(content: bytes) -> Simulator:
             fix='It is an object {"simulator": {"deltaT": ..., "elements": [...]}}',
         )
     body = cast("dict[str, Any]", inside)
-    lines = repeated_keys(data, _label)
+    lines = repeated_keys(parsed, _label)
     step, start = _time(body, "deltaT", 1.0, lines), _time(body, "tZero", 0.0, lines)
-    found = _entries(body.get("elements"))
+    entries = _entries(body.get("elements"))
     count = _counted(body)
-    if not found and not (count == 0 and empty(body.get("elements"))):
-        there = (
+    if not entries and not (count == 0 and empty(body.get("elements"))):
+        fault = (
             f"its elements are {show(body['elements'])}"
             if "elements" in body
             else "it has no list of elements"
         )
-        said = f", and nElements is {show(body['nElements'])}" if "nElements" in body else ""
+        stated_count = f", and nElements is {show(body['nElements'])}" if "nElements" in body else ""
         raise DocumentError(
-            f"holds no elements: {there}{said}", fix="Save the simulator again with saveSettings"
+            f"holds no elements: {fault}{stated_count}", fix="Save the simulator again with saveSettings"
         )
-    lines += _census(body, found, count)
-    if len(found) > MOST_ELEMENTS:
-        raise DocumentError(f"holds {len(found)} elements; at most {MOST_ELEMENTS} are read")
+    lines += _census(body, entries, count)
+    if len(entries) > MOST_ELEMENTS:
+        raise DocumentError(f"holds {len(entries)} elements; at most {MOST_ELEMENTS} are read")
     elements = tuple(
-        e for place, entry in enumerate(found) if (e := _element(place, entry, lines)) is not None
+        e for place, entry in enumerate(entries) if (e := _element(place, entry, lines)) is not None
     )
     if sum(len(e.sources) for e in elements) > MOST_INPUTS:
         raise DocumentError(f"holds more than {MOST_INPUTS} connections")
@@ -95,18 +95,18 @@ def parse(content: bytes) -> Simulator:
 def array(value: Any) -> np.ndarray | None:
     """Return the numbers of a value in any notation; None without numbers, and for ragged lists."""
     try:
-        found = np.array(_plain(value), dtype=np.float64)
+        numbers = np.array(_plain(value), dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         return None
-    return found if found.ndim <= 4 else None
+    return numbers if numbers.ndim <= 4 else None
 
 
 def empty(value: Any) -> bool:
     """Return whether a value is one of the notations of an empty value."""
     if value is None or value == [] or value == {} or value == "":
         return True
-    found = array(value) if isinstance(value, (dict, list)) else None
-    return found is not None and found.size == 0
+    numbers = array(value) if isinstance(value, (dict, list)) else None
+    return numbers is not None and numbers.size == 0
 
 
 # ------------------------------------------------------------------------------------------ parts of the file
@@ -121,12 +121,12 @@ def _time(body: dict[str, Any], key: str, default: float, lines: list[Line]) -> 
     if key not in body:
         return default
     numbers = array(body[key])
-    found = float(numbers.reshape(-1)[0]) if numbers is not None and numbers.size == 1 else math.nan
-    if not math.isfinite(found) or abs(found) > 1e12 or (key == "deltaT" and not found > 0):
+    time = float(numbers.reshape(-1)[0]) if numbers is not None and numbers.size == 1 else math.nan
+    if not math.isfinite(time) or abs(time) > 1e12 or (key == "deltaT" and not time > 0):
         lines.append(Line("", "file", key, "approximated", f"it is {show(body[key])}; {default:g} is used"))
         return default
     lines.append(Line("", "file", key, "carried"))
-    return found
+    return time
 
 
 def _counted(body: dict[str, Any]) -> int | None:
@@ -139,19 +139,19 @@ def _counted(body: dict[str, Any]) -> int | None:
     )
 
 
-def _census(body: dict[str, Any], found: list[Any], count: int | None) -> list[Line]:
+def _census(body: dict[str, Any], entries: list[Any], count: int | None) -> list[Line]:
     """Report where the list of elements, possibly incomplete, disagrees with nElements and elementLabels."""
     lines: list[Line] = []
-    if "nElements" in body and count != len(found):
-        why = f"it is {show(body['nElements'])}, and the list of elements holds {len(found)}"
+    if "nElements" in body and count != len(entries):
+        why = f"it is {show(body['nElements'])}, and the list of elements holds {len(entries)}"
         lines.append(Line("", "file", "nElements", "approximated", why))
     listed = body.get("elementLabels")
     labels = (
         [listed] if isinstance(listed, str) else cast("list[Any]", listed) if isinstance(listed, list) else []
     )
-    there = {plain_text(cast("dict[str, Any]", e).get("label")) for e in found if isinstance(e, dict)}
+    present = {plain_text(cast("dict[str, Any]", e).get("label")) for e in entries if isinstance(e, dict)}
     for label in dict.fromkeys(plain_text(v) for v in labels):
-        if label and label not in there:
+        if label and label not in present:
             lines.append(
                 Line(
                     label,
@@ -171,8 +171,8 @@ def _entries(value: Any) -> list[Any]:
     if not isinstance(value, list):
         return []
     out: list[Any] = []
-    for item in cast("list[Any]", value):
-        out += _entries(cast(Any, item)) if isinstance(item, list) else [item]
+    for entry in cast("list[Any]", value):
+        out += _entries(cast(Any, entry)) if isinstance(entry, list) else [entry]
     return out
 
 
@@ -214,7 +214,7 @@ def _sources(label: str, value: Any, lines: list[Line]) -> list[Source]:
     if empty(value):
         return []
     if isinstance(value, list):
-        return [s for item in cast("list[Any]", value) for s in _sources(label, item, lines)]
+        return [s for entry in cast("list[Any]", value) for s in _sources(label, entry, lines)]
     if isinstance(value, str):
         return [Source(plain_text(value))]
     if isinstance(value, dict):
@@ -285,14 +285,16 @@ def _plain(value: Any) -> Any:
         body = cast("dict[str, Any]", value)
         if "_ArrayData_" not in body or body.get("_ArrayIsComplex_") or body.get("_ArrayIsSparse_"):
             raise ValueError("no array")
-        data = np.array(_plain(body["_ArrayData_"]), dtype=np.float64)
+        numbers = np.array(_plain(body["_ArrayData_"]), dtype=np.float64)
         size = [
             int(n)
             for n in np.atleast_1d(
-                np.array(_plain(body.get("_ArraySize_", list(data.shape))), dtype=np.float64)
+                np.array(_plain(body.get("_ArraySize_", list(numbers.shape))), dtype=np.float64)
             )
         ]
-        if math.prod(size) != data.size or any(n < 0 for n in size):
+        if math.prod(size) != numbers.size or any(n < 0 for n in size):
             raise ValueError("an array of another size than it says")
-        return data.reshape(size, order="C" if data.ndim == len(size) and data.ndim > 1 else "F").tolist()
+        return numbers.reshape(
+            size, order="C" if numbers.ndim == len(size) and numbers.ndim > 1 else "F"
+        ).tolist()
     return float(value)

@@ -104,11 +104,11 @@ class LauncherPanel:
             case FilesControl():
                 self._preset_files(control)
             case ButtonControl():
-                what = BUTTONS.get(control.member)
+                replacement = BUTTONS.get(control.member)
                 self._say(
                     control,
-                    "dropped" if what is None else "carried",
-                    what or f"the studio has nothing in place of {control.member!r}",
+                    "dropped" if replacement is None else "carried",
+                    replacement or f"the studio has nothing in place of {control.member!r}",
                 )
             case LostControl():
                 self._say(control, "dropped", control.why)
@@ -126,9 +126,9 @@ class LauncherPanel:
             raise Unfollowed("its range is a single value")
         row = _Row(control, [], [])
         for label, name in dict.fromkeys(control.targets):
-            followers, other = self._responses.followers(label, name, *ends)
+            followers, others = self._responses.followers(label, name, *ends)
             row.followers += followers
-            row.other += other
+            row.other += others
         if not row.followers:
             raise Unfollowed("it sets no parameter")
         return row
@@ -157,23 +157,23 @@ class LauncherPanel:
         """Add a preset for each choice: the values that differ from those at present in some choice."""
         raw: list[dict[LeafPath, Any]] = []
         before: dict[LeafPath, Any] = {}
-        for own in values:
-            given: dict[str, dict[str, Any]] = {}
-            for (label, name), value in zip(targets, own, strict=True):
+        for leaves in values:
+            by_label: dict[str, dict[str, Any]] = {}
+            for (label, name), value in zip(targets, leaves, strict=True):
                 self._responses.require(label, name)
                 if value is None:
                     raise Unfollowed(f"a value for {name!r} of {label!r} is not known")
-                given.setdefault(label, {})[name] = value
+                by_label.setdefault(label, {})[name] = value
             raw.append({})
-            for label, new in given.items():
+            for label, new in by_label.items():
                 before |= self._responses.present(label)
                 raw[-1] |= self._responses.changed(label, new)
-        now, found = aligned(before, raw)
-        varied = [leaf for leaf in now if any(f[leaf] != now[leaf] for f in found)]
+        present, sets = aligned(before, raw)
+        varied = [leaf for leaf in present if any(f[leaf] != present[leaf] for f in sets)]
         if not varied:
             raise Unfollowed("its choices do not differ in what deodar computes")
-        for choice, own in zip(choices, found, strict=True):
-            chosen = {leaf: own[leaf] for leaf in varied}
+        for choice, leaves in zip(choices, sets, strict=True):
+            chosen = {leaf: leaves[leaf] for leaf in varied}
             self._sets.append(_Set(f"{control.label}: {choice}", control, chosen))
 
     def _preset_files(self, control: FilesControl) -> None:
@@ -196,18 +196,20 @@ class LauncherPanel:
         ours = self._responses.translation.simulator.by_label
         lost: list[str] = []
         for e in simulator.elements:
-            own = ours.get(e.label)
-            if own is None or own.kind != e.kind:
+            element = ours.get(e.label)
+            if element is None or element.kind != e.kind:
                 lost.append(f"{e.label!r} is not in the model")
                 continue
             values = {name: value for name, value in e.values.items() if name not in SIZES}
-            if any(name in e.values and size(e.values[name]) != size(own.values.get(name)) for name in SIZES):
+            if any(
+                name in e.values and size(e.values[name]) != size(element.values.get(name)) for name in SIZES
+            ):
                 lost.append(f"{e.label!r} has another size there")
             try:
                 present = self._responses.present(e.label)
                 changed = self._responses.changed(e.label, values)
             except Unfollowed as error:
-                if own.values != e.values:
+                if element.values != e.values:
                     lost.append(str(error))
                 continue
             out |= aligned(present, [changed])[1][0]
@@ -231,8 +233,8 @@ class LauncherPanel:
             if pinned & set(leaves):
                 taken = ", ".join(display((leaf[0], leaf[1])) for leaf in leaves if leaf in pinned)
                 verdict: Verdict = "carried" if isinstance(row.control, SwitchControl) else "approximated"
-                what = "2 presets" if verdict == "carried" else "it has no slider of its own"
-                self._say(row.control, verdict, f"{what}: {taken} has one already")
+                replacement = "2 presets" if verdict == "carried" else "it has no slider of its own"
+                self._say(row.control, verdict, f"{replacement}: {taken} has one already")
                 continue
             name = ""
             if self._shared(row):
@@ -251,9 +253,9 @@ class LauncherPanel:
             self._report(row, name)
         if pins:
             doc = edit.arrange(doc, {**doc.layout, PINS: pins})
-        found = self._presets(doc, by, driven)
+        presets = self._presets(doc, by, driven)
         lines = [line for _, line in sorted(self._lines, key=lambda entry: entry[0])]
-        return (with_presets(doc, found) if found else doc), lines
+        return (with_presets(doc, presets) if presets else doc), lines
 
     def _shared(self, row: _Row) -> bool:
         """Return whether one document parameter can drive what follows a control, with all presets."""
@@ -263,8 +265,8 @@ class LauncherPanel:
         ):
             return False
         leaves = [f.leaf for f in row.followers]
-        for found in self._sets:
-            values = [found.values[leaf] for leaf in leaves if leaf in found.values]
+        for preset in self._sets:
+            values = [preset.values[leaf] for leaf in leaves if leaf in preset.values]
             if values and (len(values) < len(leaves) or any(v != values[0] for v in values)):
                 return False
         return True
@@ -289,15 +291,17 @@ class LauncherPanel:
         return label if alone else f"{label} ({follower.leaf[0]})"
 
     def _report(self, row: _Row, name: str) -> None:
-        what = "switch" if isinstance(row.control, SwitchControl) else "slider"
+        widget = "switch" if isinstance(row.control, SwitchControl) else "slider"
         paths = [display((f.leaf[0], *f.leaf[1].split("."))) for f in row.followers]
-        why = f"{what} of {', '.join(paths)}" if not name else f"{what} of the document parameter {name!r}"
+        why = (
+            f"{widget} of {', '.join(paths)}" if not name else f"{widget} of the document parameter {name!r}"
+        )
         if row.other:
             still = ", ".join(display((leaf[0], *leaf[1].split("."))) for leaf in row.other)
             stays = "stays as it is" if len(row.other) == 1 else "stay as they are"
             self._say(row.control, "approximated", f"{why}; {still} {stays}")
         elif len(paths) > 1 and not name:
-            self._say(row.control, "approximated", f"a {what} for each: their values differ")
+            self._say(row.control, "approximated", f"a {widget} for each: their values differ")
         else:
             self._say(row.control, "carried", why)
 
@@ -306,10 +310,10 @@ class LauncherPanel:
     ) -> list[KeptPreset]:
         names = FreeNames(())
         out: list[KeptPreset] = []
-        for found in self._sets:
+        for preset in self._sets:
             values: dict[str, dict[str, Json]] = {}
             lost: list[str] = []
-            for leaf, value in found.values.items():
+            for leaf, value in preset.values.items():
                 plain = _plain(value)
                 if leaf in driven:
                     values.setdefault("", {})[driven[leaf]] = plain
@@ -319,9 +323,9 @@ class LauncherPanel:
                     lost.append(display((leaf[0], *leaf[1].split("."))))
             if lost:
                 why = f"{', '.join(lost)} is not a number, and stays as it is"
-                line = Line(found.control.label, "preset", found.name, "approximated", why)
-                self._add(found.control, line)
-            out.append(KeptPreset(names.new(found.name), found.control.label, values))
+                line = Line(preset.control.label, "preset", preset.name, "approximated", why)
+                self._add(preset.control, line)
+            out.append(KeptPreset(names.new(preset.name), preset.control.label, values))
         return out
 
 
@@ -338,10 +342,10 @@ def _pin(
 
 
 def _finite(value: Any) -> float:
-    found = float(value)
-    if not math.isfinite(found):
-        raise Unfollowed(f"its range ends at {found:g}")
-    return found
+    end = float(value)
+    if not math.isfinite(end):
+        raise Unfollowed(f"its range ends at {end:g}")
+    return end
 
 
 def _scalar(value: Any) -> float | None:

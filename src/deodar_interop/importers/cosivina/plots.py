@@ -72,9 +72,9 @@ def _outlets(translation: Translation, request: PlotRequest) -> list[Outlet]:
     """Return the ports of what a visualization shows; activations are the first."""
     if request.kind not in SHOWN:
         return []
-    found = [
+    ranked = [
         (component != "activation", k, piece.outlets[component])
         for k, (label, component) in enumerate(request.shown)
         if (piece := translation.pieces.get(label)) is not None and component in piece.outlets
     ]
-    return [outlet for *_, outlet in sorted(found, key=lambda entry: entry[:2])]
+    return [outlet for *_, outlet in sorted(ranked, key=lambda entry: entry[:2])]

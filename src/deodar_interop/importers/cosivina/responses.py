@@ -43,7 +43,7 @@ class Responses:
 
     def __init__(self, translation: Translation) -> None:
         self.translation = translation
-        self._known: dict[str, dict[LeafPath, Any]] = {}
+        self._present: dict[str, dict[LeafPath, Any]] = {}
 
     def present(self, label: str) -> dict[LeafPath, Any]:
         """Return all values of the translation of an element.
@@ -51,14 +51,14 @@ class Responses:
         Raises:
             Unfollowed: there is no such element, or it is a placeholder.
         """
-        if label not in self._known:
+        if label not in self._present:
             piece = self.translation.pieces.get(label)
             if piece is None:
                 raise Unfollowed(f"no element has the label {label!r}")
             if isinstance(piece.elements[0], Placeholder):
                 raise Unfollowed(f"{label!r} is a placeholder")
-            self._known[label] = dict(v for e in piece.elements for v in _flat(e, e.name))
-        return self._known[label]
+            self._present[label] = dict(v for e in piece.elements for v in _flat(e, e.name))
+        return self._present[label]
 
     def require(self, label: str, name: str) -> None:
         """Raise an error if an element has no parameter of a name."""
@@ -72,15 +72,15 @@ class Responses:
         before = self.present(label)
         element = self.translation.simulator.by_label[label]
         scratch = copy.copy(self.translation)
-        scratch.met, scratch.said, scratch.names = [], [], copy.deepcopy(self.translation.names)
+        scratch.met, scratch.report, scratch.names = [], [], copy.deepcopy(self.translation.names)
         piece = scratch.piece(dc.replace(element, values={**element.values, **values}))
         base = self.translation.pieces[label].elements
         if [type(e) for e in piece.elements] != [type(e) for e in base]:
             raise Unfollowed(f"{label!r} becomes other elements with {', '.join(values)}")
-        found = dict(v for e, b in zip(piece.elements, base, strict=True) for v in _flat(e, b.name))
-        if found.keys() != before.keys():
+        leaves = dict(v for e, b in zip(piece.elements, base, strict=True) for v in _flat(e, b.name))
+        if leaves.keys() != before.keys():
             raise Unfollowed(f"{label!r} has other parts with {', '.join(values)}")
-        return found
+        return leaves
 
     def followers(
         self, label: str, name: str, lower: float, upper: float
@@ -91,22 +91,24 @@ class Responses:
             Unfollowed: nothing follows it.
         """
         self.require(label, name)
-        now = self.present(label)
+        at_present = self.present(label)
         low, *inside, high = (self.changed(label, {name: lower + (upper - lower) * k / 4}) for k in range(5))
-        found: list[Follower] = []
-        other: list[LeafPath] = []
-        rows = ((leaf, now[leaf], low[leaf], *(v[leaf] for v in inside), high[leaf]) for leaf in now)
+        followers: list[Follower] = []
+        curved: list[LeafPath] = []
+        rows = (
+            (leaf, at_present[leaf], low[leaf], *(v[leaf] for v in inside), high[leaf]) for leaf in at_present
+        )
         for leaf, present, first, a, b, c, last in (inner for row in rows for inner in _entries(*row)):
             if first == a == b == c == last:
                 continue
             numbers = all(type(v) in (int, float) for v in (present, first, a, b, c, last))
             if numbers and a != c and abs(b - (a + c) / 2) <= CURVED * abs(c - a):  # ends may be bounds
-                found.append(Follower(leaf, float(present), float(first), float(last)))
+                followers.append(Follower(leaf, float(present), float(first), float(last)))
             else:
-                other.append(leaf)
-        if not found:
+                curved.append(leaf)
+        if not followers:
             raise Unfollowed(f"no number follows {name!r} of {label!r}")
-        return found, other
+        return followers, curved
 
 
 def _flat(part: Part, name: str, prefix: str = "") -> Iterator[tuple[LeafPath, Any]]:
@@ -143,11 +145,11 @@ def aligned(
 
     A value that one of the others lacks is the present one.
     """
-    now: dict[LeafPath, Any] = {}
-    found: list[dict[LeafPath, Any]] = [{} for _ in others]
+    base: dict[LeafPath, Any] = {}
+    rows: list[dict[LeafPath, Any]] = [{} for _ in others]
     for leaf, value in present.items():
-        for inner, first, *rest in _entries(leaf, value, *(o.get(leaf, value) for o in others)):
-            now[inner] = first
-            for each, new in zip(found, rest, strict=True):
-                each[inner] = new
-    return now, found
+        for inner, first, *new_values in _entries(leaf, value, *(o.get(leaf, value) for o in others)):
+            base[inner] = first
+            for leaves, new in zip(rows, new_values, strict=True):
+                leaves[inner] = new
+    return base, rows

@@ -19,8 +19,8 @@ SIZES = ("size", "inputSize", "outputSize", "stimulusSize")
 
 def output_size(e: Foreign, component: str = "") -> tuple[int, ...]:
     """Return the size of an output, from the parameters."""
-    own = size(e.values.get("size"))
-    rows, columns = own[0], own[1]
+    declared = size(e.values.get("size"))
+    rows, columns = declared[0], declared[1]
     match e.kind, component:
         case _, "horizontalSum":
             return (1, rows)
@@ -46,33 +46,35 @@ def output_size(e: Foreign, component: str = "") -> tuple[int, ...]:
                 if times is not None
                 else 1
             )
-            return (slots, columns) if rows == 1 else (*own, slots)
+            return (slots, columns) if rows == 1 else (*declared, slots)
         case _:
-            given = next((e.values[key] for key in (*SIZES[:1], *SIZES[2:]) if key in e.values), None)
-            return size(given)
+            input_size = next((e.values[key] for key in (*SIZES[:1], *SIZES[2:]) if key in e.values), None)
+            return size(input_size)
 
 
 class Dimensions(LengthAxes):
     """The axes of a file of cosivina."""
 
     def __init__(self, simulator: Simulator) -> None:
-        own = [
+        declared = [
             size(next((e.values[key] for key in SIZES if key in e.values), None)) for e in simulator.elements
         ]
-        super().__init__(NAMES, ((n, _circular(e, n)) for e, n in zip(simulator.elements, own, strict=True)))
+        super().__init__(
+            NAMES, ((n, _circular(e, n)) for e, n in zip(simulator.elements, declared, strict=True))
+        )
 
 
-def _circular(e: Foreign, own: tuple[int, ...]) -> dict[int, bool]:
+def _circular(e: Foreign, counts: tuple[int, ...]) -> dict[int, bool]:
     """Return for the dimensions of an element whether it declares them circular."""
     out: dict[int, bool] = {}
     for d, letter in enumerate("YXZ"):
-        found = array(e.values.get(f"circular{letter}"))
-        if found is not None and found.size == 1:
-            out[d] = bool(found.reshape(-1)[0])
-    found = array(e.values.get("circular"))
-    if found is not None and found.size:
-        flags = found.reshape(-1)
-        long = [d for d, n in enumerate(own) if n > 1]
+        flag_array = array(e.values.get(f"circular{letter}"))
+        if flag_array is not None and flag_array.size == 1:
+            out[d] = bool(flag_array.reshape(-1)[0])
+    flag_array = array(e.values.get("circular"))
+    if flag_array is not None and flag_array.size:
+        flags = flag_array.reshape(-1)
+        long = [d for d, n in enumerate(counts) if n > 1]
         for k, d in enumerate(long):
             out[d] = bool(flags[min(k, flags.size - 1)])
     return out

@@ -74,12 +74,12 @@ class Translation:
         self.bugs = bugs
         self.dimensions = Dimensions(simulator)
         self.met: list[str] = []
-        self.said: list[Line] = []
+        self.report: list[Line] = []
         self.names = FreeNames(e.label for e in simulator.elements)
-        self.asked: dict[str, set[str]] = {}
+        self.components_read: dict[str, set[str]] = {}
         for e in simulator.elements:
             for s in e.sources:
-                self.asked.setdefault(s.label, set()).add(s.component)
+                self.components_read.setdefault(s.label, set()).add(s.component)
         self.pieces = {e.label: self.piece(e) for e in simulator.elements}
         self.wiring = SourceWiring("cosivina", simulator.elements, self.pieces, self.names)
         self.wiring.connect_all()
@@ -89,35 +89,40 @@ class Translation:
         each other.
         """
         source = SourceElement(
-            self.simulator, self.dimensions, e, self.asked.get(e.label, set()), self.names, self.bugs
+            self.simulator,
+            self.dimensions,
+            e,
+            self.components_read.get(e.label, set()),
+            self.names,
+            self.bugs,
         )
         try:
-            found = (
+            piece = (
                 CLASSES[e.kind](source)
                 if e.kind in CLASSES
                 else placeholder(e, self.dimensions, list(CLASSES))
             )
         except (Unfit, SizeLimit) as error:
-            found = placeholder(e, self.dimensions, list(CLASSES), str(error))
+            piece = placeholder(e, self.dimensions, list(CLASSES), str(error))
         except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
-            found = placeholder(
+            piece = placeholder(
                 e, self.dimensions, list(CLASSES), f"its parameters are inconsistent ({error})"
             )
         self.met += source.met
-        self.said.append(Line(e.label, "element", e.kind, found.verdict, found.why))
-        if isinstance(found.elements[0], Placeholder):
-            self.said += [
+        self.report.append(Line(e.label, "element", e.kind, piece.verdict, piece.why))
+        if isinstance(piece.elements[0], Placeholder):
+            self.report += [
                 Line(e.label, "parameter", name, "dropped", "its element is a placeholder")
                 for name in e.values
             ]
         else:
-            self.said += source.values.rest(e.kind)
-            self.said += _shown(e, found)
-        return found
+            self.report += source.values.rest(e.kind)
+            self.report += _shown(e, piece)
+        return piece
 
     def lines(self) -> list[Line]:
         """Return all lines of the report."""
-        return [*self.simulator.lines, *self.said, *self.wiring.lines]
+        return [*self.simulator.lines, *self.report, *self.wiring.lines]
 
 
 def _shown(e: Foreign, piece: Piece) -> list[Line]:

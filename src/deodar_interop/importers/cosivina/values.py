@@ -17,8 +17,8 @@ class Values(ForeignValues):
     """The parameter values of an element."""
 
     def single(self, name: str) -> float | None:
-        found = array(self.body[name])
-        return float(found.reshape(-1)[0]) if found is not None and found.size == 1 else None
+        numbers = array(self.body[name])
+        return float(numbers.reshape(-1)[0]) if numbers is not None and numbers.size == 1 else None
 
     def width(self, name: str, default: float = 1.0) -> float:
         """Return the width of a Gaussian in samples.
@@ -35,17 +35,17 @@ class Values(ForeignValues):
         """Return `count` numbers; a single number is repeated."""
         if name not in self.body:
             return list(default)
-        found = array(self.body[name])
+        numbers = array(self.body[name])
         if (
-            found is None
-            or found.size not in (1, count)
-            or not np.isfinite(found).all()
-            or np.abs(found).max() > LARGEST
+            numbers is None
+            or numbers.size not in (1, count)
+            or not np.isfinite(numbers).all()
+            or np.abs(numbers).max() > LARGEST
         ):
             self.instead(name, list(default))
             return list(default)
         self.say(name)
-        return [float(v) for v in np.broadcast_to(found.reshape(-1), (count,))]
+        return [float(v) for v in np.broadcast_to(numbers.reshape(-1), (count,))]
 
     def size(self, name: str = "size", default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
         """Return a size: whole numbers, at least two of them; one number is a row."""
@@ -55,35 +55,40 @@ class Values(ForeignValues):
 
     def matrix(self, name: str) -> np.ndarray | None:
         """Return an array of finite numbers; None without one."""
-        found = array(self.body.get(name))
-        if found is None or found.size == 0 or not np.isfinite(found).all() or np.abs(found).max() > LARGEST:
+        numbers = array(self.body.get(name))
+        if (
+            numbers is None
+            or numbers.size == 0
+            or not np.isfinite(numbers).all()
+            or np.abs(numbers).max() > LARGEST
+        ):
             return None
         self.say(name)
-        return found
+        return numbers
 
     def periods(self, name: str = "onTimes") -> list[tuple[float, float]]:
         """Return pairs of first and last time; they may be infinite."""
         if name not in self.body:
             return []
-        found = array(self.body[name])
-        if found is not None and found.size == 0:
+        numbers = array(self.body[name])
+        if numbers is not None and numbers.size == 0:
             self.say(name)
             return []
-        if found is None or found.size % 2 or np.isnan(found).any():
+        if numbers is None or numbers.size % 2 or np.isnan(numbers).any():
             self.instead(name, "no moment")
             return []
         self.say(name, why="moved by one step, since cosivina counts the time before it computes")
-        return [(float(a), float(b)) for a, b in found.reshape(-1, 2)]
+        return [(float(a), float(b)) for a, b in numbers.reshape(-1, 2)]
 
 
 def size(value: Any, default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
     """Return a size by cosivina's rules: at least two whole numbers, one number is a row, trailing ones are
     dropped.
     """
-    found = array(value)
-    if found is None or found.size == 0 or found.size > 4 or not np.isfinite(found).all():
+    stated = array(value)
+    if stated is None or stated.size == 0 or stated.size > 4 or not np.isfinite(stated).all():
         return tuple(default)
-    numbers = [max(1, min(int(n), 10**9)) for n in found.reshape(-1)]
+    numbers = [max(1, min(int(n), 10**9)) for n in stated.reshape(-1)]
     numbers = [1, *numbers] if len(numbers) == 1 else numbers
     while len(numbers) > 2 and numbers[-1] == 1:
         numbers.pop()

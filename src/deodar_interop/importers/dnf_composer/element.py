@@ -24,7 +24,7 @@ class ValueBudget:
     """The number of array values that a model may still have."""
 
     def __init__(self) -> None:
-        self.left = MOST_VALUES
+        self.values_left = MOST_VALUES
 
     def take(self, count: int) -> None:
         """Count the values of an array before it is computed.
@@ -32,9 +32,9 @@ class ValueBudget:
         Raises:
             Unfit: the arrays of the file have too many values.
         """
-        if count > self.left:
+        if count > self.values_left:
             raise Unfit(f"its {count} weights exceed the {MOST_VALUES} that are read from a file")
-        self.left -= count
+        self.values_left -= count
 
 
 class StoredElement:
@@ -45,7 +45,7 @@ class StoredElement:
         step: the Euler step.
         element, label: the element, and its name.
         values: its parameters.
-        asked: components that other elements read.
+        components_read: components that other elements read.
         beside: reads a file in the folder of the simulation.
         budget: limits the arrays of the model.
         start: output after the initialisation: one number, or a function that computes one for each sample.
@@ -58,7 +58,7 @@ class StoredElement:
         simulation: StoredSimulation,
         axes: SampleAxes,
         element: Foreign,
-        asked: set[str],
+        components_read: set[str],
         names: FreeNames,
         budget: ValueBudget,
         beside: Beside,
@@ -68,7 +68,7 @@ class StoredElement:
         self.element = element
         self.label = element.label
         self.values = StoredValues(element)
-        self.asked = asked
+        self.components_read = components_read
         self.budget = budget
         self.beside = beside
         self.start: float | Callable[[], np.ndarray] = 0.0
@@ -94,12 +94,12 @@ class StoredElement:
             Unfit: the file states no valid extent.
         """
         for extent, step in (("x_max", "d_x"), ("y_max", "d_y")):
-            own = extent == "x_max" or self.plane
+            has_axis = extent == "x_max" or self.plane
             count = samples(self.element, extent, step)
-            if own and count is None:
-                given = [self.element.values.get(name) for name in (extent, step)]
-                raise Unfit(f"expected {extent} and {step} above 0, got {show(given)}")
-            self._say_extent(extent, step, count if own else None)
+            if has_axis and count is None:
+                extents = [self.element.values.get(name) for name in (extent, step)]
+                raise Unfit(f"expected {extent} and {step} above 0, got {show(extents)}")
+            self._say_extent(extent, step, count if has_axis else None)
         return self._axes.of(self.counts)
 
     def of(self, counts: Sequence[int]) -> Dims:
@@ -114,9 +114,9 @@ class StoredElement:
         """Return `d_x` or `d_y`."""
         return number(self.element.values.get(name, 1.0)) or 1.0
 
-    def named(self, what: str) -> str:
+    def named(self, role: str) -> str:
         """Return a name for a further deodar element: the label and what it is."""
-        return self._names.new(f"{self.label} {what}")
+        return self._names.new(f"{self.label} {role}")
 
     def _say_extent(self, extent: str, step: str, count: int | None) -> None:
         why = "of the second dimension, which a line has not" if count is None else f"as {count} samples"

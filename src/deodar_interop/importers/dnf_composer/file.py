@@ -50,34 +50,36 @@ def parse(content: bytes) -> StoredSimulation:
     Raises:
         DocumentError: the content is not JSON, is nested too deeply, or does not describe a simulation.
     """
-    data = codec.foreign(content, leading=True)
+    parsed = codec.foreign(content, leading=True)
     body: dict[str, Any] = (
-        {"elements": data}
-        if isinstance(data, list)
-        else cast("dict[str, Any]", data)
-        if isinstance(data, dict)
+        {"elements": parsed}
+        if isinstance(parsed, list)
+        else cast("dict[str, Any]", parsed)
+        if isinstance(parsed, dict)
         else {}
     )
     entries = body.get("elements")
     if not isinstance(entries, list):
-        there = f"its elements are {show(entries)}" if "elements" in body else "it has no list of elements"
+        fault = f"its elements are {show(entries)}" if "elements" in body else "it has no list of elements"
         raise DocumentError(
-            f"holds no simulation of dnf-composer: {there}",
+            f"holds no simulation of dnf-composer: {fault}",
             fix='It is an object {"identifier": ..., "deltaT": ..., "elements": [...]}, or the list alone',
         )
-    found = cast("list[Any]", entries)
-    if len(found) > MOST_ELEMENTS:
-        raise DocumentError(f"holds {len(found)} elements; at most {MOST_ELEMENTS} are read")
-    if found and not any(isinstance(e, dict) and {"uniqueName", "label"} & set(cast(Any, e)) for e in found):
+    listed = cast("list[Any]", entries)
+    if len(listed) > MOST_ELEMENTS:
+        raise DocumentError(f"holds {len(listed)} elements; at most {MOST_ELEMENTS} are read")
+    if listed and not any(
+        isinstance(e, dict) and {"uniqueName", "label"} & set(cast(Any, e)) for e in listed
+    ):
         raise DocumentError("holds no simulation of dnf-composer: no entry of its list is an element")
-    lines = repeated_keys(data, _label)
-    name, step = _name(body, lines), _step(body, isinstance(data, list), lines)
+    lines = repeated_keys(parsed, _label)
+    name, step = _name(body, lines), _step(body, isinstance(parsed, list), lines)
     lines += [
         Line("", "file", plain_text(key) or "a key without a name", "dropped", "dnf-composer has no such key")
         for key in body
         if key not in ("identifier", "deltaT", "elements")
     ]
-    return StoredSimulation(name, step, _elements(found, lines), tuple(lines))
+    return StoredSimulation(name, step, _elements(listed, lines), tuple(lines))
 
 
 # ------------------------------------------------------------------------------------------ parts of the file
@@ -92,12 +94,12 @@ def _name(body: dict[str, Any], lines: list[Line]) -> str:
     """Return the name of the simulation; "" if the file states none."""
     if "identifier" not in body:
         return ""
-    given = body["identifier"]
-    if not isinstance(given, str):
-        lines.append(Line("", "file", "identifier", "approximated", f"it is {show(given)}, not a name"))
+    name = body["identifier"]
+    if not isinstance(name, str):
+        lines.append(Line("", "file", "identifier", "approximated", f"it is {show(name)}, not a name"))
         return ""
     lines.append(Line("", "file", "identifier", "carried"))
-    return plain_text(given)
+    return plain_text(name)
 
 
 def _step(body: dict[str, Any], bare: bool, lines: list[Line]) -> float:
@@ -107,14 +109,14 @@ def _step(body: dict[str, Any], bare: bool, lines: list[Line]) -> float:
             Line("", "file", "deltaT", "approximated", f"{why}; dnf-composer's default {STEP:g} is used")
         )
         return STEP
-    given = number(body["deltaT"])
-    if given is None or not 0 < given <= 1e12:
+    step = number(body["deltaT"])
+    if step is None or not 0 < step <= 1e12:
         lines.append(
             Line("", "file", "deltaT", "approximated", f"it is {show(body['deltaT'])}; {STEP:g} is used")
         )
         return STEP
     lines.append(Line("", "file", "deltaT", "carried"))
-    return given
+    return step
 
 
 def number(value: Any) -> float | None:
@@ -122,16 +124,16 @@ def number(value: Any) -> float | None:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return None
     try:
-        found = float(value)
+        finite = float(value)
     except OverflowError:
         return None
-    return found if math.isfinite(found) else None
+    return finite if math.isfinite(finite) else None
 
 
 def _elements(entries: list[Any], lines: list[Line]) -> tuple[Foreign, ...]:
     """Return the elements with different labels; of several elements of one name the first is kept."""
     labels: dict[str, str] = {}
-    names, kept = FreeNames(()), list[tuple[int, str, dict[str, Any]]]()
+    names, bodies = FreeNames(()), list[tuple[int, str, dict[str, Any]]]()
     for place, entry in enumerate(entries):
         if not isinstance(entry, dict):
             lines.append(
@@ -139,19 +141,19 @@ def _elements(entries: list[Any], lines: list[Line]) -> tuple[Foreign, ...]:
             )
             continue
         body = cast("dict[str, Any]", entry)
-        given = body.get("uniqueName")
-        if isinstance(given, str) and given in labels:
+        name = body.get("uniqueName")
+        if isinstance(name, str) and name in labels:
             why = "a second element of this name; dnf-composer keeps the first"
-            lines.append(Line(labels[given], "element", kind(body), "dropped", why))
+            lines.append(Line(labels[name], "element", kind(body), "dropped", why))
             continue
-        label = names.new(plain_text(given) or f"element {place + 1}")
-        if label != given:
+        label = names.new(plain_text(name) or f"element {place + 1}")
+        if label != name:
             why = f"this is not a name here; the element is called {label!r}"
-            lines.append(Line(label, "element", show(given), "approximated", why))
-        if isinstance(given, str):
-            labels[given] = label
-        kept.append((place, label, body))
-    found = tuple(
+            lines.append(Line(label, "element", show(name), "approximated", why))
+        if isinstance(name, str):
+            labels[name] = label
+        bodies.append((place, label, body))
+    elements = tuple(
         Foreign(
             place,
             label,
@@ -159,36 +161,36 @@ def _elements(entries: list[Any], lines: list[Line]) -> tuple[Foreign, ...]:
             {plain_text(key): value for key, value in body.items() if key not in COMMON},
             tuple(_sources(label, body, labels, lines)),
         )
-        for place, label, body in kept
+        for place, label, body in bodies
     )
-    if sum(len(e.sources) for e in found) > MOST_INPUTS:
+    if sum(len(e.sources) for e in elements) > MOST_INPUTS:
         raise DocumentError(f"holds more than {MOST_INPUTS} connections")
-    return found
+    return elements
 
 
 def kind(body: dict[str, Any]) -> str:
     """Return the text of a label; its number differs between versions and has no meaning."""
-    given = body.get("label")
-    pair = cast("list[Any]", given) if isinstance(given, list) else [given]
+    label = body.get("label")
+    pair = cast("list[Any]", label) if isinstance(label, list) else [label]
     text = pair[-1] if len(pair) <= 2 and pair else None
     return (plain_text(text) if isinstance(text, str) else "") or "unknown"
 
 
 def _sources(label: str, body: dict[str, Any], labels: Mapping[str, str], lines: list[Line]) -> list[Source]:
-    given = body.get("inputs")
-    if given is None or given == {}:
+    inputs = body.get("inputs")
+    if inputs is None or inputs == {}:
         return []
-    if not isinstance(given, list):
-        lines.append(Line(label, "connection", "inputs", "dropped", f"it is {show(given)}, not a list"))
+    if not isinstance(inputs, list):
+        lines.append(Line(label, "connection", "inputs", "dropped", f"it is {show(inputs)}, not a list"))
         return []
     out: list[Source] = []
-    for entry in cast("list[Any]", given):
+    for entry in cast("list[Any]", inputs):
         pair = cast("list[Any]", entry) if isinstance(entry, list) else []
         if len(pair) != 2 or not all(isinstance(part, str) for part in pair):
             lines.append(Line(label, "connection", show(entry), "dropped", "it is not [name, component]"))
         elif pair[0] not in labels:
-            what = f"{plain_text(pair[0])}.{plain_text(pair[1])}"
-            lines.append(Line(label, "connection", what, "dropped", "there is no such element"))
+            origin = f"{plain_text(pair[0])}.{plain_text(pair[1])}"
+            lines.append(Line(label, "connection", origin, "dropped", "there is no such element"))
         else:
             out.append(Source(labels[pair[0]], plain_text(pair[1])))
     return out

@@ -47,6 +47,6 @@ def _refused(e: Foreign, s: Source, source: Foreign, taken: set[str], full: bool
         return "a signal for learning, which is off when a file is opened"
     if e.kind in ANY_SIZE:
         return f"{e.kind} takes one input" if full else ""
-    given = math.prod(size(source))
-    wanted = input_length(e) if "coupling" in e.kind else math.prod(size(e))
-    return "" if given == wanted else f"its size does not fit: {given} samples into {wanted}"
+    arriving = math.prod(size(source))
+    needed = input_length(e) if "coupling" in e.kind else math.prod(size(e))
+    return "" if arriving == needed else f"its size does not fit: {arriving} samples into {needed}"

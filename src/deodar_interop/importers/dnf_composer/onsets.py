@@ -27,11 +27,11 @@ def spans(periods: Sequence[tuple[float, float]], step: float) -> list[tuple[int
     """
     latest = max((min(z, MOST_COUNTED * step) for _, z in periods), default=0.0)
     times = _times(step, min(max(math.ceil(latest / step), 0) + 2, MOST_COUNTED))
-    found = sorted(
+    closed = sorted(
         span for a, z in periods if (span := (_first(times, a, step), _last(times, z, step)))[0] <= span[1]
     )
     out: list[tuple[int, int]] = []
-    for a, z in found:
+    for a, z in closed:
         if out and a <= out[-1][1] + 1:
             out[-1] = (out[-1][0], max(out[-1][1], z))
         else:

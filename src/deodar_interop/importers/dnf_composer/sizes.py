@@ -52,8 +52,8 @@ def input_length(e: Foreign) -> int:
     """
     if "input_x_max" in e.values and "input_d_x" in e.values:
         return samples(e, "input_x_max", "input_d_x") or INPUT_LENGTH
-    given = number(e.values.get("inputFieldSize"))
-    return INPUT_LENGTH if given is None or not 1 <= given < 1e12 else math.floor(given + 0.5)
+    stated = number(e.values.get("inputFieldSize"))
+    return INPUT_LENGTH if stated is None or not 1 <= stated < 1e12 else math.floor(stated + 0.5)
 
 
 def _circular(e: Foreign, counts: tuple[int, int]) -> dict[int, bool]:
@@ -61,7 +61,7 @@ def _circular(e: Foreign, counts: tuple[int, int]) -> dict[int, bool]:
 
     Couplings are left out: their switch is about distances among peaks, and usually not given.
     """
-    given = e.values.get("circular")
-    if not isinstance(given, bool) or "coupling" in e.kind:
+    circular = e.values.get("circular")
+    if not isinstance(circular, bool) or "coupling" in e.kind:
         return {}
-    return {d: given for d, count in enumerate(counts) if count > 1}
+    return {d: circular for d, count in enumerate(counts) if count > 1}

@@ -35,8 +35,8 @@ def added(elements: Sequence[Foreign], contexts: Mapping[str, StoredElement]) ->
         total = np.zeros(count)
         for s in e.sources:
             b = contexts[s.label]
-            shown = b.start if s.component == "output" else b.levels.get(s.component, 0.0)
-            total += shown() if callable(shown) else shown
+            level = b.start if s.component == "output" else b.levels.get(s.component, 0.0)
+            total += level() if callable(level) else level
             if s.component == "output" and s.label in out:
                 total += out[s.label]
         out[e.label] = total

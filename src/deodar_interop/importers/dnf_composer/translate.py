@@ -60,7 +60,7 @@ class SimulationTranslation:
     """The translations of a file's elements by label, their connections, and the report lines."""
 
     def __init__(self, simulation: StoredSimulation, beside: Beside) -> None:
-        self.said: list[Line] = list(simulation.lines)
+        self.report: list[Line] = list(simulation.lines)
         self.kinds = {e.label: e.kind for e in simulation.elements}
         renamed = [legacy.modern(e) for e in simulation.elements]
         self.old = {e.label: lines for e, lines in renamed}
@@ -68,14 +68,20 @@ class SimulationTranslation:
         self.simulation, refused = admitted(simulation)
         self.axes = SampleAxes(self.simulation)
         self.names = FreeNames(e.label for e in self.simulation.elements)
-        self.asked: dict[str, set[str]] = {}
+        self.components_read: dict[str, set[str]] = {}
         for e in self.simulation.elements:
             for s in e.sources:
-                self.asked.setdefault(s.label, set()).add(s.component)
+                self.components_read.setdefault(s.label, set()).add(s.component)
         budget = ValueBudget()
         self.contexts = {
             e.label: StoredElement(
-                self.simulation, self.axes, e, self.asked.get(e.label, set()), self.names, budget, beside
+                self.simulation,
+                self.axes,
+                e,
+                self.components_read.get(e.label, set()),
+                self.names,
+                budget,
+                beside,
             )
             for e in self.simulation.elements
         }
@@ -83,35 +89,35 @@ class SimulationTranslation:
         connected = self.add_inputs_of_stimuli()
         self.wiring = FlatWiring(connected, self.pieces, self.names, budget)
         self.wiring.connect_all()
-        self.said += refused
+        self.report += refused
 
     def piece(self, e: Foreign) -> Piece:
         """Return the translation of one element, or a placeholder if it has none or its parameters contradict
         each other.
         """
         b = self.contexts[e.label]
-        known = list(CLASSES)
+        kinds = list(CLASSES)
         try:
-            found = CLASSES[e.kind](b) if e.kind in CLASSES else placeholder(e, self.axes, known)
+            piece = CLASSES[e.kind](b) if e.kind in CLASSES else placeholder(e, self.axes, kinds)
         except (Unfit, SizeLimit) as error:
-            found = placeholder(e, self.axes, known, str(error))
+            piece = placeholder(e, self.axes, kinds, str(error))
         except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
-            found = placeholder(e, self.axes, known, f"its parameters are inconsistent ({error})")
-        missing = isinstance(found.elements[0], Placeholder)
-        verdict, why, kind = found.verdict, found.why, self.kinds[e.label]
+            piece = placeholder(e, self.axes, kinds, f"its parameters are inconsistent ({error})")
+        missing = isinstance(piece.elements[0], Placeholder)
+        verdict, why, kind = piece.verdict, piece.why, self.kinds[e.label]
         if kind != e.kind and not missing:
             verdict, why = "approximated", f"{why}, as {e.kind}; today's dnf-composer has no such label"
-        self.said.append(Line(e.label, "element", kind, verdict, why))
+        self.report.append(Line(e.label, "element", kind, verdict, why))
         if missing:
             b.start, b.levels = 0.0, {}
-            self.said += [
+            self.report += [
                 Line(e.label, "parameter", name, "dropped", "its element is a placeholder")
                 for name in e.values
             ]
-            return found
-        found = _with_input(b, found)
-        self.said += [*self._parameters(b), *b.extra, *_shown(e, found)]
-        return found
+            return piece
+        piece = _with_input(b, piece)
+        self.report += [*self._parameters(b), *b.extra, *_shown(e, piece)]
+        return piece
 
     def _parameters(self, b: StoredElement) -> list[Line]:
         """Return the lines of the parameters; those of an older form keep their names of then."""
@@ -130,7 +136,7 @@ class SimulationTranslation:
             verdict, why = "carried", "added once, at the start"
             if e.label not in sums:
                 verdict, why = "dropped", "the arrays of the file have too many values"
-            self.said += [
+            self.report += [
                 Line(e.label, "connection", f"{s.label}.{s.component}", verdict, why) for s in e.sources
             ]
             if e.label in sums and sums[e.label].any():
@@ -140,15 +146,15 @@ class SimulationTranslation:
 
     def lines(self) -> list[Line]:
         """Return all lines of the report."""
-        return [*self.said, *self.wiring.lines]
+        return [*self.report, *self.wiring.lines]
 
 
 def _plus(b: StoredElement, piece: Piece, values: np.ndarray) -> Piece:
     """Return a stimulus plus a constant."""
     outlet = piece.outlets["output"]
-    own = axes(outlet.dims)
+    constant_axes = axes(outlet.dims)
     alone = dc.replace(piece.elements[0], name=b.named("alone"))
-    constant = Pattern(b.named("inputs"), own, values.reshape(shape(own)))
+    constant = Pattern(b.named("inputs"), constant_axes, values.reshape(shape(constant_axes)))
     return dc.replace(
         piece,
         elements=[Sum(name=b.label), alone, constant],
@@ -158,7 +164,7 @@ def _plus(b: StoredElement, piece: Piece, values: np.ndarray) -> Piece:
 
 def _with_input(b: StoredElement, piece: Piece) -> Piece:
     """Return a translation whose input is an element of its own, if another element reads it."""
-    if "input" not in b.asked or not piece.inlets:
+    if "input" not in b.components_read or not piece.inlets:
         return piece
     inlet = piece.inlets[0][0]
     name = b.named("input")

@@ -33,43 +33,43 @@ class StoredValues(ForeignValues):
 
     def width(self, name: str, default: float) -> float:
         """Return the width of a Gaussian; at 0, where dnf-composer computes 0 / 0, a single sample."""
-        value = self.number(name, default, 0.0, WIDEST)
-        if value == 0 and name in self.body:
+        width = self.number(name, default, 0.0, WIDEST)
+        if width == 0 and name in self.body:
             self.say(name, "approximated", "a width of 0 has no values; a single sample is used")
-        return max(value, NARROWEST)
+        return max(width, NARROWEST)
 
     def flag(self, name: str, default: bool) -> bool:
         """Return a switch; older programs may have written it as 0 or 1."""
         if name not in self.body:
             return self.absent(name, default)
-        given = self.body[name]
-        if isinstance(given, bool):
+        flag = self.body[name]
+        if isinstance(flag, bool):
             self.say(name)
-            return given
-        if number(given) in (0, 1):
-            self.say(name, "approximated", f"it is {given}, read as {show(bool(given))}")
-            return bool(given)
+            return flag
+        if number(flag) in (0, 1):
+            self.say(name, "approximated", f"it is {flag}, read as {show(bool(flag))}")
+            return bool(flag)
         return self.instead(name, default)
 
     def choice(self, name: str, choices: tuple[str, ...]) -> str:
         """Return one of several words, which the file gives by its number; the first one is the default."""
         if name not in self.body:
             return choices[0]
-        given = number(self.body[name])
-        if given is None or given not in range(len(choices)):
+        index = number(self.body[name])
+        if index is None or index not in range(len(choices)):
             self.say(name, "approximated", f"it is {show(self.body[name])}; {choices[0]} is used")
             return choices[0]
-        self.say(name, "carried", choices[int(given)])
-        return choices[int(given)]
+        self.say(name, "carried", choices[int(index)])
+        return choices[int(index)]
 
     def rows(self, name: str, width: int) -> list[list[float]]:
         """Return rows of `width` numbers; others are reported and left out."""
-        given = self.body.get(name)
-        if given is None or given == {}:
+        stated = self.body.get(name)
+        if stated is None or stated == {}:
             if name in self.body:
                 self.say(name)
             return []
-        entries = cast("list[Any]", given) if isinstance(given, list) else [given]
+        entries = cast("list[Any]", stated) if isinstance(stated, list) else [stated]
         rows = [
             [min(max(v, -LARGEST), LARGEST) for n in cast("list[Any]", row) if (v := number(n)) is not None]
             for row in entries

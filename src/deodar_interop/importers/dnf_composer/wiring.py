@@ -33,9 +33,9 @@ class FlatWiring(SourceWiring):
         super().__init__("dnf-composer", elements, pieces, names)
         self.budget = budget
 
-    def compatible(self, given: Dims, wanted: Dims) -> bool:
-        counts = [math.prod(shape(axes(dims))) for dims in (given, wanted)]
-        if counts[0] != counts[1] or _alike(given, wanted):
+    def compatible(self, source: Dims, target: Dims) -> bool:
+        counts = [math.prod(shape(axes(dims))) for dims in (source, target)]
+        if counts[0] != counts[1] or _alike(source, target):
             return counts[0] == counts[1]
         if counts[0] > MOST_FLAT:
             return False
@@ -45,13 +45,13 @@ class FlatWiring(SourceWiring):
             return False
         return True
 
-    def adapter(self, name: str, given: Dims, wanted: Dims) -> Element:
-        if _alike(given, wanted):
-            return projection(name, axes(given), wanted, axes(wanted))
-        counts = shape(axes(wanted)) + shape(axes(given))
-        return Weights(np.eye(math.prod(shape(axes(given)))).reshape(counts), axes(wanted), name=name)
+    def adapter(self, name: str, source: Dims, target: Dims) -> Element:
+        if _alike(source, target):
+            return projection(name, axes(source), target, axes(target))
+        counts = shape(axes(target)) + shape(axes(source))
+        return Weights(np.eye(math.prod(shape(axes(source)))).reshape(counts), axes(target), name=name)
 
 
-def _alike(given: Dims, wanted: Dims) -> bool:
+def _alike(first: Dims, second: Dims) -> bool:
     """Return whether two sizes are the same, dimensions of one sample aside."""
-    return shape(axes(given)) == shape(axes(wanted))
+    return shape(axes(first)) == shape(axes(second))

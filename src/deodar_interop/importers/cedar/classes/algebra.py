@@ -41,13 +41,13 @@ def one_to_one(element: Element, slot: str, out: str, dims: Counts, why: str = "
     )
 
 
-def largest(found: Sequence[Counts], slot: str) -> Counts:
+def largest(inputs: Sequence[Counts], slot: str) -> Counts:
     """Return the size of several inputs; each is of that size, or one number.
 
     Raises:
         Refused: two sizes differ.
     """
-    sizes = {dims for dims in found if dims}
+    sizes = {dims for dims in inputs if dims}
     if len(sizes) > 1:
         raise Refused(f"the inputs at {slot!r} have different sizes: {', '.join(map(str, map(list, sizes)))}")
     return next(iter(sizes), ())
@@ -137,14 +137,14 @@ def chain(
         port: the second port of the coupling.
         called: name of a coupling before the last, with its number {0}, or the number of its inputs {1}.
     """
-    found = b.all(slot)
-    dims = largest(found, slot)
-    if len(found) == 1:
+    inputs = b.all(slot)
+    dims = largest(inputs, slot)
+    if len(inputs) == 1:
         return one_to_one(Sum(name=b.label), slot, out, dims, why="Sum, a copy of one input")
     # an array comes first, and single numbers at the second port
-    order = sorted(range(len(found)), key=lambda k: not found[k])
-    names = [b.named(called.format(k + 1, k + 2)) for k in range(len(found) - 2)] + [b.label]
-    inlets: list[list[InputSlot]] = [[] for _ in found]
+    order = sorted(range(len(inputs)), key=lambda k: not inputs[k])
+    names = [b.named(called.format(k + 1, k + 2)) for k in range(len(inputs) - 2)] + [b.label]
+    inlets: list[list[InputSlot]] = [[] for _ in inputs]
     inlets[order[0]] = [InputSlot(names[0])]
     for k, name in enumerate(names):
         inlets[order[k + 1]] = [InputSlot(name, port)]
@@ -170,13 +170,13 @@ def convolution(b: SourceStep) -> StepPiece:
     axes = b.axes(dims)
     ends = border(b.values, "convolution", len(dims))
     listed = b.values.objects("kernels")
-    made = kernels(listed, axes, ends)
-    if not made:
+    convolution_kernels = kernels(listed, axes, ends)
+    if not convolution_kernels:
         return one_to_one(Sum(name=b.label), "matrix", "result", dims, why="Sum, a copy without kernels")
     if not dims:
-        factor = sum(float(getattr(k, "amplitude", 0.0)) for k in made)
+        factor = sum(float(getattr(k, "amplitude", 0.0)) for k in convolution_kernels)
         return one_to_one(Gain(factor, name=b.label), "matrix", "result", dims)
-    piece = one_to_one(Convolve(made, name=b.label), "matrix", "result", dims)
+    piece = one_to_one(Convolve(convolution_kernels, name=b.label), "matrix", "result", dims)
     piece.fails = too_long(listed, axes, ends)
     return piece
 
@@ -214,14 +214,14 @@ def projection(b: SourceStep) -> StepPiece:
 
 
 def projected(
-    b: SourceStep, values: StepValues, given: Counts, name: str, ways: Sequence[str]
+    b: SourceStep, values: StepValues, counts: Counts, name: str, ways: Sequence[str]
 ) -> tuple[Project, Counts]:
     """Return the projection that the parameters of an object describe, and the size of its output.
 
     Args:
         b: the step.
         values: the object: the step itself, or an object inside it.
-        given: size of the input.
+        counts: size of the input.
         name: name of the element.
         ways: reductions that cedar offers.
 
@@ -234,33 +234,37 @@ def projected(
     else:
         values.say("output dimension sizes", "carried", "none for one number")
         new = []
-    how = values.word("compression type", "SUM", ways)
-    mapping = _mapping(values, len(given))
-    _require_valid(mapping, len(given), count)
-    if len(given) == 2 and count == 3 and (mapping[0], mapping[1]) == (2, 0) and new[0] != new[1]:
+    reduction = values.word("compression type", "SUM", ways)
+    mapping = _mapping(values, len(counts))
+    _require_valid(mapping, len(counts), count)
+    if len(counts) == 2 and count == 3 and (mapping[0], mapping[1]) == (2, 0) and new[0] != new[1]:
         b.bug("two dimensions into three with exchanged axes leave slices empty")
     for source, target in mapping.items():
-        new[target] = given[source]
+        new[target] = counts[source]
     dims = tuple(new)
-    if not given:
+    if not counts:
         # one number fills all
         return Project(b.axes(dims), name=name), dims
-    here, there = b.axes(dims), b.axes(given)
-    names = {there[s].name: here[t].name for s, t in mapping.items() if there[s].name != here[t].name}
+    target_axes, source_axes = b.axes(dims), b.axes(counts)
+    names = {
+        source_axes[s].name: target_axes[t].name
+        for s, t in mapping.items()
+        if source_axes[s].name != target_axes[t].name
+    }
     names |= {
         a.name: f"{a.name} added up"
-        for s, a in enumerate(there)
-        if s not in mapping and a.name in [c.name for c in here]
+        for s, a in enumerate(source_axes)
+        if s not in mapping and a.name in [c.name for c in target_axes]
     }
-    return Project(here, REDUCTIONS[how], names, name=name), dims
+    return Project(target_axes, REDUCTIONS[reduction], names, name=name), dims
 
 
 def _mapping(values: StepValues, count: int) -> dict[int, int]:
     """Return the dimensions that remain, and their places in the output."""
-    found = members(values.body.get("dimension mapping"))
+    stated = members(values.body.get("dimension mapping"))
     values.say("dimension mapping")
     out: dict[int, int] = {}
-    for key, value in found.items():
+    for key, value in stated.items():
         source, target = number(key), number(value)
         if source is None or (target is None and text(value)):
             raise Refused(f"its mapping of dimension {key!r} to {value!r} is not a number")
@@ -269,7 +273,7 @@ def _mapping(values: StepValues, count: int) -> dict[int, int]:
     return out
 
 
-def _require_valid(mapping: dict[int, int], given: int, count: int) -> None:
+def _require_valid(mapping: dict[int, int], dimensions: int, count: int) -> None:
     """Raise unless cedar accepts a mapping from `given` to `count` dimensions.
 
     Raises:
@@ -279,22 +283,24 @@ def _require_valid(mapping: dict[int, int], given: int, count: int) -> None:
         raise Refused(f"its mapping leads to a dimension that an output of {count} dimensions does not have")
     if len(set(mapping.values())) < len(mapping):
         raise Refused("two dimensions are mapped to one")
-    dropped = given - len(mapping)
+    dropped = dimensions - len(mapping)
     if not count:
         return
-    if given and not mapping:
+    if dimensions and not mapping:
         raise Refused("all dimensions are dropped, and the output has some")
-    if dropped and count >= given:
+    if dropped and count >= dimensions:
         raise Refused("a dimension is dropped, and the output has no fewer dimensions than the input")
-    if given > count and len(mapping) != count:
-        raise Refused(f"{given - len(mapping)} of {given} dimensions are dropped for an output of {count}")
+    if dimensions > count and len(mapping) != count:
+        raise Refused(
+            f"{dimensions - len(mapping)} of {dimensions} dimensions are dropped for an output of {count}"
+        )
 
 
 def transfer(b: SourceStep) -> StepPiece:
     """Translate TransferFunction."""
     dims, c = b.first("input"), Composition(b)
-    result = transferred(c, "", "function", Absolute(100.0, 0.0), c.slot("input"))
-    c.outlet("sigmoided output", result, dims)
+    sigmoided = transferred(c, "", "function", Absolute(100.0, 0.0), c.slot("input"))
+    c.outlet("sigmoided output", sigmoided, dims)
     return c.done(type(next(e for e in c.piece.elements if e.name == b.label)).__name__)
 
 
@@ -305,9 +311,9 @@ def transpose(b: SourceStep) -> StepPiece:
         raise Refused(f"its input has {len(dims)} dimensions")
     if len(dims) < 2:
         return one_to_one(Sum(name=b.label), "matrix", "transposed", dims, why="Sum, a copy")
-    here, there = b.axes(dims[::-1]), b.axes(dims)
-    names = {a.name: c.name for a, c in zip(there, here[::-1], strict=True) if a.name != c.name}
-    return one_to_one(Project(here, "sum", names, name=b.label), "matrix", "transposed", dims[::-1])
+    target_axes, source_axes = b.axes(dims[::-1]), b.axes(dims)
+    names = {a.name: c.name for a, c in zip(source_axes, target_axes[::-1], strict=True) if a.name != c.name}
+    return one_to_one(Project(target_axes, "sum", names, name=b.label), "matrix", "transposed", dims[::-1])
 
 
 CLASSES = {

@@ -48,15 +48,15 @@ def along_axes(
 
     The last element has the step's name.
     """
-    given = b.first(slot)
-    here, there = b.axes(dims), b.axes(given)
+    counts = b.first(slot)
+    target_axes, source_axes = b.axes(dims), b.axes(counts)
     changed = {d: m for d, m in enumerate(matrices) if m is not None}
     if not changed:
-        return one_to_one(Sum(name=b.label), slot, out, given, why="Sum, a copy")
+        return one_to_one(Sum(name=b.label), slot, out, counts, why="Sum, a copy")
     last = max(changed)
-    names = [b.label if d == last else b.named(f"along {here[d].name}") for d in changed]
+    names = [b.label if d == last else b.named(f"along {target_axes[d].name}") for d in changed]
     elements = [
-        AxisWeights(m, here[d], there[d].name, name=name)
+        AxisWeights(m, target_axes[d], source_axes[d].name, name=name)
         for (d, m), name in zip(changed.items(), names, strict=True)
     ]
     return StepPiece(
@@ -71,92 +71,92 @@ def along_axes(
 
 def resize(b: SourceStep) -> StepPiece:
     """Translate Resize: each axis of the input has another number of samples over the same extent."""
-    given = b.first("input")
-    if not given:
+    counts = b.first("input")
+    if not counts:
         raise Refused("its input is one number")
-    dims = tuple(int(n) for n in b.values.numbers("output size", 50, len(given), 1, 5000))
-    way = b.values.word("interpolation", "LINEAR", WAYS)
-    if len(given) > 2:
-        if way != "LINEAR":
+    dims = tuple(int(n) for n in b.values.numbers("output size", 50, len(counts), 1, 5000))
+    interpolation = b.values.word("interpolation", "LINEAR", WAYS)
+    if len(counts) > 2:
+        if interpolation != "LINEAR":
             b.values.say("interpolation", "carried", "cedar resizes three dimensions linearly only")
-        way = "LINEAR"
+        interpolation = "LINEAR"
         b.bug("resizing three dimensions mixes up the weights of neighbours")
-    if way == "LANCZOS4":
+    if interpolation == "LANCZOS4":
         b.values.say("interpolation", "approximated", "CUBIC is used")
-    matrices = [None if n == m else matrix(n, m, way) for n, m in zip(given, dims, strict=True)]
+    matrices = [None if n == m else matrix(n, m, interpolation) for n, m in zip(counts, dims, strict=True)]
     return along_axes(b, "input", "output", matrices, dims, "AxisWeights")
 
 
 def flip(b: SourceStep) -> StepPiece:
     """Translate Flip."""
-    given = b.first("input")
+    counts = b.first("input")
     listed = [text(v) != "false" for v in items(b.values.body.get("flipped dimensions"))]
     b.values.say("flipped dimensions")
-    flags = (listed + [True] * len(given))[: len(given)]
-    matrices = [np.eye(n)[::-1] if f else None for n, f in zip(given, flags, strict=True)]
-    return along_axes(b, "input", "output", matrices, given, "AxisWeights")
+    flags = (listed + [True] * len(counts))[: len(counts)]
+    matrices = [np.eye(n)[::-1] if f else None for n, f in zip(counts, flags, strict=True)]
+    return along_axes(b, "input", "output", matrices, counts, "AxisWeights")
 
 
 def cut(b: SourceStep) -> StepPiece:
     """Translate MatrixSlice: a part of each axis, its upper end excluded."""
-    given = b.first("matrix")
-    count = len(given)
+    counts = b.first("matrix")
+    count = len(counts)
     lower, upper = (
         b.values.numbers(f"range {end}", float(v), count) for end, v in (("lower", 0), ("upper", 1))
     )
     if b.values.word("anchor type", "Absolute", ("Absolute", "Center")) == "Center":
-        half = [n // 2 for n in given]
+        half = [n // 2 for n in counts]
         lower = [v + h for v, h in zip(lower, half, strict=True)]
         upper = [v + h for v, h in zip(upper, half, strict=True)]
     spans = [(int(a), int(z)) for a, z in zip(lower, upper, strict=True)]
-    if any(not 0 <= a < z <= n for (a, z), n in zip(spans, given, strict=True)):
-        raise Refused(f"its range {spans} is not inside an array of {list(given)}")
+    if any(not 0 <= a < z <= n for (a, z), n in zip(spans, counts, strict=True)):
+        raise Refused(f"its range {spans} is not inside an array of {list(counts)}")
     dims = tuple(z - a for a, z in spans)
-    matrices = [np.eye(n)[a:z] if (a, z) != (0, n) else None for (a, z), n in zip(spans, given, strict=True)]
+    matrices = [np.eye(n)[a:z] if (a, z) != (0, n) else None for (a, z), n in zip(spans, counts, strict=True)]
     return _shrunk(along_axes(b, "matrix", "slice", matrices, dims, "AxisWeights"), b, "slice", dims)
 
 
 def _shrunk(piece: StepPiece, b: SourceStep, slot: str, dims: Counts) -> StepPiece:
     """Drop the axes of one sample, which cedar does not count as dimensions."""
-    kept = tuple(n for n in dims if n > 1)
-    if kept == dims:
+    remaining = tuple(n for n in dims if n > 1)
+    if remaining == dims:
         return piece
     inside = b.named("with all axes")
     first = piece.elements[0]
     piece.elements[0] = dc.replace(first, name=inside)
     piece.inner = [tuple(inside if n == b.label else n for n in wire) for wire in piece.inner]
     piece.inlets = {
-        key: [[InputSlot(inside if i.name == b.label else i.name, i.port) for i in each] for each in listed]
+        key: [[InputSlot(inside if i.name == b.label else i.name, i.port) for i in slots] for slots in listed]
         for key, listed in piece.inlets.items()
     }
     axes = [a for a, n in zip(b.axes(dims), dims, strict=True) if n > 1]
-    here = b.axes(kept)
-    names = {a.name: c.name for a, c in zip(axes, here, strict=True) if a.name != c.name}
-    piece.elements.insert(0, Project(here, "sum", names, name=b.label))
+    target_axes = b.axes(remaining)
+    names = {a.name: c.name for a, c in zip(axes, target_axes, strict=True) if a.name != c.name}
+    piece.elements.insert(0, Project(target_axes, "sum", names, name=b.label))
     piece.inner.append((inside, b.label))
-    piece.outlets = {slot: OutputSlot(b.label, kept)}
+    piece.outlets = {slot: OutputSlot(b.label, remaining)}
     return piece
 
 
 def pad(b: SourceStep) -> StepPiece:
     """Translate MatrixPadding: more samples at both ends of each axis."""
-    given = b.first("input")
-    border = b.values.numbers("border size", 0.0, len(given), 0.0, 5000.0)
+    counts = b.first("input")
+    border = b.values.numbers("border size", 0.0, len(counts), 0.0, 5000.0)
     mode = b.values.word("padding mode", "PadByBorder", ("PadByBorder", "PadToSize"))
     kind = b.values.word("border type", "Zero", ("Zero", "Cyclic", "Replicate", "Reflect"))
     pads: list[tuple[int, int]] = []
-    for n, amount in zip(given, border, strict=True):
+    for n, amount in zip(counts, border, strict=True):
         if mode == "PadByBorder":
             pads.append((int(amount), int(amount)))
         else:
-            more = max(int(amount) - n, 0)
-            pads.append((more // 2, more - more // 2))
+            margin = max(int(amount) - n, 0)
+            pads.append((margin // 2, margin - margin // 2))
     ways = {"Zero": "constant", "Cyclic": "wrap", "Replicate": "edge", "Reflect": "symmetric"}
     matrices = [
         np.pad(np.eye(n), (p, (0, 0)), mode=ways[kind]) if any(p) else None  # pyright: ignore
-        for n, p in zip(given, pads, strict=True)
+        for n, p in zip(counts, pads, strict=True)
     ]
-    dims = tuple(n + sum(p) for n, p in zip(given, pads, strict=True))
+    dims = tuple(n + sum(p) for n, p in zip(counts, pads, strict=True))
     return along_axes(b, "input", "padded", matrices, dims, "AxisWeights")
 
 
@@ -188,21 +188,21 @@ def stack(b: SourceStep) -> StepPiece:
     """Translate Stack: matrices become the layers of a volume."""
     count = b.values.whole("dimensionality", 1, 1, MOST_SCALARS)
     slots = [str(k) for k in range(count)]
-    given = {s: b.first(s) for s in slots if s in b.ins}
-    if not given:
+    layers = {s: b.first(s) for s in slots if s in b.ins}
+    if not layers:
         raise Refused("nothing is connected to it")
-    flat = next(iter(given.values()))
-    if any(dims != flat for dims in given.values()) or len(flat) != 2:
+    flat = next(iter(layers.values()))
+    if any(dims != flat for dims in layers.values()) or len(flat) != 2:
         raise Refused(
-            f"it stacks matrices of one size, not {', '.join(str(list(d)) for d in given.values())}"
+            f"it stacks matrices of one size, not {', '.join(str(list(d)) for d in layers.values())}"
         )
-    return layered(b, [s if s in given else "" for s in slots], "stack", flat)
+    return layered(b, [s if s in layers else "" for s in slots], "stack", flat)
 
 
 def layered(b: SourceStep, slots: Sequence[str], out: str, flat: Counts) -> StepPiece:
     """Return matrices as the layers of a volume, one for each slot; a layer without a slot is 0."""
     count = len(slots)
-    axes, one = b.axes((*flat, count)), Axis("layer", 0, 1, 1, periodic=True)
+    axes, flat_axis = b.axes((*flat, count)), Axis("layer", 0, 1, 1, periodic=True)
     piece = StepPiece(
         [Sum(name=b.label)],
         outlets={out: OutputSlot(b.label, (*flat, count))},
@@ -213,7 +213,7 @@ def layered(b: SourceStep, slots: Sequence[str], out: str, flat: Counts) -> Step
         if slot:
             layer, placed = b.named(f"layer {k}"), b.named(f"at {k}")
             piece.elements += [
-                Project([*axes[:2], one], "sum", name=layer),
+                Project([*axes[:2], flat_axis], "sum", name=layer),
                 AxisWeights(np.eye(count)[:, k : k + 1], axes[2], "layer", name=placed),
             ]
             piece.inner += [(layer, placed), (placed, b.label)]
@@ -223,28 +223,31 @@ def layered(b: SourceStep, slots: Sequence[str], out: str, flat: Counts) -> Step
 
 def clamp(b: SourceStep) -> StepPiece:
     """Translate Clamp: what lies beyond a limit becomes the limit, or another value."""
-    given, values = b.first("input"), b.values
+    dims, values = b.first("input"), b.values
     limits: dict[str, float] = {}
     others: dict[str, float] = {}
     for name, default in (("lower", 0.0), ("upper", 1.0)):
-        limit, other = values.number(f"{name} limit", default), values.number(f"{name} replacement", default)
+        limit, replacement = (
+            values.number(f"{name} limit", default),
+            values.number(f"{name} replacement", default),
+        )
         replaces = values.flag(f"replace {name} limit", False)
         if not values.flag(f"apply {name} limit", True):
             continue
         limits[name] = limit
         if replaces:
-            others[name] = other
+            others[name] = replacement
     if others and len(limits) == 2 and limits["lower"] > limits["upper"]:
         raise Unfit("which of its limits comes first is not documented, and the lower one is above the upper")
     c = Composition(b)
     seen = c.slot("input")
-    kept, clamped = seen, [name for name in limits if name not in others]
+    limited, clamped = seen, [name for name in limits if name not in others]
     for name in clamped:
         limit = c.constant(f"{name} limit", limits[name])
-        what = "" if name == clamped[-1] and not others else f"not beyond the {name} limit"
-        kept = c.limit(what, "upper" if name == "lower" else "lower", kept, limit)
+        role = "" if name == clamped[-1] and not others else f"not beyond the {name} limit"
+        limited = c.limit(role, "upper" if name == "lower" else "lower", limited, limit)
     if not others:
-        c.outlet("thresholded input", kept if clamped else c.total("", kept), given)
+        c.outlet("thresholded input", limited if clamped else c.total("", limited), dims)
         return c.done("Envelope with a Boost for each limit" if clamped else "Sum, a copy")
     outside = {
         name: (c.below if name == "lower" else c.above)(f"beyond the {name} limit", limits[name], seen)
@@ -253,21 +256,21 @@ def clamp(b: SourceStep) -> StepPiece:
     # what is replaced is multiplied by 0, so that the sum holds the other value itself
     inside = c.rest("inside", c.total("outside", *outside.values()))
     parts = [c.gain(f"{name} part", others[name], signal) for name, signal in outside.items()]
-    c.outlet("thresholded input", c.total("", c.product("kept", kept, inside), *parts), given)
+    c.outlet("thresholded input", c.total("", c.product("kept", limited, inside), *parts), dims)
     return c.done("a sum of what is kept and of what replaces the rest")
 
 
 def masked(b: SourceStep) -> StepPiece:
     """Translate Mask: the input where the mask is not 0."""
-    given, mask = b.first("input"), b.first("mask")
-    if given != mask:
-        raise Refused(f"the sizes {list(given)} and {list(mask)} differ")
-    size, there = Pointwise("abs", name=b.named("size")), Sigmoid(Step(0.0), name=b.named("not zero"))
+    dims, mask = b.first("input"), b.first("mask")
+    if dims != mask:
+        raise Refused(f"the sizes {list(dims)} and {list(mask)} differ")
+    size, is_on = Pointwise("abs", name=b.named("size")), Sigmoid(Step(0.0), name=b.named("not zero"))
     return StepPiece(
-        [Product(name=b.label), there, size],
+        [Product(name=b.label), is_on, size],
         {"input": [[InputSlot(b.label)]], "mask": [[InputSlot(size.name)]]},
-        {"masked": OutputSlot(b.label, given)},
-        [(size.name, there.name), (there.name, b.label, "factor")],
+        {"masked": OutputSlot(b.label, dims)},
+        [(size.name, is_on.name), (is_on.name, b.label, "factor")],
         needs=("input", "mask"),
         why="Product with a Sigmoid of the mask",
     )
@@ -306,10 +309,10 @@ def variable_box(b: SourceStep) -> StepPiece:
         # a sample at the left end itself is inside, one at the right end is not
         begun = Sigmoid(Step(-shift - EDGE), name=b.named(f"{axis.name} begun"))
         ended = Sigmoid(Step(width - shift - EDGE), name=b.named(f"{axis.name} ended"))
-        minus, both = Gain(-1.0, name=b.named(f"{axis.name} without")), Sum(name=b.named(f"{axis.name} box"))
-        left = Gain(-1.0, name=b.named(f"{axis.name} left"))
-        entry = Weights(-np.eye(len(dims))[d], (), name=left.name) if len(dims) > 1 else left
-        piece.elements += [places, inside, begun, ended, minus, both, entry]
+        minus, box = Gain(-1.0, name=b.named(f"{axis.name} without")), Sum(name=b.named(f"{axis.name} box"))
+        shift_back = Gain(-1.0, name=b.named(f"{axis.name} left"))
+        entry = Weights(-np.eye(len(dims))[d], (), name=shift_back.name) if len(dims) > 1 else shift_back
+        piece.elements += [places, inside, begun, ended, minus, box, entry]
         piece.inlets["left bounds"][0].append(InputSlot(entry.name))
         piece.inner += [
             (places.name, inside.name),
@@ -317,12 +320,12 @@ def variable_box(b: SourceStep) -> StepPiece:
             (inside.name, begun.name),
             (inside.name, ended.name),
             (ended.name, minus.name),
-            (begun.name, both.name),
-            (minus.name, both.name),
+            (begun.name, box.name),
+            (minus.name, box.name),
         ]
         wide = Project(axes, "sum", name=b.named(f"{axis.name} everywhere"))
         piece.elements.append(wide)
-        piece.inner.append((both.name, wide.name))
+        piece.inner.append((box.name, wide.name))
         if last:
             product = Product(name=b.named(f"up to {axis.name}"))
             piece.elements.append(product)
@@ -374,14 +377,14 @@ def to_vector(b: SourceStep) -> StepPiece:
 
 def to_scalars(b: SourceStep) -> StepPiece:
     """Translate VectorToScalars: one number for each entry."""
-    given = b.first("input vector")
+    dims = b.first("input vector")
     count = b.values.whole("number of vector entries", 3, 1, MOST_SCALARS)
-    if math.prod(given) != count or len(given) > 1:
-        raise Refused(f"its input has the size {list(given)}, and it has {count} entries")
+    if math.prod(dims) != count or len(dims) > 1:
+        raise Refused(f"its input has the size {list(dims)}, and it has {count} entries")
     eye = np.eye(count)
     names = [b.label if k == 0 else b.named(f"entry {k}") for k in range(count)]
     return StepPiece(
-        [*(Weights(eye[k].reshape(given), (), name=name) for k, name in enumerate(names))],
+        [*(Weights(eye[k].reshape(dims), (), name=name) for k, name in enumerate(names))],
         {"input vector": [[InputSlot(name) for name in names]]},
         {f"scalar {k}": OutputSlot(name, ()) for k, name in enumerate(names)},
         needs=("input vector",),

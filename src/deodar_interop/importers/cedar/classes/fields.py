@@ -74,12 +74,12 @@ def neural_field(b: SourceStep) -> StepPiece:
     ):
         if name in values.body:
             values.say(name, "carried", "only a matter of cedar's plots and icons")
-    shown = values.flag("activation as output", False)
+    shows_activation = values.flag("activation as output", False)
     outlets = {
         "sigmoided activation": OutputSlot(b.label, dims, "output"),
         f"{BUFFER}activation": OutputSlot(b.label, dims, "activation", state=True),
     }
-    if shown:
+    if shows_activation:
         outlets["activation"] = OutputSlot(b.label, dims, "activation", state=True)
     piece = _with_own_output(b, field, dims) if apart else StepPiece([field], why="Field")
     piece.inlets = {"input": [[InputSlot(b.label)]]}
@@ -137,11 +137,11 @@ def _correlation(values: StepValues) -> None:
 
 def _tau(b: SourceStep, name: str, default: float) -> float:
     """Return a time constant, at least the step."""
-    value = b.values.time(name, default)
-    if value < b.dt:
-        b.values.say(name, "approximated", f"{value:g} ms is below the step; {b.dt:g} ms is used")
+    tau = b.values.time(name, default)
+    if tau < b.dt:
+        b.values.say(name, "approximated", f"{tau:g} ms is below the step; {b.dt:g} ms is used")
         return b.dt
-    return value
+    return tau
 
 
 def preshape(b: SourceStep) -> StepPiece:
@@ -159,15 +159,15 @@ def preshape(b: SourceStep) -> StepPiece:
         start=b.stored("activation", dims),
     )
     inlets = {"input": [[InputSlot(b.label)]]}
-    wanted = {"input": dims}
+    input_sizes = {"input": dims}
     if trace.gated:
         inlets["peak detector"] = [[InputSlot(b.label, "gate")]]
-        wanted["peak detector"] = ()
+        input_sizes["peak detector"] = ()
     return StepPiece(
         [trace],
         inlets,
         {"activation": OutputSlot(b.label, dims, state=True)},
-        wanted=wanted,
+        wanted=input_sizes,
         needs=("input",),
         why="MemoryTrace",
     )
@@ -233,14 +233,14 @@ def rate_to_space(b: SourceStep) -> StepPiece:
     axes = b.axes(dims)
     wraps = values.flag("cyclic", False)
     ends = ["periodic" if wraps else "zero"] * count
-    own = ["periodic" if a.periodic else "zero" for a in axes]
+    axis_ends = ["periodic" if a.periodic else "zero" for a in axes]
     code = SpaceCode(
         axes,
         values.numbers("sigma", 3.0, count, 1e-6),
         values.number("amplitude", 1.0),
         gains,
         offsets,
-        boundary=None if ends == own else ends,
+        boundary=None if ends == axis_ends else ends,
         name=b.label,
     )
     return StepPiece(

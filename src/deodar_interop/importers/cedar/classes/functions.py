@@ -229,8 +229,8 @@ def outer_product(b: SourceStep) -> StepPiece:
     )
 
 
-def _spread(axes: tuple[Axis, ...], own: Axis, to: Axis, name: str) -> Project:
-    return Project(axes, "sum", {own.name: to.name} if own.name != to.name else {}, name=name)
+def _spread(axes: tuple[Axis, ...], source: Axis, to: Axis, name: str) -> Project:
+    return Project(axes, "sum", {source.name: to.name} if source.name != to.name else {}, name=name)
 
 
 def cross_product(b: SourceStep) -> StepPiece:
@@ -294,12 +294,12 @@ def matrix_multiply(b: SourceStep) -> StepPiece:
     c = Composition(b)
     places = [[k, i] if turned else [i, k], [k, j]]
     left, right = (
-        c.projected(what, c.slot(slot), b.axes(dims), axes, places[d][: len(dims)])
-        for d, (what, slot, dims) in enumerate((("left", "operand1", first), ("right", "operand2", second)))
+        c.projected(side, c.slot(slot), b.axes(dims), axes, places[d][: len(dims)])
+        for d, (side, slot, dims) in enumerate((("left", "operand1", first), ("right", "operand2", second)))
     )
     dims = tuple(n for n in (counts[0], counts[2]) if n > 1)
-    here = list(b.axes(dims))
-    ends = [here.pop(0) if n > 1 and d != 1 else None for d, n in enumerate(counts)]
+    free_axes = list(b.axes(dims))
+    ends = [free_axes.pop(0) if n > 1 and d != 1 else None for d, n in enumerate(counts)]
     product = c.product("products", left, right)
     c.outlet("matrixProduct", c.projected("", product, axes, b.axes(dims), ends), dims)
     return c.done("Product of two Project, summed")
@@ -308,19 +308,19 @@ def matrix_multiply(b: SourceStep) -> StepPiece:
 def pseudo_inverse(b: SourceStep) -> StepPiece:
     """Translate PseudoInverse; a number becomes its inverse, and 0 remains 0."""
     dims, c = b.first("matrix"), Composition(b)
-    given = c.slot("matrix")
+    matrix = c.slot("matrix")
     if len(dims) > 2:
         raise Refused(f"its input has {len(dims)} dimensions")
     if len(dims) == 2:
-        inverse = c.add(PseudoInverse(name=b.named("inverse")), input=given)
-        here, there = b.axes(dims[::-1]), b.axes(dims)
-        turned = c.projected("", inverse, there[::-1], here, list(here))
+        inverse = c.add(PseudoInverse(name=b.named("inverse")), input=matrix)
+        target_axes, source_axes = b.axes(dims[::-1]), b.axes(dims)
+        turned = c.projected("", inverse, source_axes[::-1], target_axes, list(target_axes))
         c.outlet("inverted", turned, dims[::-1])
         return c.done("PseudoInverse")
     if dims:
-        c.outlet("inverted", c.add(PseudoInverse(name=b.label), input=given), dims)
+        c.outlet("inverted", c.add(PseudoInverse(name=b.label), input=matrix), dims)
         return c.done("PseudoInverse")
-    c.outlet("inverted", c.quotient("", given, c.function("square", "square", given), TINY), ())
+    c.outlet("inverted", c.quotient("", matrix, c.function("square", "square", matrix), TINY), ())
     return c.done("Quotient by its square")
 
 

@@ -47,9 +47,9 @@ def hebbian(b: SourceStep) -> StepPiece:
     return _Connection(b, source, target).piece()
 
 
-def _size(b: SourceStep, what: str, dimensions: int) -> Counts:
-    count = b.values.whole(f"{what} dimension", dimensions, 0, 3)
-    return tuple(int(n) for n in b.values.numbers(f"{what} sizes", 50, count, 1, 1e6))
+def _size(b: SourceStep, side: str, dimensions: int) -> Counts:
+    count = b.values.whole(f"{side} dimension", dimensions, 0, 3)
+    return tuple(int(n) for n in b.values.numbers(f"{side} sizes", 50, count, 1, 1e6))
 
 
 class _Connection:
@@ -104,20 +104,20 @@ class _Connection:
             return self.c.slot(name, dims, optional=True)
         return self.c.add(Boost(self.b.named(f"no {name}"), self.b.axes(dims), 0.0))
 
-    def activity(self, letter: str, what: str, given: StepSignal, default: SigmoidFunction) -> StepSignal:
+    def activity(self, letter: str, side: str, signal: StepSignal, default: SigmoidFunction) -> StepSignal:
         """Add a function of a side or of the reward."""
-        name = f"{letter} ({what} sigmoid)"
+        name = f"{letter} ({side} sigmoid)"
         if letter == "g" and not isinstance(sigmoid(self.b.values, name, default), Step):
             if self.source and self.target:
                 self.doubts.append("how a reward between 0 and 1 acts on two lines is not documented")
             elif self.b.values.flag("fixed reward duration", False):
                 self.doubts.append("what begins the reward duration is documented for the Heaviside only")
-        return transferred(self.c, f"{letter} of {what}", name, default, given)
+        return transferred(self.c, f"{letter} of {side}", name, default, signal)
 
-    def along(self, signal: StepSignal, what: str, d: int) -> StepSignal:
+    def along(self, signal: StepSignal, role: str, d: int) -> StepSignal:
         """Add the value of one side at all weights."""
         axis = self.b.axes((self.source, self.target)[d])
-        return self.c.projected(what, signal, axis, self.axes, [self.axes[d]])
+        return self.c.projected(role, signal, axis, self.axes, [self.axes[d]])
 
     def gate(self, reward: StepSignal) -> StepSignal:
         """Return what opens the gate; with a fixed duration the reward's beginning counts as a step of it."""
@@ -182,18 +182,18 @@ class _Connection:
         """
         c = self.c
         share = c.total("share", c.gain("share of h", rise - fall, h), c.constant("share of the rest", fall))
-        away = c.total("to go", goal, c.gain("minus weights", -1.0, old))
-        return c.total("slowed goal", old, c.product("part of the way", away, share))
+        difference = c.total("to go", goal, c.gain("minus weights", -1.0, old))
+        return c.total("slowed goal", old, c.product("part of the way", difference, share))
 
     def start(self) -> tuple[float, np.ndarray | None]:
         """Return all weights at the start, or each of them, source samples first."""
         values, shape = self.b.values, (*self.source, *self.target)
-        kept = self.b.stored("weights", shape)
-        if kept is not None:
+        stored = self.b.stored("weights", shape)
+        if stored is not None:
             for name in values.body:
                 if name.startswith(("weight ", "manual ")):
                     values.say(name, "carried", "without effect beside weights that are stored")
-            return 0.0, kept
+            return 0.0, stored
         if values.flag("manual weights", False):
             for name in ("weight init value", "weight init noise"):
                 if name in values.body:
@@ -203,8 +203,8 @@ class _Connection:
             sigmas = values.numbers("weight sigmas", 3.0, count, 1e-6)
             out = np.full(shape, values.number("weight amplitude", 6.0))
             for d, (n, c, s) in enumerate(zip(shape, centers, sigmas, strict=True)):
-                away = abs(np.arange(n) - c)
-                part = np.exp(-0.5 * (np.minimum(away, n - away) / s) ** 2)
+                distance = abs(np.arange(n) - c)
+                part = np.exp(-0.5 * (np.minimum(distance, n - distance) / s) ** 2)
                 out = out * part.reshape([-1 if k == d else 1 for k in range(count)])
             return (0.0, out) if shape else (float(out), None)
         level, noise = values.number("weight init value", 0.0), values.number("weight init noise", 0.001)

@@ -107,32 +107,32 @@ UNDOCUMENTED = {
 
 
 def placeholder(
-    step: CedarStep, known: list[str], ins: list[str], outs: list[str], why: str = "", stops: str = ""
+    step: CedarStep, kinds: list[str], ins: list[str], outs: list[str], why: str = "", stops: str = ""
 ) -> StepPiece:
     """Return a placeholder for a step, with the reason.
 
     Args:
         step: the step.
-        known: ids of the types that are translated.
+        kinds: ids of the types that are translated.
         ins: input slots that connections name.
         outs: output slots that connections name.
         why: the reason, if it is not the type.
         stops: why cedar does not run the step.
     """
-    what = _reason(step, [*ins, *outs]) or unknown(step.kind, "has no counterpart", known)
+    reason = _reason(step, [*ins, *outs]) or unknown(step.kind, "has no counterpart", kinds)
     if why:
         # of a step that is translated elsewhere: what takes its place with a robot, too
-        what = f"{why}; it {WORLDS[step.short]}" if step.short in WORLDS and step.kind in known else why
+        reason = f"{why}; it {WORLDS[step.short]}" if step.short in WORLDS and step.kind in kinds else why
     name = step.path[-1]
     dims: Counts = ()
     return StepPiece(
-        [Placeholder(name, (), f"{step.kind}: {what}")],
+        [Placeholder(name, (), f"{step.kind}: {reason}")],
         {slot: [[InputSlot(name)]] for slot in ins},
         {slot: OutputSlot(name, dims, state=True) for slot in outs},
         sums=frozenset(ins),
         stops=stops,
         verdict="dropped",
-        why=f"Placeholder: {what}",
+        why=f"Placeholder: {reason}",
     )
 
 
@@ -151,10 +151,10 @@ def _component(step: CedarStep, slots: Sequence[str]) -> str:
     wheels = text(step.values.get("Command Subset")) == "differential drive interface"
     named = (world for word, world in ROBOTS.items() if word in path.lower())
     world = VEHICLE if wheels else next(named, "")
-    asked = f" in place of {path!r}" if path else ""
+    replaced = f" in place of {path!r}" if path else ""
     signals = [f"{slot}: {SIGNALS[slot]}" for slot in slots if slot in SIGNALS]
     use = f"open {world} as world" if world else f"open {VEHICLE} for a vehicle or {ARM} for an arm as world"
-    return f"{use}{asked}" + (f" ({'; '.join(signals)})" if signals else "")
+    return f"{use}{replaced}" + (f" ({'; '.join(signals)})" if signals else "")
 
 
 LOOPED = frozenset(

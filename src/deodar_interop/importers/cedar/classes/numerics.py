@@ -78,10 +78,10 @@ def integration(b: SourceStep) -> StepPiece:
         None if first is None else c.product("initial state at first", first, c.rest("first", c.started()))
     )
     if begins is not None and not {delay, reset} & set(b.ins):
-        held = c.add(Delay(axes, name=b.named("initial state kept")))
-        c.connect(c.total("initial state to keep", held, begins), held.name)
+        kept_state = c.add(Delay(axes, name=b.named("initial state kept")))
+        c.connect(c.total("initial state to keep", kept_state, begins), kept_state.name)
         c.add(Integrator(b.label, axes, SECOND), input=seen)
-        ends = (StepSignal(name, reads="current") for name in (b.label, held.name))
+        ends = (StepSignal(name, reads="current") for name in (b.label, kept_state.name))
         c.outlet("integration result", c.total("result", *ends), dims)
         return c.done("Integrator, and a Sum with its initial state")
     if delay in b.ins:
@@ -92,10 +92,10 @@ def integration(b: SourceStep) -> StepPiece:
     if reset in b.ins:
         verdict, why = "approximated", f"Integrator; that the reset signal is on above {ON:g} is a guess"
         on = c.above("reset", ON, c.slot(reset, (), optional=True))
-        kept = c.product("change without reset", c.total("all changes", *parts), c.rest("no reset", on))
-        away = c.gain("result back", -1.0, StepSignal(b.label))
-        goal = away if first is None else c.total("to the initial state", away, first)
-        parts = [kept, c.product("change by reset", goal, on)]
+        ongoing = c.product("change without reset", c.total("all changes", *parts), c.rest("no reset", on))
+        to_zero = c.gain("result back", -1.0, StepSignal(b.label))
+        goal = to_zero if first is None else c.total("to the initial state", to_zero, first)
+        parts = [ongoing, c.product("change by reset", goal, on)]
     c.add(Integrator(b.label, axes, 1 / b.dt), input=parts)
     c.outlet("integration result", StepSignal(b.label), dims, state=True)
     return c.done(why, verdict)
@@ -103,10 +103,10 @@ def integration(b: SourceStep) -> StepPiece:
 
 def _beginning(c: Composition, slot: str, dims: Counts) -> StepSignal:
     """Return an initial state, which may be one number for all samples."""
-    given, signal = c.b.first(slot), c.slot(slot, optional=True)
-    if given and given != dims:
-        raise Unfit(f"its initial state has the size {list(given)}, and its input {list(dims)}")
-    return signal if given == dims else c.projected("initial state", signal, (), c.b.axes(dims), [])
+    dims_of_state, signal = c.b.first(slot), c.slot(slot, optional=True)
+    if dims_of_state and dims_of_state != dims:
+        raise Unfit(f"its initial state has the size {list(dims_of_state)}, and its input {list(dims)}")
+    return signal if dims_of_state == dims else c.projected("initial state", signal, (), c.b.axes(dims), [])
 
 
 def differentiation(b: SourceStep) -> StepPiece:
@@ -158,7 +158,7 @@ def smoothing(b: SourceStep) -> StepPiece:
     share = b.values.number("trend smoothing factor", 0.1, 0.0, 1.0)
     c = Composition(b)
     seen, started = c.slot("input"), c.started()
-    level, trend = (c.add(Delay(axes, name=b.named(f"{what} before"))) for what in ("level", "trend"))
+    level, trend = (c.add(Delay(axes, name=b.named(f"{role} before"))) for role in ("level", "trend"))
     begin = c.product("first level", seen, c.rest("first step", started))
     old = c.gain("of the level before", 1 - a, c.total("expected", level, trend))
     later = c.product("later level", c.total("mixed level", old, c.gain("of the input", a, seen)), started)
@@ -196,9 +196,9 @@ def oscillator(b: SourceStep) -> StepPiece:
         place = Integrator(b.label, axes, SECOND, initial=float(start[0]))
     speed = Integrator(b.named("speed"), axes, SECOND)
     pull = c.gain("pull", stiffness, c.slot("lambda", dims))
-    away = c.gain("away", -stiffness, StepSignal(place.name))
+    spring = c.gain("away", -stiffness, StepSignal(place.name))
     drag = c.gain("drag", -2 * damping * math.sqrt(stiffness), StepSignal(speed.name))
-    force = c.total("force", pull, away, drag)
+    force = c.total("force", pull, spring, drag)
     c.add(place, input=StepSignal(speed.name, reads="current"))
     c.add(speed, input=force)
     # what cedar gives is 0 until its first step

@@ -27,52 +27,52 @@ class _Bank:
     def __init__(self, b: SourceStep) -> None:
         self.b, self.c = b, Composition(b)
         self.count = b.values.whole("bank size", 1, 1, MOST)
-        self.one = self.count == 1
-        self.dims = (2,) if self.one else (2, self.count)
-        self.columns = () if self.one else (self.count,)
+        self.is_single = self.count == 1
+        self.dims = (2,) if self.is_single else (2, self.count)
+        self.columns = () if self.is_single else (self.count,)
         if "initial state (optional)" in b.ins:
             raise Unfit("what its initial state changes is not documented; connect it to the integration")
         if "initialize on reset" in b.values.body:
             b.values.say("initialize on reset", "carried", "without effect without an initial state")
         self.state = self.c.slot("state", self.dims)
 
-    def row(self, k: int, what: str) -> StepSignal:
+    def row(self, k: int, role: str) -> StepSignal:
         """Return a row of the state, a sample for each oscillator."""
         c, axes, chosen = self.c, self.b.axes(self.dims), np.eye(2)[k : k + 1]
-        if self.one:
-            return c.add(Weights(chosen[0], (), name=c.named(what)), input=self.state)
-        alone = AxisWeights(chosen, ROW, axes[0].name, name=c.named(f"row of {what}"))
-        own = self.b.axes(self.columns)
-        return c.projected(what, c.add(alone, input=self.state), (ROW, axes[1]), own, [None, own[0]])
+        if self.is_single:
+            return c.add(Weights(chosen[0], (), name=c.named(role)), input=self.state)
+        alone = AxisWeights(chosen, ROW, axes[0].name, name=c.named(f"row of {role}"))
+        columns = self.b.axes(self.columns)
+        return c.projected(role, c.add(alone, input=self.state), (ROW, axes[1]), columns, [None, columns[0]])
 
     def factor(self, name: str, slot: str) -> float | StepSignal:
         """Return a parameter: a number, or what arrives at its slot."""
         slot = f"{slot} (optional)"
-        value = self.b.values.number(f"bank {name}", 1.0)
+        number = self.b.values.number(f"bank {name}", 1.0)
         if slot not in self.b.ins:
-            return value
+            return number
         if self.b.first(slot) not in ((), self.columns):
             raise Unfit(f"{slot!r} has the size {list(self.b.first(slot))} for {self.count} oscillators")
         return self.c.slot(slot, optional=True)
 
-    def times(self, what: str, factor: float | StepSignal, signal: StepSignal, by: float = 1.0) -> StepSignal:
+    def times(self, role: str, factor: float | StepSignal, signal: StepSignal, by: float = 1.0) -> StepSignal:
         """Return a multiple of a row."""
         if not isinstance(factor, StepSignal):
-            return self.c.gain(what, by * factor, signal)
-        product = self.c.product(what, signal, factor)
-        return product if by == 1 else self.c.gain(f"{what} by {by:g}", by, product)
+            return self.c.gain(role, by * factor, signal)
+        product = self.c.product(role, signal, factor)
+        return product if by == 1 else self.c.gain(f"{role} by {by:g}", by, product)
 
     def result(self, rows: tuple[StepSignal, StepSignal], why: str, doubt: str = "") -> StepPiece:
         """Return the translation with the change of each row."""
         c, axes, parts = self.c, self.b.axes(self.dims), list[StepSignal]()
-        for k, (signal, what) in enumerate(zip(rows, ("first", "second"), strict=True)):
-            if self.one:
-                place = Weights(np.eye(2)[k], axes, name=c.named(f"{what} row"))
+        for k, (signal, row) in enumerate(zip(rows, ("first", "second"), strict=True)):
+            if self.is_single:
+                place = Weights(np.eye(2)[k], axes, name=c.named(f"{row} row"))
             else:
                 names = {a.name: t.name for a, t in zip(self.b.axes(self.columns), axes[1:], strict=True)}
-                wide = Project((ROW, axes[1]), "sum", names, name=c.named(f"{what} as a row"))
+                wide = Project((ROW, axes[1]), "sum", names, name=c.named(f"{row} as a row"))
                 signal = c.add(wide, input=signal)
-                place = AxisWeights(np.eye(2)[:, k : k + 1], axes[0], "row", name=c.named(f"{what} row"))
+                place = AxisWeights(np.eye(2)[:, k : k + 1], axes[0], "row", name=c.named(f"{row} row"))
             parts.append(c.add(place, input=signal))
         c.outlet("state change", c.total("", *parts), self.dims)
         return c.done("; ".join(filter(None, (why, doubt))), "approximated" if doubt else "carried")
@@ -111,18 +111,20 @@ def harmonic(b: SourceStep) -> StepPiece:
     bank = _Bank(b)
     c, x, v = bank.c, bank.row(0, "x"), bank.row(1, "v")
     stiffness = bank.factor("stiffness", "stiffnesss (bank)")
-    shift, away = "shift (optional)", x
+    shift, displacement = "shift (optional)", x
     if shift in b.ins:
         if b.first(shift) not in ((), bank.columns):
             raise Unfit(f"{shift!r} has the size {list(b.first(shift))} for {bank.count} oscillators")
-        away = c.total("distance", x, c.gain("minus shift", -1.0, c.slot(shift, optional=True)))
+        displacement = c.total("distance", x, c.gain("minus shift", -1.0, c.slot(shift, optional=True)))
     if not b.values.flag("force critically damped", False):
         damping = bank.factor("damping", "damping (bank)")
     elif not isinstance(stiffness, StepSignal):
         damping = 2 * max(stiffness, 0.0) ** 0.5
     else:
         damping = c.gain("critical damping", 2.0, c.function("root of stiffness", "root", stiffness))
-    force = c.total("force", bank.times("pull", stiffness, away, -1.0), bank.times("drag", damping, v, -1.0))
+    force = c.total(
+        "force", bank.times("pull", stiffness, displacement, -1.0), bank.times("drag", damping, v, -1.0)
+    )
     doubt = "cedar's equation is not documented, that of a damped spring and a mass of 1 is used"
     return bank.result((v, force), "Product and Sum of the rows", doubt)
 

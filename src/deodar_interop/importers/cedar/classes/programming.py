@@ -89,23 +89,31 @@ def switch(b: SourceStep) -> StepPiece:
     first, second, factor = b.first("input 1"), b.first("input 2"), b.first("factor")
     if first != second or factor not in ((), first):
         raise Refused(f"the sizes {list(first)}, {list(second)} and {list(factor)} do not fit")
-    one, two, rest, minus, unit = (b.named(w) for w in ("first part", "second part", "rest", "minus", "one"))
+    first_part, second_part, remainder, minus, unit = (
+        b.named(w) for w in ("first part", "second part", "rest", "minus", "one")
+    )
     piece = StepPiece(
         [
             Sum(name=b.label),
-            Product(name=one),
-            Product(name=two),
-            Sum(name=rest),
+            Product(name=first_part),
+            Product(name=second_part),
+            Sum(name=remainder),
             Gain(-1.0, name=minus),
             Boost(unit, (), 1.0),
         ],
         {
-            "input 1": [[InputSlot(one)]],
-            "input 2": [[InputSlot(two)]],
-            "factor": [[InputSlot(one, "factor"), InputSlot(minus)]],
+            "input 1": [[InputSlot(first_part)]],
+            "input 2": [[InputSlot(second_part)]],
+            "factor": [[InputSlot(first_part, "factor"), InputSlot(minus)]],
         },
         {"mixture": OutputSlot(b.label, first)},
-        [(one, b.label), (two, b.label), (minus, rest), (unit, rest), (rest, two, "factor")],
+        [
+            (first_part, b.label),
+            (second_part, b.label),
+            (minus, remainder),
+            (unit, remainder),
+            (remainder, second_part, "factor"),
+        ],
         needs=("input 1", "input 2", "factor"),
         why="two Product, summed",
     )
@@ -113,7 +121,7 @@ def switch(b: SourceStep) -> StepPiece:
         binary = Sigmoid(Step(0.5), name=b.named("binary"))
         piece.elements.append(binary)
         piece.inlets["factor"] = [[InputSlot(binary.name)]]
-        piece.inner += [(binary.name, one, "factor"), (binary.name, minus)]
+        piece.inner += [(binary.name, first_part, "factor"), (binary.name, minus)]
     return piece
 
 
@@ -131,8 +139,8 @@ def position(b: SourceStep) -> StepPiece:
     name = b.named("of all axes") if many else b.label
     element: Element = MaximumPosition(least, name=name)
     if kind != "Maximum":
-        own = [Axis(f"turn {a.name}", 0, a.samples, a.samples, periodic=True) for a in axes]
-        element = RateCode(own if kind == "Cyclic Mean" else list(axes), least=LEAST, name=name)
+        turns = [Axis(f"turn {a.name}", 0, a.samples, a.samples, periodic=True) for a in axes]
+        element = RateCode(turns if kind == "Cyclic Mean" else list(axes), least=LEAST, name=name)
     piece = one_to_one(element, "input", "output", (len(dims),) if many else ())
     if many:
         # the numbers are along an axis of their own, which cedar calls the first dimension

@@ -44,14 +44,14 @@ def rates_to_space(b: SourceStep) -> StepPiece:
     edges = Pattern(b.named("edges"), [edge], -slope * lower - np.arange(bins + 1) + 0.5)
     above = c.above("above", -EDGE, c.total("distance", wide, c.add(edges)))
     between = np.eye(bins, bins + 1) - np.eye(bins, bins + 1, 1)
-    given = "values" in b.ins
-    if given and b.first("values") != dims:
+    has_values = "values" in b.ins
+    if has_values and b.first("values") != dims:
         raise Refused(f"its values have the size {list(b.first('values'))}, and its rates {list(dims)}")
-    name = c.named("bins" if given else "")
-    found = c.add(AxisWeights(between, out[2], "edge", name=name), input=above)
-    if given:
-        found = c.product("", found, c.projected("values in bins", c.slot("values"), flat, out, out[:2]))
-    c.outlet("output", found, (*dims, bins))
+    name = c.named("bins" if has_values else "")
+    binned = c.add(AxisWeights(between, out[2], "edge", name=name), input=above)
+    if has_values:
+        binned = c.product("", binned, c.projected("values in bins", c.slot("values"), flat, out, out[:2]))
+    c.outlet("output", binned, (*dims, bins))
     why = "a comparison with every edge; the bins of rates between two and beyond the limits are a guess"
     return c.done(why, "approximated")
 
@@ -68,15 +68,15 @@ def space_to_rates(b: SourceStep) -> StepPiece:
     lower, upper = values.number("lower limit", 0.0), values.number("upper limit", 1.0)
     every, bins, c = b.axes(dims), dims[2], Composition(b)
     flat = tuple(n for n in dims[:2] if n > 1)
-    here, rest = b.axes(flat), iter(b.axes(flat))
-    places = [next(rest) if n > 1 else None for n in dims[:2]] + [None]
+    out_axes, remaining = b.axes(flat), iter(b.axes(flat))
+    places = [next(remaining) if n > 1 else None for n in dims[:2]] + [None]
     seen = c.slot("input")
     top = c.projected("largest", seen, every, every[:2], [*every[:2], None], "max")
     wide = c.projected("largest at every bin", top, every[:2], every, every[:2])
     others = c.above("not largest", EDGE, c.total("distance", wide, c.gain("minus", -1.0, seen)))
     index = c.add(Pattern(c.named("bins"), [every[2]], np.arange(float(bins))))
     moved = c.total("bins of the largest", c.gain("beyond", float(bins), others), index)
-    first = c.projected("first", moved, every, here, places, "min")
+    first = c.projected("first", moved, every, out_axes, places, "min")
     rate = c.gain("above the lower limit", (upper - lower) / max(bins - 1, 1), first)
     c.outlet("output", c.total("", rate, c.constant("lower limit", lower)), flat)
     why = "the first of the largest samples; the rates of the bins, and of equal samples, are a guess"

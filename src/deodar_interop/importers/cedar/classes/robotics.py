@@ -27,22 +27,22 @@ def null_space(b: SourceStep) -> StepPiece:
         dc.replace(b.grid.axis(0, n), name=f"of {name}")
         for n, name in zip((columns, rows, columns), "kij", strict=True)
     )
-    there, square = b.axes(dims), b.axes((columns, columns))
+    jacobian_axes, square = b.axes(dims), b.axes((columns, columns))
     jacobian = c.slot("jacobian")
     inverse = c.add(PseudoInverse(name=b.named("inverse")), input=jacobian)
-    left = c.projected("left", inverse, there[::-1], (k, i, j), [k, i])
-    right = c.projected("right", jacobian, there, (k, i, j), [i, j])
+    left = c.projected("left", inverse, jacobian_axes[::-1], (k, i, j), [k, i])
+    right = c.projected("right", jacobian, jacobian_axes, (k, i, j), [i, j])
     products, places = c.product("products", left, right), [square[0], None, square[1]]
     row_space = c.projected("row space", products, (k, i, j), square, places)
     identity = c.add(Pattern(b.named("identity"), square, np.eye(columns)))
-    found = c.total("", identity, c.gain("without row space", -1.0, row_space))
-    c.outlet("nullspace", found, (columns, columns))
+    space = c.total("", identity, c.gain("without row space", -1.0, row_space))
+    c.outlet("nullspace", space, (columns, columns))
     if "vector" in b.ins:
-        _projected(b, c, found, columns)
+        _projected(b, c, space, columns)
     return c.done("PseudoInverse, Product and Project")
 
 
-def _projected(b: SourceStep, c: Composition, found: StepSignal, count: int) -> None:
+def _projected(b: SourceStep, c: Composition, space: StepSignal, count: int) -> None:
     """Add the outlets that show the part of the vector inside the null space, and the rest of it."""
     if math.prod(b.first("vector")) != count or len(b.first("vector")) > 1:
         raise Refused(f"its vector has the size {list(b.first('vector'))}, and its Jacobian {count} columns")
@@ -50,12 +50,12 @@ def _projected(b: SourceStep, c: Composition, found: StepSignal, count: int) -> 
     vector = c.slot("vector", optional=True)
     wide = c.projected("vector in rows", vector, line, square, [square[1]])
     inside = c.projected(
-        "projected vector", c.product("weighted", found, wide), square, line, [line[0], None]
+        "projected vector", c.product("weighted", space, wide), square, line, [line[0], None]
     )
-    rest = c.total("orthogonal vector", vector, c.gain("without projection", -1.0, inside))
+    orthogonal = c.total("orthogonal vector", vector, c.gain("without projection", -1.0, inside))
     c.outlet("projected vector", inside, (count,))
     doubt = "that it is the rest of the vector is a guess"
-    c.outlet("orthogonal vector", rest, (count,), doubt=doubt)
+    c.outlet("orthogonal vector", orthogonal, (count,), doubt=doubt)
 
 
 CLASSES = {"cedar.processing.Nullspace": null_space}

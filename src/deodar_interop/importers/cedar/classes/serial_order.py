@@ -18,17 +18,17 @@ def serial_order(b: SourceStep) -> StepPiece:
     values, count = b.values, b.values.whole("number of ordinal positions", 3, 1, 10)
     tau = max(values.time("tau", 100.0), b.dt)
     g = sigmoid(values, "sigmoid", Absolute(100.0, 0.0))
-    own, inhibition = (
+    excitation, inhibition = (
         values.number("ordinal self excitation", 11.0),
         values.number("ordinal global inhibition", -11.0),
     )
-    kept, others = (
+    memory_excitation, others = (
         values.number("memory self excitation", 7.0),
         values.number("memory global inhibition", -2.0),
     )
     later, same = values.number("memory to next ordinal", 5.0), values.number("memory to same ordinal", -5.0)
     up, back = values.number("ordinal to same memory", 7.0), values.number("ordinal to prev memory", -7.0)
-    rest = values.number("ordinal resting level", -5.0), values.number("memory resting level", -2.0)
+    resting_levels = values.number("ordinal resting level", -5.0), values.number("memory resting level", -2.0)
     cyclic = values.flag("cyclic", False)
     if not cyclic and "ordinal to prev memory" in values.body:
         values.say("ordinal to prev memory", "carried", "without effect, since the chain is not cyclic")
@@ -37,12 +37,12 @@ def serial_order(b: SourceStep) -> StepPiece:
         [
             c.add(
                 Field(
-                    b.named(f"{what} {k}"), (), tau=tau, resting_level=level, sigmoid=g, kernel=[], noise=0.0
+                    b.named(f"{role} {k}"), (), tau=tau, resting_level=level, sigmoid=g, kernel=[], noise=0.0
                 )
             )
             for k in range(count)
         ]
-        for what, level in zip(("node", "memory"), rest, strict=True)
+        for role, level in zip(("node", "memory"), resting_levels, strict=True)
     )
     total = c.total("", *ordinal)
     of_all, of_memory = c.gain("inhibition", inhibition, total), c.gain("memory inhibition", others, total)
@@ -53,7 +53,7 @@ def serial_order(b: SourceStep) -> StepPiece:
         node, kept_node = ordinal[k].name, memory[k].name
         parts = [
             *common,
-            c.gain(f"node {k} to itself", own - inhibition, ordinal[k]),
+            c.gain(f"node {k} to itself", excitation - inhibition, ordinal[k]),
             c.gain(f"memory {k} to node", same, memory[k]),
         ]
         if k or cyclic:
@@ -65,7 +65,7 @@ def serial_order(b: SourceStep) -> StepPiece:
             c.connect(part, node)
         parts = [
             of_memory,
-            c.gain(f"memory {k} to itself", kept - others, memory[k]),
+            c.gain(f"memory {k} to itself", memory_excitation - others, memory[k]),
             c.gain(f"node {k} to memory", up, StepSignal(node, reads="current")),
         ]
         if cyclic:
@@ -74,8 +74,8 @@ def serial_order(b: SourceStep) -> StepPiece:
         for part in parts:
             c.connect(part, kept_node)
         # what cedar gives is 0 until its first step
-        shown = c.total(f"output {k}", StepSignal(node, reads="current"))
-        c.outlet(f"ordinal node {k} output", shown, ())
+        node_output = c.total(f"output {k}", StepSignal(node, reads="current"))
+        c.outlet(f"ordinal node {k} output", node_output, ())
     why = "Field for each node; that all nodes are inhibited by the outputs before the step is a guess"
     return c.done(why, "approximated")
 

@@ -61,19 +61,19 @@ def box(b: SourceStep) -> StepPiece:
     widths = [round(w) for w in b.values.numbers("widths", 10.0, len(dims), 0.0, 1e6)]
     lefts = [round(v) for v in b.values.numbers("left bounds", 0.0, len(dims), -1e6, 1e6)]
     level, amplitude = b.values.number("reference level", 0.0), b.values.number("amplitude", 1.0)
-    outside = any(left < 0 or left + w > n for left, w, n in zip(lefts, widths, dims, strict=True)) and any(
-        a.periodic for a in axes
-    )
+    outside = any(
+        lower < 0 or lower + w > n for lower, w, n in zip(lefts, widths, dims, strict=True)
+    ) and any(a.periodic for a in axes)
     if level or outside or not all(widths):
         inside = np.ones(dims, bool)
-        for d, (left, w) in enumerate(zip(lefts, widths, strict=True)):
+        for d, (lower, w) in enumerate(zip(lefts, widths, strict=True)):
             place = np.arange(dims[d]).reshape([-1 if k == d else 1 for k in range(len(dims))])
-            inside &= (place >= left) & (place < left + w)
+            inside &= (place >= lower) & (place < lower + w)
         b.values.say("amplitude", "carried", "as an array of values")
         return _source(
             b, Pattern(b.label, axes, np.where(inside, amplitude, level)), "box input", dims, "Pattern"
         )
-    centers = [left + (w - 1) / 2 for left, w in zip(lefts, widths, strict=True)]
+    centers = [lower + (w - 1) / 2 for lower, w in zip(lefts, widths, strict=True)]
     element = BoxStimulus(
         b.label, axes, center=centers, width=[float(w) for w in widths], amplitude=amplitude
     )
@@ -162,9 +162,9 @@ def _same(values: list[float]) -> float | list[float]:
 
 
 def _boundary(axes: tuple[Axis, ...], wraps: bool) -> list[str] | None:
-    own = ["periodic" if a.periodic else "zero" for a in axes]
-    wanted = ["periodic" if wraps else "zero"] * len(axes)
-    return None if own == wanted else wanted
+    axis_ends = ["periodic" if a.periodic else "zero" for a in axes]
+    ends = ["periodic" if wraps else "zero"] * len(axes)
+    return None if axis_ends == ends else ends
 
 
 CLASSES = {

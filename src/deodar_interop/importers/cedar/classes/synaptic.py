@@ -21,11 +21,11 @@ def synaptic(b: SourceStep) -> StepPiece:
     """Translate SynapticConnection: the inputs are added up, convolved, multiplied by point-wise weights and
     by one weight, and projected.
     """
-    found = b.all("matrix")
-    dims, c = largest(found, "matrix"), Composition(b)
+    inputs = b.all("matrix")
+    dims, c = largest(inputs, "matrix"), Composition(b)
     signal = c.slot("matrix", dims)
     c.piece.sums = frozenset({"matrix"})
-    if len(found) > 1:
+    if len(inputs) > 1:
         signal = c.total("inputs", signal)
     signal = _convolved(c, signal, dims)
     signal, weighted = _weighted(c, signal, dims)
@@ -68,25 +68,27 @@ def _weighted(c: Composition, signal: StepSignal, dims: Counts) -> tuple[StepSig
     values, axes = c.b.values, c.b.axes(dims)
     if "PointWiseWeight" in values.body:
         values.say("PointWiseWeight")
-    found = kernels(values.inside("PointWiseWeight").objects("kernels"), axes, CedarBorder())
-    if not found:
+    point_kernels = kernels(values.inside("PointWiseWeight").objects("kernels"), axes, CedarBorder())
+    if not point_kernels:
         return signal, False
     if not dims:
-        return _applied(c, "point-wise weight", signal, found, dims), True
-    one = np.zeros(dims)
-    one[tuple(n // 2 for n in dims)] = 1.0
-    middle = c.add(Pattern(c.named("middle"), axes, one))
-    weights = _applied(c, "point-wise weights", middle, found, dims)
+        return _applied(c, "point-wise weight", signal, point_kernels, dims), True
+    impulse = np.zeros(dims)
+    impulse[tuple(n // 2 for n in dims)] = 1.0
+    middle = c.add(Pattern(c.named("middle"), axes, impulse))
+    weights = _applied(c, "point-wise weights", middle, point_kernels, dims)
     return c.product("weighted", signal, weights), True
 
 
-def _applied(c: Composition, what: str, signal: StepSignal, found: list[Kernel], dims: Counts) -> StepSignal:
+def _applied(
+    c: Composition, role: str, signal: StepSignal, convolution: list[Kernel], dims: Counts
+) -> StepSignal:
     """Return a signal convolved with kernels; of one number a multiple."""
-    if not found:
+    if not convolution:
         return signal
     if not dims:
-        return c.gain(what, sum(float(getattr(k, "amplitude", 0.0)) for k in found), signal)
-    return c.add(Convolve(found, name=c.named(what)), input=signal)
+        return c.gain(role, sum(float(getattr(k, "amplitude", 0.0)) for k in convolution), signal)
+    return c.add(Convolve(convolution, name=c.named(role)), input=signal)
 
 
 CLASSES = {"cedar.processing.SynapticConnection": synaptic}

@@ -75,13 +75,13 @@ def picture(b: SourceStep) -> StepPiece:
     world = {"Camera": "camera:0", "CameraStream": "camera:0", "Video": "video:FILE"}.get(
         b.step.short, "picture:FILE"
     )
-    asked = f" ({name})" if name else ""
+    hint = f" ({name})" if name else ""
     return StepPiece(
         [order, turned, seen],
         outlets={slot: OutputSlot(b.label, dims)},
         inner=[(seen.name, turned.name), (turned.name, b.label)],
         verdict="approximated",
-        why=f"Sensor of {SIZE[1]} x {SIZE[0]} pixels; open a world with a picture{asked}: --world {world}",
+        why=f"Sensor of {SIZE[1]} x {SIZE[0]} pixels; open a world with a picture{hint}: --world {world}",
     )
 
 
@@ -89,8 +89,8 @@ def _file(b: SourceStep) -> str:
     """Return the name of the file that a grabber reads, for the report."""
     for _, grabber in pairs(b.values.body):
         for _, channel in pairs(members(grabber).get("channels")):
-            found = members(channel).get("filename")
-            path = text(members(found).get("path")) or text(found)
+            filename = members(channel).get("filename")
+            path = text(members(filename).get("path")) or text(filename)
             if path:
                 return path.replace("\\", "/").rpartition("/")[2]
     return ""
@@ -140,14 +140,14 @@ def split(b: SourceStep) -> StepPiece:
     """Translate ChannelSplit: each channel as an array of its own."""
     dims = _picture(b, "three channel input")
     axes, flat = b.axes(dims), dims[:2]
-    one = Axis("channel", 0, 1, 1, periodic=True)
+    flat_axis = Axis("channel", 0, 1, 1, periodic=True)
     piece = StepPiece([], {"three channel input": [[]]}, needs=("three channel input",), why="a channel each")
     for k in range(3):
         name = b.label if k == 0 else b.named(f"channel {k + 1}")
         chosen = b.named(f"of channel {k + 1}")
         piece.elements += [
             Project(b.axes(flat), "sum", name=name),
-            AxisWeights(np.eye(3)[k : k + 1], one, axes[2].name, name=chosen),
+            AxisWeights(np.eye(3)[k : k + 1], flat_axis, axes[2].name, name=chosen),
         ]
         piece.inner.append((chosen, name))
         piece.inlets["three channel input"][0].append(InputSlot(chosen))
@@ -158,10 +158,10 @@ def split(b: SourceStep) -> StepPiece:
 def merge(b: SourceStep) -> StepPiece:
     """Translate ChannelMerge: three arrays become the channels of a picture."""
     slots = ("channel 1", "channel 2", "channel 3")
-    found = {b.first(slot) for slot in slots}
-    flat = next(iter(found))
-    if len(found) > 1 or len(flat) != 2:
-        raise Refused(f"its channels have the sizes {', '.join(str(list(d)) for d in found)}")
+    sizes = {b.first(slot) for slot in slots}
+    flat = next(iter(sizes))
+    if len(sizes) > 1 or len(flat) != 2:
+        raise Refused(f"its channels have the sizes {', '.join(str(list(d)) for d in sizes)}")
     return layered(b, slots, "output", flat)
 
 
@@ -171,30 +171,30 @@ def threshold(b: SourceStep) -> StepPiece:
     lower, upper = b.values.number("lower threshold", 0.0), b.values.number("upper threshold", WHITE)
     above = Sigmoid(Step(lower), name=b.named("above"))
     minus, below = Gain(-1.0, name=b.named("minus")), Sigmoid(Step(-upper), name=b.named("below"))
-    both = Product(name=b.named("both"))
+    between = Product(name=b.named("both"))
     piece = StepPiece(
-        [Gain(WHITE, name=b.label), both],
+        [Gain(WHITE, name=b.label), between],
         {"input": [[]]},
         {"thresholded input": OutputSlot(b.label, dims)},
-        [(both.name, b.label)],
+        [(between.name, b.label)],
         needs=("input",),
         verdict="approximated",
         why="Sigmoid with Step; at a limit itself the result may differ",
     )
-    one = Boost(b.named("one"), (), 1.0)
+    unit = Boost(b.named("one"), (), 1.0)
     if b.values.flag("apply lower threshold", True):
         piece.elements.append(above)
-        piece.inner.append((above.name, both.name))
+        piece.inner.append((above.name, between.name))
         piece.inlets["input"][0].append(InputSlot(above.name))
     else:
         raise Unfit("it applies no lower threshold")
     if b.values.flag("apply upper threshold", True):
         piece.elements += [minus, below]
-        piece.inner += [(minus.name, below.name), (below.name, both.name, "factor")]
+        piece.inner += [(minus.name, below.name), (below.name, between.name, "factor")]
         piece.inlets["input"][0].append(InputSlot(minus.name))
     else:
-        piece.elements.append(one)
-        piece.inner.append((one.name, both.name, "factor"))
+        piece.elements.append(unit)
+        piece.inner.append((unit.name, between.name, "factor"))
     return piece
 
 
@@ -220,8 +220,10 @@ def histogram(b: SourceStep) -> StepPiece:
     if "mask" in b.ins:
         if b.first("mask") != dims:
             raise Refused(f"its mask has the size {list(b.first('mask'))}, and its input {list(dims)}")
-        shown = c.above("shown", 0.0, c.function("size of the mask", "abs", c.slot("mask")))
-        below = c.product("shown below", below, c.projected("shown at edges", shown, axes, every, list(axes)))
+        in_mask = c.above("shown", 0.0, c.function("size of the mask", "abs", c.slot("mask")))
+        below = c.product(
+            "shown below", below, c.projected("shown at edges", in_mask, axes, every, list(axes))
+        )
         doubts.append("samples where the mask is not 0")
     counts = c.projected("counts", below, every, [edge], [*(None for _ in axes), edge])
     places = (bins,) if bins > 1 else ()
@@ -229,13 +231,13 @@ def histogram(b: SourceStep) -> StepPiece:
     of_bins = share * (np.eye(bins, bins + 1, 1) - np.eye(bins, bins + 1))
     name = "" if kind != "Maximum" else "of each bin"
     if bins > 1:
-        found = c.add(AxisWeights(of_bins, b.axes(places)[0], "edge", name=c.named(name)), input=counts)
+        in_bins = c.add(AxisWeights(of_bins, b.axes(places)[0], "edge", name=c.named(name)), input=counts)
     else:
-        found = c.add(Weights(of_bins[0], (), name=c.named(name)), input=counts)
+        in_bins = c.add(Weights(of_bins[0], (), name=c.named(name)), input=counts)
     if kind == "Maximum":
-        largest = c.projected("largest", found, b.axes(places), (), [None] * len(places), "max")
-        found = c.quotient("", found, largest, TINY)
-    c.outlet("histogram", found, places)
+        largest = c.projected("largest", in_bins, b.axes(places), (), [None] * len(places), "max")
+        in_bins = c.quotient("", in_bins, largest, TINY)
+    c.outlet("histogram", in_bins, places)
     why = f"a comparison with every edge; {' and '.join(doubts)} are a guess"
     return c.done(why, "approximated")
 

@@ -38,7 +38,7 @@ def neural_field(b: SourceElement) -> Piece:
     )
     outlets = {c: Outlet(b.label, dims, c, state=True) for c in ("output", "activation")}
     elements: list[Element] = [field]
-    if "h" in b.asked:  # plots of cosivina add it to what they show
+    if "h" in b.components_read:  # plots of cosivina add it to what they show
         level = Boost(b.named("h"), (), field.resting_level)
         elements.append(level)
         outlets["h"] = Outlet(level.name, (None, None), still=True)
@@ -102,12 +102,12 @@ def dynamic_variable(b: SourceElement) -> Piece:
         b.values.say("tau", "approximated", "it is 0; cosivina's default 10 is used")
     elif "tau" in b.element.values and b.values.lines["tau"].verdict == "carried":
         b.values.say("tau", "carried", "as the rate 1 / tau")
-    given = b.values.matrix("initialState")
-    if given is not None and given.size not in (1, math.prod(shape(axes(dims)))):
+    initial_state = b.values.matrix("initialState")
+    if initial_state is not None and initial_state.size not in (1, math.prod(shape(axes(dims)))):
         raise Unfit("its initialState is not of its size")
-    level = given is not None and len({float(v) for v in given.reshape(-1)}) == 1
-    initial = float(given.reshape(-1)[0]) if given is not None and level else 0.0
-    start = given.reshape(shape(axes(dims))) if given is not None and not level else None
+    level = initial_state is not None and len({float(v) for v in initial_state.reshape(-1)}) == 1
+    initial = float(initial_state.reshape(-1)[0]) if initial_state is not None and level else 0.0
+    start = initial_state.reshape(shape(axes(dims))) if initial_state is not None and not level else None
     element = Integrator(b.label, axes(dims), 1 / tau, initial, start)
     outlets = {"state": Outlet(b.label, dims, state=True)}
     elsewhere = {
@@ -121,20 +121,22 @@ def dynamic_variable(b: SourceElement) -> Piece:
 def running_history(b: SourceElement) -> Piece:
     """Translate RunningHistory: the newest row first."""
     dims = b.of(b.values.size())
-    slots, shown = _slots(b, dims, int(b.values.number("timeSlots", 1, 1, 100_000)))
+    slots, out_dims = _slots(b, dims, int(b.values.number("timeSlots", 1, 1, 100_000)))
     history = History(b.label, axes(dims), slots, b.values.number("interval", 1, 1e-6), _empty(b))
-    return _stored(b, history, dims, shown)
+    return _stored(b, history, dims, out_dims)
 
 
 def history(b: SourceElement) -> Piece:
     """Translate History: a row for each listed time."""
     dims = b.of(b.values.size())
-    given = b.values.matrix("storingTimes")
-    if given is None:
+    storing_times = b.values.matrix("storingTimes")
+    if storing_times is None:
         raise Unfit("it lists no times at which to store")
-    times = given.reshape(-1)
-    slots, shown = _slots(b, dims, times.size)
-    return _stored(b, SampledHistory(b.label, axes(dims), slots, _moments(b, times), _empty(b)), dims, shown)
+    times = storing_times.reshape(-1)
+    slots, out_dims = _slots(b, dims, times.size)
+    return _stored(
+        b, SampledHistory(b.label, axes(dims), slots, _moments(b, times), _empty(b)), dims, out_dims
+    )
 
 
 def _moments(b: SourceElement, times: np.ndarray) -> np.ndarray:
@@ -166,11 +168,11 @@ def _moments(b: SourceElement, times: np.ndarray) -> np.ndarray:
 
 def _slots(b: SourceElement, dims: Dims, count: int) -> tuple[Axis, Dims]:
     """The axis of what is stored, and the dimensions of the whole as cosivina has them."""
-    kept = b.dims()
+    stated = b.dims()
     slots = Axis("slot", 0, max(count - 1, 1), count, periodic=count == 1)
-    if b.asked:  # an element that reads it takes the times for rows
-        slots = kept[0 if dims[0] is None else -1] or slots
-    return slots, kept if count == 1 else (slots, dims[1]) if dims[0] is None else (*dims, slots)
+    if b.components_read:  # an element that reads it takes the times for rows
+        slots = stated[0 if dims[0] is None else -1] or slots
+    return slots, stated if count == 1 else (slots, dims[1]) if dims[0] is None else (*dims, slots)
 
 
 def _empty(b: SourceElement) -> str:
@@ -178,23 +180,23 @@ def _empty(b: SourceElement) -> str:
 
     Where elements read it, this value would make them undefined permanently.
     """
-    return "zero" if b.asked else "nan"
+    return "zero" if b.components_read else "nan"
 
 
-def _stored(b: SourceElement, element: History | SampledHistory, dims: Dims, shown: Dims) -> Piece:
+def _stored(b: SourceElement, element: History | SampledHistory, dims: Dims, out_dims: Dims) -> Piece:
     why = type(element).__name__
-    if b.asked:
+    if b.components_read:
         why += (
             "; what is not stored yet is 0, since elements read it: NaN, as in cosivina, would make them"
             " undefined permanently"
         )
-    outlets = {"output": Outlet(b.label, shown, state=True)}
+    outlets = {"output": Outlet(b.label, out_dims, state=True)}
     return Piece(
         [element],
         [[Inlet(b.label, dims)]],
         outlets,
         needs=1,
-        verdict="approximated" if b.asked else "carried",
+        verdict="approximated" if b.components_read else "carried",
         why=why,
     )
 
@@ -205,10 +207,10 @@ def _tau(b: SourceElement, name: str, default: float) -> float:
 
 
 def _per_step(b: SourceElement, name: str, default: float) -> float:
-    value = b.values.number(name, default, 1e-6)
+    rate = b.values.number(name, default, 1e-6)
     if name in b.element.values and b.step != 1 and b.values.lines[name].verdict == "carried":
         b.values.say(name, "carried", f"times the step {b.step:g}, since cosivina's rate is per step")
-    return max(value * b.step, 1e-6)
+    return max(rate * b.step, 1e-6)
 
 
 CLASSES = {

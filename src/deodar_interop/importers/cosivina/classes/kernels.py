@@ -42,8 +42,8 @@ class KernelForm:
 
     def gaussian(self, amplitude: float, sigmas: Sequence[float], least: float = 0.0) -> TruncatedGaussian:
         """Return a kernel of this form; widths of dimensions without an axis are ignored."""
-        own = [s for s, a in zip(sigmas, self.dims, strict=True) if a is not None]
-        same = own[0] if own and len(set(own)) == 1 else own or 1.0
+        widths = [s for s, a in zip(sigmas, self.dims, strict=True) if a is not None]
+        same = widths[0] if widths and len(set(widths)) == 1 else widths or 1.0
         return TruncatedGaussian(
             amplitude + 0.0,
             same,
@@ -129,8 +129,8 @@ def discrete(b: SourceElement) -> Piece:
     """Translate LateralInteractionsDiscrete: self-excitation of every position, and global inhibition."""
     b.values.size()
     dims = b.dims()
-    own = KernelForm(dims, ["periodic" if a.periodic else "zero" for a in axes(dims)], True, 0.0)
-    kernel = own.gaussian(b.values.number("amplitudeExc", 0), [1e-6] * len(dims))
+    form = KernelForm(dims, ["periodic" if a.periodic else "zero" for a in axes(dims)], True, 0.0)
+    kernel = form.gaussian(b.values.number("amplitudeExc", 0), [1e-6] * len(dims))
     return _interaction(
         b, dims, Interaction([kernel], -b.values.number("amplitudeGlobal", 0) + 0.0, name=b.label)
     )
@@ -157,10 +157,10 @@ def kernel_fft(b: SourceElement) -> Piece:
     if alone and b.bug("KernelInverseFFT drops amplitudeGlobal where both amplitudes are 0"):
         overall = 0.0
     form = TransformForm(dims, circular, normalized, b.values.number("paddingFactor", 5, 0))
-    both = ((up, wide), (-down, wider))
-    kernels = [form.kernel(amplitude, sigmas) for amplitude, sigmas in both]
+    gaussians = ((up, wide), (-down, wider))
+    kernels = [form.kernel(amplitude, sigmas) for amplitude, sigmas in gaussians]
     piece = _interaction(b, dims, Interaction(kernels, -overall + 0.0, name=b.label))
-    if not any(form.differs(amplitude, sigmas) for amplitude, sigmas in both):
+    if not any(form.differs(amplitude, sigmas) for amplitude, sigmas in gaussians):
         return dc.replace(piece, why="Interaction", verdict="carried")
     why = "Interaction, as if the padding were endless and Gaussians on rings had all their images"
     return dc.replace(piece, why=why, verdict="approximated")
@@ -184,22 +184,22 @@ def sums(b: SourceElement) -> tuple[list[Element], list[Inlet], dict[str, Outlet
 
     Sums without a reader cost nothing in a step.
     """
-    own = b.values.size()
-    dims = b.of(own) if b.element.kind == "SumAllDimensions" else b.dims()
+    size = b.values.size()
+    dims = b.of(size) if b.element.kind == "SumAllDimensions" else b.dims()
     elements, inlets, outlets = list[Element](), list[Inlet](), dict[str, Outlet]()
     for component in ("horizontalSum", "verticalSum", "fullSum"):
         if component not in components(b.element.kind):
             continue
-        there = b.dims(component)
+        sum_dims = b.dims(component)
         if component == "fullSum" and b.element.kind != "SumAllDimensions":
-            outlets[component] = Outlet(b.label, there, "total")
+            outlets[component] = Outlet(b.label, sum_dims, "total")
             continue
         name = b.label if component == "fullSum" else b.named(component)
-        kept = {"horizontalSum": 0, "verticalSum": 1}.get(component)
-        places = [there[1] if d == kept else None for d, a in enumerate(dims) if a is not None]
-        elements.append(projection(name, axes(dims), there, places))
+        left_axis = {"horizontalSum": 0, "verticalSum": 1}.get(component)
+        places = [sum_dims[1] if d == left_axis else None for d, a in enumerate(dims) if a is not None]
+        elements.append(projection(name, axes(dims), sum_dims, places))
         inlets.append(Inlet(name, dims, whole=True))
-        outlets[component] = Outlet(name, there)
+        outlets[component] = Outlet(name, sum_dims)
     return elements, inlets, outlets
 
 

@@ -24,10 +24,10 @@ MISSING = {
 """The function of each class that is not translated."""
 
 
-def placeholder(e: Foreign, dimensions: Dimensions, known: list[str], why: str = "") -> Piece:
+def placeholder(e: Foreign, dimensions: Dimensions, kinds: list[str], why: str = "") -> Piece:
     """Return a placeholder for an element, with the reason."""
-    what = why or MISSING.get(e.kind, "") or unknown(e.kind, "an unknown class of cosivina", known)
-    return placeholder_piece(e, _dims(e, dimensions), what)
+    missing = why or MISSING.get(e.kind, "") or unknown(e.kind, "an unknown class of cosivina", kinds)
+    return placeholder_piece(e, _dims(e, dimensions), missing)
 
 
 def _dims(e: Foreign, dimensions: Dimensions) -> Dims:

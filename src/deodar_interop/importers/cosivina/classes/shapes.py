@@ -41,20 +41,21 @@ def sum_dimension(b: SourceElement) -> Piece:
     listed = b.values.matrix("sumDimensions")
     summed = {int(v) - 1 for v in listed.reshape(-1)} if listed is not None else {0}
     came = b.source(0) or dims
-    kept = [a for d, a in enumerate(came) if a is not None and d not in summed]
-    there = axes(dims)
+    remaining = [a for d, a in enumerate(came) if a is not None and d not in summed]
+    target_axes = axes(dims)
     order = b.values.matrix("dimensionOrder")
     if (
         order is not None
-        and len(there) > 1
-        and sorted(int(v) for v in order.reshape(-1)) == list(range(1, len(kept) + 1))
+        and len(target_axes) > 1
+        and sorted(int(v) for v in order.reshape(-1)) == list(range(1, len(remaining) + 1))
     ):
-        kept = [kept[int(v) - 1] for v in order.reshape(-1)]
-    if shape(kept) != shape(there):
+        remaining = [remaining[int(v) - 1] for v in order.reshape(-1)]
+    if shape(remaining) != shape(target_axes):
         raise Unfit(
-            f"what is left of its input has {list(shape(kept))} samples, its output {list(shape(there))}"
+            f"what is left of its input has {list(shape(remaining))} samples,"
+            f" its output {list(shape(target_axes))}"
         )
-    becomes = dict(zip(kept, there, strict=True))
+    becomes = dict(zip(remaining, target_axes, strict=True))
     name = b.named("sum")
     project = projection(name, axes(came), dims, [becomes.get(a) for a in axes(came)])
     gain = Gain(b.values.number("amplitude", 1), name=b.label)
@@ -80,19 +81,20 @@ def expand_2d(b: SourceElement) -> Piece:
     b.values.size()
     dims = b.dims()
     along = int(b.values.number("expandDimension", 1, 1, 2)) - 1
-    kept = dims[1 - along]
-    came = b.source(0) or tuple(kept if d == 1 - along else None for d in range(2))
-    return _expand(b, came, dims, [kept] if kept is not None else [])
+    along_axis = dims[1 - along]
+    came = b.source(0) or tuple(along_axis if d == 1 - along else None for d in range(2))
+    return _expand(b, came, dims, [along_axis] if along_axis is not None else [])
 
 
 def expand(b: SourceElement) -> Piece:
     """Translate ExpandDimension: the mapping assigns each dimension of the input; the others are filled with
     copies.
     """
-    own, out = b.values.size("inputSize"), b.values.size("outputSize")
-    came, dims = b.of(own), b.of(out)
+    input_size, out = b.values.size("inputSize"), b.values.size("outputSize")
+    came, dims = b.of(input_size), b.of(out)
     mapping = [
-        int(v) - 1 for v in b.values.numbers("dimensionMapping", list(range(1, len(own) + 1)), len(own))
+        int(v) - 1
+        for v in b.values.numbers("dimensionMapping", list(range(1, len(input_size) + 1)), len(input_size))
     ]
     if any(not 0 <= m < len(dims) for m in mapping):
         raise Unfit("its dimensionMapping leads out of its outputSize")
@@ -150,18 +152,18 @@ def shift_input(b: SourceElement) -> Piece:
     """
     b.values.size()
     dims = b.dims()
-    there = axes(dims)
+    target_axes = axes(dims)
     listed = b.values.matrix("shiftValue")
     # a constructor that counts wrongly puts zeros in front
-    given = [0.0, 0.0, *(listed.reshape(-1) if listed is not None else ())][-2:]
-    amounts = [float(np.round(v)) for v, a in zip(given, dims, strict=False) if a is not None]
+    shifts = [0.0, 0.0, *(listed.reshape(-1) if listed is not None else ())][-2:]
+    amounts = [float(np.round(v)) for v, a in zip(shifts, dims, strict=False) if a is not None]
     amplitude, circular = _unused_amplitude(b), b.values.flag("circular", False)
     fill = b.values.number("fillValue", 0)
-    ends = boundary(dims, ["periodic" if circular else "zero"] * len(there))
+    ends = boundary(dims, ["periodic" if circular else "zero"] * len(target_axes))
     kernel = Shifted(
         TruncatedGaussian(amplitude, NARROWEST, 0.0, normalized=True), amounts or 0.0, boundary=ends
     )
-    if not fill or circular or not there:
+    if not fill or circular or not target_axes:
         return Piece(
             [Convolve([kernel], name=b.label)],
             [[Inlet(b.label, dims, whole=True)]],
@@ -169,15 +171,18 @@ def shift_input(b: SourceElement) -> Piece:
             needs=1,
             why="Convolve",
         )
-    border = np.full(shape(there), fill)
+    border = np.full(shape(target_axes), fill)
     border[
-        tuple(slice(max(0, int(s)), a.samples + min(0, int(s))) for s, a in zip(amounts, there, strict=True))
+        tuple(
+            slice(max(0, int(s)), a.samples + min(0, int(s)))
+            for s, a in zip(amounts, target_axes, strict=True)
+        )
     ] = 0.0
     moved, filled = b.named("moved"), b.named("border")
     elements: list[Element] = [
         Sum(name=b.label),
         Convolve([kernel], name=moved),
-        Pattern(filled, there, border),
+        Pattern(filled, target_axes, border),
     ]
     inner = [(moved, b.label), (filled, b.label)]
     return Piece(

@@ -69,9 +69,9 @@ def boost(b: SourceElement) -> Piece:
 def timed_boost(b: SourceElement) -> Piece:
     """Translate TimedBoost; with an amplitude per period, one Boost for each, and their sum."""
     periods = b.values.periods()
-    given = b.values.matrix("amplitude")
+    stated = b.values.matrix("amplitude")
     amplitudes = (
-        [float(v) for v in given.reshape(-1)] if given is not None else [b.values.number("amplitude", 0)]
+        [float(v) for v in stated.reshape(-1)] if stated is not None else [b.values.number("amplitude", 0)]
     )
     outlet = {"output": Outlet(b.label, (None, None))}
     if len(amplitudes) == 1:
@@ -88,9 +88,11 @@ def timed_boost(b: SourceElement) -> Piece:
     parts: list[Element] = [Sum(name=b.label)]
     earlier: list[tuple[int, int]] = []
     for amplitude, period in zip(amplitudes, periods, strict=False):  # where periods overlap the first counts
-        own = ticks([period], b.simulator.start, b.step)
-        parts.append(Boost(b.named("period"), (), amplitude, windows=_windows(b, _without(own, earlier))))
-        earlier += own
+        on_ticks = ticks([period], b.simulator.start, b.step)
+        parts.append(
+            Boost(b.named("period"), (), amplitude, windows=_windows(b, _without(on_ticks, earlier)))
+        )
+        earlier += on_ticks
     if len(parts) == 1:
         return Piece([Boost(b.label, (), 0.0)], [], outlet, why="Boost that is never on")
     return Piece(parts, [], outlet, [(part.name, b.label) for part in parts[1:]], why="Sum of Boosts")
@@ -98,21 +100,21 @@ def timed_boost(b: SourceElement) -> Piece:
 
 def custom_stimulus(b: SourceElement) -> Piece:
     """Translate CustomStimulus and TimedCustomStimulus: any pattern."""
-    own = b.values.size()
+    size = b.values.size()
     dims = b.dims()
-    given = next(
+    pattern = next(
         (v for name in ("pattern", "stimulusPattern") if (v := b.values.matrix(name)) is not None), None
     )
-    wanted = shape(axes(dims))
-    if given is not None and "size" not in b.element.values:
-        own = (1, given.size) if given.ndim < 2 else given.shape
-        dims = b.of(own)
-        wanted = shape(axes(dims))
-    if given is None or given.size != math.prod(wanted):
-        raise Unfit(f"its pattern is not of the size {list(own)}")
+    pattern_shape = shape(axes(dims))
+    if pattern is not None and "size" not in b.element.values:
+        size = (1, pattern.size) if pattern.ndim < 2 else pattern.shape
+        dims = b.of(size)
+        pattern_shape = shape(axes(dims))
+    if pattern is None or pattern.size != math.prod(pattern_shape):
+        raise Unfit(f"its pattern is not of the size {list(size)}")
     timed = b.element.kind.startswith("Timed")
     element = Pattern(
-        b.label, axes(dims), np.asarray(given).reshape(wanted), windows=windows(b) if timed else ()
+        b.label, axes(dims), np.asarray(pattern).reshape(pattern_shape), windows=windows(b) if timed else ()
     )
     return Piece([element], [], {"output": Outlet(b.label, dims, still=not timed)}, why="Pattern")
 
@@ -141,20 +143,20 @@ def sequence(b: SourceElement) -> Piece:
 
 def _patterns(b: SourceElement) -> tuple[np.ndarray, Dims]:
     """Return the patterns of a sequence, one after another, and their dimensions."""
-    given = b.values.matrix("stimulusPatterns")
-    if given is None or given.ndim > 3:
+    stated = b.values.matrix("stimulusPatterns")
+    if stated is None or stated.ndim > 3:
         raise Unfit("its stimulusPatterns are not patterns")
-    patterns = given.reshape(1, -1) if given.ndim < 2 else given
-    if given.ndim == 3:
-        patterns = np.moveaxis(given, -1, 0)
-    own = (1, patterns.shape[1]) if patterns.ndim == 2 else patterns.shape[1:]
-    if "stimulusSize" in b.element.values and b.values.size("stimulusSize") != own:
-        raise Unfit(f"its patterns have the size {list(own)}, which is not its stimulusSize")
+    patterns = stated.reshape(1, -1) if stated.ndim < 2 else stated
+    if stated.ndim == 3:
+        patterns = np.moveaxis(stated, -1, 0)
+    size = (1, patterns.shape[1]) if patterns.ndim == 2 else patterns.shape[1:]
+    if "stimulusSize" in b.element.values and b.values.size("stimulusSize") != size:
+        raise Unfit(f"its patterns have the size {list(size)}, which is not its stimulusSize")
     if patterns.ndim == 3 and b.bug(
         "CustomStimulusSequence forgets, when it is read from a file, that its patterns are planes"
     ):
         raise Unfit("cosivina cannot show patterns that are planes after it has read them from a file")
-    return patterns, b.of(own)
+    return patterns, b.of(size)
 
 
 def _start_times(b: SourceElement, count: int) -> np.ndarray:
@@ -197,7 +199,7 @@ def scalar_to_gaussian(b: SourceElement) -> Piece:
             f"its input times the parameter {display((b.label, 'gain'))} plus {display((b.label, 'offset'))}"
         )
     }
-    if "position" in b.asked:
+    if "position" in b.components_read:
         place, scaled, moved = b.named("position"), b.named("scaled"), b.named("offset")
         elements += [Sum(name=place), Gain(gain, name=scaled), Boost(moved, (), offset)]
         inlets.append(Inlet(scaled, (None, None), whole=True))
@@ -245,17 +247,17 @@ def windows(b: SourceElement) -> list[Window]:
 
 def boundary(dims: Dims, ends: list[str]) -> list[str] | None:
     """Return boundaries that differ from those of the axes, else None."""
-    own = ["periodic" if a.periodic else "zero" for a in axes(dims)]
-    return None if ends == own else ends
+    axis_ends = ["periodic" if a.periodic else "zero" for a in axes(dims)]
+    return None if ends == axis_ends else ends
 
 
 def _windows(b: SourceElement, spans: list[tuple[int, int]]) -> list[Window]:
     start, step = b.simulator.start, b.step
-    found = [
+    listed = [
         Window(start + (a - 1) * step, min(start + z * step, FOR_EVER) if z < 1e14 else FOR_EVER)
         for a, z in spans
     ]
-    return found or [Window(start - 1, start - 1)]  # never
+    return listed or [Window(start - 1, start - 1)]  # never
 
 
 def _without(spans: list[tuple[int, int]], taken: list[tuple[int, int]]) -> list[tuple[int, int]]:

@@ -84,7 +84,8 @@ def hebbian(b: SourceElement) -> Piece:
     if "size" in b.element.values:
         b.values.say("size", "carried", "it follows from the inputs")
     rate, tau, decay = (
-        _default(b, name, value) for name, value in (("learningRate", 0.1), ("tau", 1.0), ("tauDecay", 1.0))
+        _default(b, name, default)
+        for name, default in (("learningRate", 0.1), ("tau", 1.0), ("tauDecay", 1.0))
     )
     if tau != decay:
         b.values.say(
@@ -136,16 +137,16 @@ def hebbian(b: SourceElement) -> Piece:
 T = TypeVar("T", float, str)
 
 
-def _default(b: SourceElement, name: str, value: T) -> T:
+def _default(b: SourceElement, name: str, default: T) -> T:
     """Return a parameter of the file, or cosivina's default, which the report then lists."""
     if name not in b.element.values:
-        b.values.say(name, "approximated", f"it is not in the file; cosivina's default {value} is used")
-        return value
-    if isinstance(value, str):
+        b.values.say(name, "approximated", f"it is not in the file; cosivina's default {default} is used")
+        return default
+    if isinstance(default, str):
         b.values.say(name)
-        return value
+        return default
     lower = 1e-6 if name.startswith("tau") else -LARGEST
-    return b.values.number(name, value, lower)
+    return b.values.number(name, default, lower)
 
 
 def _duration(b: SourceElement, gated: bool) -> float:

@@ -47,18 +47,18 @@ def script(text: str) -> Script:
 class _Blocks:
     """The state of the reading of blocks."""
 
-    def __init__(self, found: list[ScriptStatement]) -> None:
-        self.found = found
+    def __init__(self, listed: list[ScriptStatement]) -> None:
+        self.statements = listed
         self.at = 0
         self.functions: dict[str, ScriptFunction] = {}
 
     def script(self) -> Script:
         """Return all blocks."""
         body: list[ScriptStep] = []
-        while self.at < len(self.found):
+        while self.at < len(self.statements):
             body += self.body((), 0)
-            if self.at < len(self.found):
-                line, word = self.found[self.at].line, self.word()
+            if self.at < len(self.statements):
+                line, word = self.statements[self.at].line, self.word()
                 if word == "function":
                     self.function()
                     continue
@@ -68,7 +68,7 @@ class _Blocks:
 
     def word(self) -> str:
         """Return the keyword that the next statement begins with, or ""."""
-        tokens = self.found[self.at].tokens
+        tokens = self.statements[self.at].tokens
         first = tokens[0] if tokens else None
         return first.value if first is not None and first.form == "name" and first.value in KEYWORDS else ""
 
@@ -76,37 +76,37 @@ class _Blocks:
         """Return the steps up to a keyword that ends the block, which is not taken."""
         if depth > DEEPEST:
             raise DocumentError(
-                f"has blocks nested deeper than {DEEPEST}, in line {self.found[self.at - 1].line}"
+                f"has blocks nested deeper than {DEEPEST}, in line {self.statements[self.at - 1].line}"
             )
         steps: list[ScriptStep] = []
-        while self.at < len(self.found):
-            here, word = self.found[self.at], self.word()
+        while self.at < len(self.statements):
+            statement, word = self.statements[self.at], self.word()
             if word in ends or word in ("end", "else", "elseif", "case", "otherwise", "catch", "function"):
                 break
             self.at += 1
-            if here.unread:
-                steps.append(Unread(here.line, here.unread))
+            if statement.unread:
+                steps.append(Unread(statement.line, statement.unread))
             elif word:
-                steps += self.block(word, here, depth)
+                steps += self.block(word, statement, depth)
             else:
-                steps.append(Plain(here.line, here.tokens))
+                steps.append(Plain(statement.line, statement.tokens))
         return steps
 
-    def block(self, word: str, here: ScriptStatement, depth: int) -> list[ScriptStep]:
+    def block(self, word: str, statement: ScriptStatement, depth: int) -> list[ScriptStep]:
         """Return a block whose first statement was taken."""
-        line, rest = here.line, here.tokens[1:]
+        line, words = statement.line, statement.tokens[1:]
         match word:
             case "for" | "parfor":
-                step: ScriptStep = ScriptLoop(line, rest, tuple(self.closed(depth)))
+                step: ScriptStep = ScriptLoop(line, words, tuple(self.closed(depth)))
             case "while":
-                step = ScriptRepetition(line, rest, tuple(self.closed(depth)))
+                step = ScriptRepetition(line, words, tuple(self.closed(depth)))
             case "if":
-                step = self.choice(line, rest, depth)
+                step = self.choice(line, words, depth)
             case "switch":
-                step = self.switch(line, rest, depth)
+                step = self.switch(line, words, depth)
             case "try":
                 body = self.body(("catch",), depth + 1)
-                if self.at < len(self.found) and self.word() == "catch":
+                if self.at < len(self.statements) and self.word() == "catch":
                     self.at += 1
                     self.body((), depth + 1)
                 self.close()
@@ -129,19 +129,19 @@ class _Blocks:
 
     def close(self) -> None:
         """Take the `end` of a block, if it is there."""
-        while self.at < len(self.found) and self.word() not in ("end", "function"):
+        while self.at < len(self.statements) and self.word() not in ("end", "function"):
             self.at += 1  # a keyword of another block
             self.body((), 1)
-        if self.at < len(self.found) and self.word() == "end":
+        if self.at < len(self.statements) and self.word() == "end":
             self.at += 1
 
     def choice(self, line: int, head: Words, depth: int) -> ScriptChoice:
         """Return an `if`, whose condition was taken."""
         branches: list[tuple[Words, ScriptBody]] = [(head, tuple(self.body((), depth + 1)))]
-        while self.at < len(self.found) and self.word() in ("elseif", "else"):
-            here = self.found[self.at]
+        while self.at < len(self.statements) and self.word() in ("elseif", "else"):
+            statement = self.statements[self.at]
             self.at += 1
-            condition = here.tokens[1:] if here.tokens[0].value == "elseif" else ()
+            condition = statement.tokens[1:] if statement.tokens[0].value == "elseif" else ()
             branches.append((condition, tuple(self.body((), depth + 1))))
         self.close()
         return ScriptChoice(line, tuple(branches))
@@ -150,26 +150,26 @@ class _Blocks:
         """Return a `switch`, whose subject was taken."""
         self.body((), depth + 1)
         cases: list[tuple[Words, ScriptBody]] = []
-        while self.at < len(self.found) and self.word() in ("case", "otherwise"):
-            here = self.found[self.at]
+        while self.at < len(self.statements) and self.word() in ("case", "otherwise"):
+            statement = self.statements[self.at]
             self.at += 1
-            value = here.tokens[1:] if here.tokens[0].value == "case" else ()
-            cases.append((value, tuple(self.body((), depth + 1))))
+            case = statement.tokens[1:] if statement.tokens[0].value == "case" else ()
+            cases.append((case, tuple(self.body((), depth + 1))))
         self.close()
         return Switch(line, subject, tuple(cases))
 
     def function(self) -> None:
         """Take a function: `function [results] = name(arguments)`, with or without an `end`."""
-        here = self.found[self.at]
+        statement = self.statements[self.at]
         self.at += 1
-        words = [t for t in here.tokens[1:] if t.form == "name" or t.value in ("=", "(")]
+        words = [t for t in statement.tokens[1:] if t.form == "name" or t.value in ("=", "(")]
         names = [t.value for t in words]
         split = names.index("=") if "=" in names else -1
-        results, rest = names[: max(split, 0)], names[split + 1 :]
+        results, signature = names[: max(split, 0)], names[split + 1 :]
         body = tuple(self.body((), 0))
-        if self.at < len(self.found) and self.word() == "end":
+        if self.at < len(self.statements) and self.word() == "end":
             self.at += 1
-        if rest and rest[0] not in ("=", "("):
-            arguments = [name for name in rest[1:] if name not in ("=", "(")]
-            found = ScriptFunction(here.line, rest[0], tuple(arguments), tuple(results), body)
-            self.functions.setdefault(found.name, found)
+        if signature and signature[0] not in ("=", "("):
+            arguments = [name for name in signature[1:] if name not in ("=", "(")]
+            function = ScriptFunction(statement.line, signature[0], tuple(arguments), tuple(results), body)
+            self.functions.setdefault(function.name, function)

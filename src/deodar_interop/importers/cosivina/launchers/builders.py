@@ -102,9 +102,11 @@ def add_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementA
     sim.elements[label] = built = element(script, call, label)
     built.inputs += sources(script, sim, arguments, 1, label)
     targets = _labels(arguments, 3)
-    given = _labels(arguments, 4)
+    component_names = _labels(arguments, 4)
     for k, target in enumerate(targets):
-        component = given[k] if k < len(given) and given[k] else output(built.kind)
+        component = (
+            component_names[k] if k < len(component_names) and component_names[k] else output(built.kind)
+        )
         if target in sim.elements:
             sim.elements[target].inputs.append((label, component))
         else:
@@ -114,7 +116,7 @@ def add_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementA
 
 def element(script: ElementBuilder, call: ClassCall, label: str) -> BuiltElement:
     """Return the element of a call of its class; an argument that is not known gets its default."""
-    given: list[Any] = []
+    values: list[Any] = []
     names = list(CONSTRUCTORS.get(call.name, {"size": None}))
     defaults = list(CONSTRUCTORS.get(call.name, {"size": None}).values())
     for k, value in enumerate(call.arguments[1:]):
@@ -127,11 +129,11 @@ def element(script: ElementBuilder, call: ClassCall, label: str) -> BuiltElement
         elif k >= len(names) and call.name in CONSTRUCTORS:
             why = f"line {call.line}: {call.name} has {len(names)} arguments behind the label"
             script.lines.append(Line(label, "parameter", f"argument {k + 2}", "dropped", why))
-        given.append(value)
-    if call.name not in CONSTRUCTORS and len(given) > 1:
+        values.append(value)
+    if call.name not in CONSTRUCTORS and len(values) > 1:
         why = f"line {call.line}: the arguments of an unknown class have no names"
         script.lines.append(Line(label, "parameter", "arguments", "dropped", why))
-    return BuiltElement(label, call.name, parameters_of(call.name, given))
+    return BuiltElement(label, call.name, parameters_of(call.name, values))
 
 
 def output(kind: str) -> str:
@@ -144,22 +146,22 @@ def sources(
 ) -> list[tuple[str, str]]:
     """Return label and component of inputs, from the arguments with labels and with components."""
     labels = _labels(arguments, first)
-    given = _labels(arguments, first + 1)
-    if given and len(given) != len(labels):
-        script.say(f"{len(labels)} inputs and {len(given)} components do not fit together")
-    found: list[tuple[str, str]] = []
+    component_names = _labels(arguments, first + 1)
+    if component_names and len(component_names) != len(labels):
+        script.say(f"{len(labels)} inputs and {len(component_names)} components do not fit together")
+    inputs: list[tuple[str, str]] = []
     for k, label in enumerate(labels):
         if label not in sim.elements:
             why = f"line {script.line}: no element has the label {label!r}"
             script.lines.append(Line(target, "connection", label, "dropped", why))
             continue
         kind = sim.elements[label].kind
-        component = given[k] if k < len(given) and given[k] else output(kind)
+        component = component_names[k] if k < len(component_names) and component_names[k] else output(kind)
         if kind in CLASSES and component not in components(kind):
             has = ", ".join(components(kind))
             script.say(f"{label!r} is a {kind} without a component {component!r}; it has {has}")
-        found.append((label, component))
-    return found
+        inputs.append((label, component))
+    return inputs
 
 
 def _labels(arguments: ElementArguments, k: int) -> list[str]:
@@ -209,24 +211,24 @@ def load_settings(script: ElementBuilder, sim: BuiltSimulator, arguments: Elemen
 
 def load(script: ElementBuilder, sim: BuiltSimulator, name: str) -> None:
     """Take over a file: all of it if the simulator has no elements, else the parameters of its elements."""
-    found = script.file(name)
-    sim.step, sim.start = found.step, found.start
+    stored = script.file(name)
+    sim.step, sim.start = stored.step, stored.start
     if not sim.elements:
-        for e in found.elements:
+        for e in stored.elements:
             inputs = [(s.label, s.component) for s in e.sources]
             sim.elements[e.label] = BuiltElement(e.label, e.kind, dict(e.values), inputs)
         return
-    there = found.by_label
+    elements = stored.by_label
     for built in sim.elements.values():
-        other = there.get(built.label)
-        if other is None or other.kind != built.kind:
+        twin = elements.get(built.label)
+        if twin is None or twin.kind != built.kind:
             why = f"line {script.line}: it has no such {built.kind}, which keeps its values"
             script.lines.append(Line(built.label, "preset", name, "dropped", why))
             continue
-        built.values.update({n: v for n, v in other.values.items() if n in built.values})
-    for label in there:
+        built.values.update({n: v for n, v in twin.values.items() if n in built.values})
+    for label in elements:
         if label not in sim.elements:
-            why = f"line {script.line}: it has this {there[label].kind}, the simulator does not"
+            why = f"line {script.line}: it has this {elements[label].kind}, the simulator does not"
             script.lines.append(Line(label, "preset", name, "dropped", why))
 
 
@@ -278,15 +280,15 @@ def add_plot(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArgumen
 
 def connect(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArguments) -> None:
     """Connect a window with a simulator."""
-    found = argument(arguments, 0)
-    if isinstance(found, BuiltSimulator):
-        gui.simulator = found
+    sim = argument(arguments, 0)
+    if isinstance(sim, BuiltSimulator):
+        gui.simulator = sim
 
 
-def _call(arguments: ElementArguments, what: str) -> ClassCall:
+def _call(arguments: ElementArguments, expected: str) -> ClassCall:
     call = argument(arguments, 0)
     if not isinstance(call, ClassCall):
-        raise NotRead(f"{what} is expected, not {matlab_values.described(call)}")
+        raise NotRead(f"{expected} is expected, not {matlab_values.described(call)}")
     return call
 
 

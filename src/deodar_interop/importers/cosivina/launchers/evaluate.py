@@ -103,14 +103,14 @@ class Evaluator:
         self.budget.step()
         try:
             with np.errstate(all="ignore"):
-                found = self._value(node)
+                computed = self._value(node)
         except NotRead:
             raise
         except FAILURES as error:
             raise NotRead(f"it cannot be computed ({error})") from None
-        if isinstance(found, MissingValue):
-            raise NotRead(found.why)
-        return self.budget.made(found)
+        if isinstance(computed, MissingValue):
+            raise NotRead(computed.why)
+        return self.budget.made(computed)
 
     def tolerant(self, node: ScriptNode) -> Any:
         """Return the value of an expression, or why it has none as a `MissingValue`."""
@@ -149,10 +149,10 @@ class Evaluator:
         if name in self.scope:
             return self.scope[name]
         if name == "end" and self.ends:
-            value, place, count = self.ends[-1]
+            array, place, count = self.ends[-1]
             if count == 1:
-                return matlab_values.number(value.size)
-            return matlab_values.number(value.shape[place] if place < value.ndim else 1)
+                return matlab_values.number(array.size)
+            return matlab_values.number(array.shape[place] if place < array.ndim else 1)
         return self.call(name, ())
 
     def call(self, name: str, arguments: Sequence[Any]) -> Any:
@@ -181,27 +181,27 @@ class Evaluator:
                 return matlab_values.flag(operator == "||")
             return matlab_values.flag(matlab_values.is_true(self.value(right)))
         second = self.value(right)
-        one, other = matlab_values.numbers(first), matlab_values.numbers(second)
-        if operator in ("*", "/", "\\") and one.size != 1 and other.size != 1:
-            if operator != "*" or one.ndim != 2 or other.ndim != 2 or one.shape[1] != other.shape[0]:
+        a, b = matlab_values.numbers(first), matlab_values.numbers(second)
+        if operator in ("*", "/", "\\") and a.size != 1 and b.size != 1:
+            if operator != "*" or a.ndim != 2 or b.ndim != 2 or a.shape[1] != b.shape[0]:
                 raise NotRead(f"matrices of these sizes are not computed with {operator!r}")
-            matlab_values.require_size(float(one.shape[0]) * other.shape[1])
-            matlab_values.require_size(float(one.size) * other.shape[1] / 100)
-            return one @ other
-        if operator == "^" and (one.size != 1 or other.size != 1):
+            matlab_values.require_size(float(a.shape[0]) * b.shape[1])
+            matlab_values.require_size(float(a.size) * b.shape[1] / 100)
+            return a @ b
+        if operator == "^" and (a.size != 1 or b.size != 1):
             raise NotRead("powers of matrices are not computed")
-        matlab_values.require_size(math.prod(np.broadcast_shapes(one.shape, other.shape)))
-        return OPERATORS[operator](one, other)
+        matlab_values.require_size(math.prod(np.broadcast_shapes(a.shape, b.shape)))
+        return OPERATORS[operator](a, b)
 
     def _list(self, cells: bool, rows: Sequence[Sequence[ScriptNode]]) -> Any:
         if not cells:
             return matlab_values.joined([[self.value(entry) for entry in row] for row in rows])
-        found = [[self.tolerant(entry) for entry in row] for row in rows]
-        if len({len(row) for row in found}) > 1:
+        entries = [[self.tolerant(entry) for entry in row] for row in rows]
+        if len({len(row) for row in entries}) > 1:
             raise NotRead("its rows have different lengths")
         return (
-            np.concatenate([matlab_values.cells(row) for row in found])
-            if found
+            np.concatenate([matlab_values.cells(row) for row in entries])
+            if entries
             else np.empty((0, 0), dtype=object)
         )
 
@@ -226,12 +226,12 @@ class Evaluator:
         indices = self.indices(value, node.arguments)
         if not node.arguments:
             return value
-        found = matlab_values.index_of(value, indices)
+        entries = matlab_values.index_of(value, indices)
         if not node.braces:
-            return found
-        if not matlab_values.is_cells(value) or found.size != 1:
+            return entries
+        if not matlab_values.is_cells(value) or entries.size != 1:
             raise NotRead("braces are the index of one cell")
-        return found.reshape(-1)[0]
+        return entries.reshape(-1)[0]
 
     def indices(self, value: np.ndarray, nodes: Sequence[ScriptNode]) -> list[Any]:
         """Return indices of an array, in which `end` is its last entry."""
@@ -249,8 +249,8 @@ class Evaluator:
         out: list[Any] = []
         for node in nodes:
             if isinstance(node, IndexNode) and node.braces and node.arguments == (WholeNode(),):
-                found = self.tolerant(node.target)
-                out += list(found.reshape(-1, order="F")) if matlab_values.is_cells(found) else [found]
+                cells = self.tolerant(node.target)
+                out += list(cells.reshape(-1, order="F")) if matlab_values.is_cells(cells) else [cells]
             else:
                 out.append(self.tolerant(node))
         return out

@@ -67,15 +67,15 @@ class _ExpressionParser:
     def peek(self) -> Token | None:
         return self.tokens[self.at] if self.at < len(self.tokens) else None
 
-    def sees(self, value: str) -> bool:
+    def sees(self, operator: str) -> bool:
         """Return whether an operator is next."""
         token = self.peek()
-        return token is not None and token.form == "operator" and token.value == value
+        return token is not None and token.form == "operator" and token.value == operator
 
-    def expect(self, value: str) -> None:
-        if not self.sees(value):
+    def expect(self, operator: str) -> None:
+        if not self.sees(operator):
             token = self.peek()
-            raise NotRead(f"{value!r} is missing" + (f" before {token.value!r}" if token else ""))
+            raise NotRead(f"{operator!r} is missing" + (f" before {token.value!r}" if token else ""))
         self.at += 1
 
     def count(self) -> None:
@@ -100,18 +100,18 @@ class _ExpressionParser:
 
     def binary(self, least: int) -> ScriptNode:
         """Return an expression whose operators bind at least this strongly."""
-        left = self.unary()
+        operand = self.unary()
         while (token := self.peek()) is not None and token.form == "operator":
             if token.value == ":" and least <= RANGE:
-                left = self.range(left)
+                operand = self.range(operand)
                 continue
             strength = PRECEDENCE.get(token.value)
             if strength is None or strength < least or self.separates(token):
                 break
             self.count()
             self.at += 1
-            left = BinaryNode(token.value, left, self.binary(strength + 1))
-        return left
+            operand = BinaryNode(token.value, operand, self.binary(strength + 1))
+        return operand
 
     def separates(self, token: Token) -> bool:
         """Return whether a sign begins the next entry of a list: `[1 -2]`."""
@@ -165,19 +165,19 @@ class _ExpressionParser:
         closing = ")" if opening == "(" else "}"
         self.expect(opening)
         self.enter(False)
-        found: list[ScriptNode] = []
+        nodes: list[ScriptNode] = []
         while not self.sees(closing):
-            if found:
+            if nodes:
                 self.expect(",")
             after = self.tokens[self.at + 1].value if self.at + 1 < len(self.tokens) else ""
             if self.sees(":") and after in (",", closing):
                 self.at += 1
-                found.append(WholeNode())
+                nodes.append(WholeNode())
             else:
-                found.append(self.binary(0))
+                nodes.append(self.binary(0))
         self.expect(closing)
         self.leave()
-        return tuple(found)
+        return tuple(nodes)
 
     def primary(self) -> ScriptNode:
         token = self.peek()

@@ -80,8 +80,8 @@ def read_launcher(content: bytes, name: str, bugs: bool = False, beside: Beside 
 
     def finish(translation: Translation, doc: Document) -> tuple[Document, list[Line]]:
         doc, lines = LauncherPanel(translation, controls, files).finish(doc)
-        doc, shown = with_plots(doc, translation, plots)
-        return doc, [*reader.lines, *lines, *shown]
+        doc, plot_lines = with_plots(doc, translation, plots)
+        return doc, [*reader.lines, *lines, *plot_lines]
 
     return translated(simulator, name, bugs, finish)
 
@@ -89,12 +89,14 @@ def read_launcher(content: bytes, name: str, bugs: bool = False, beside: Beside 
 def _chosen(reader: ScriptReader) -> tuple[BuiltWindow | None, BuiltSimulator | None]:
     """Return the last window and the simulator that it shows, or the last simulator with elements."""
     built = [s for s in reader.simulators if s.elements]
-    shown = [w for w in reader.windows if w.simulator is not None and w.simulator.elements]
-    gui = shown[-1] if shown else reader.windows[-1] if reader.windows else None
-    sim = shown[-1].simulator if shown else built[-1] if built else None
-    for other in built:
-        if other is not sim:
-            why = f"the script builds {len(built)} simulators; this one has {len(other.elements)} elements"
+    connected = [w for w in reader.windows if w.simulator is not None and w.simulator.elements]
+    gui = connected[-1] if connected else reader.windows[-1] if reader.windows else None
+    sim = connected[-1].simulator if connected else built[-1] if built else None
+    for simulator in built:
+        if simulator is not sim:
+            why = (
+                f"the script builds {len(built)} simulators; this one has {len(simulator.elements)} elements"
+            )
             reader.lines.append(Line("", "file", "Simulator", "dropped", why))
     return gui, sim
 

@@ -39,8 +39,8 @@ FORMAT = re.compile(r"%(?:%|([-+ 0#]*)(\d{1,3})?(?:\.(\d{1,2}))?([diufeEgGscxX])
 
 def _sized(arguments: FunctionArguments, value: float) -> np.ndarray:
     """Return an array of one number, of a size in one argument or in several."""
-    given = [a for a in arguments if not is_text(a)]
-    size = [int(v) for v in numbers(given[0]).reshape(-1)] if len(given) == 1 else [whole(a) for a in given]
+    sizes = [a for a in arguments if not is_text(a)]
+    size = [int(v) for v in numbers(sizes[0]).reshape(-1)] if len(sizes) == 1 else [whole(a) for a in sizes]
     size = [1, 1] if not size else size * 2 if len(size) == 1 else size
     size = [max(n, 0) for n in size]
     require_size(math.prod(size))
@@ -79,9 +79,9 @@ def _along(function: Callable[..., Any]) -> Callable[[FunctionArguments], Any]:
     return apply
 
 
-def _dimension(value: np.ndarray, given: Any) -> int:
-    if given is not None:
-        return whole(given, 1, 8) - 1
+def _dimension(value: np.ndarray, dimension: Any) -> int:
+    if dimension is not None:
+        return whole(dimension, 1, 8) - 1
     return next((d for d, n in enumerate(value.shape) if n != 1), 0)
 
 
@@ -134,8 +134,8 @@ def _repmat(arguments: FunctionArguments) -> Any:
     value = arguments[0]
     if not isinstance(value, np.ndarray):
         raise NotRead("objects are not repeated")
-    given = [int(v) for a in arguments[1:] for v in numbers(a).reshape(-1)]
-    counts = [max(n, 0) for n in (given * 2 if len(given) == 1 else given)]
+    copies = [int(v) for a in arguments[1:] for v in numbers(a).reshape(-1)]
+    counts = [max(n, 0) for n in (copies * 2 if len(copies) == 1 else copies)]
     require_size(value.size * math.prod(counts))
     return np.tile(value, counts if len(counts) >= value.ndim else (*counts, 1))
 
@@ -153,8 +153,8 @@ def _colon(arguments: FunctionArguments) -> Any:
 
 def _reshape(arguments: FunctionArguments) -> Any:
     value = arguments[0]
-    given = [[-1.0] if a.size == 0 else numbers(a).reshape(-1).tolist() for a in arguments[1:]]
-    return value.reshape([int(v) for size in given for v in size], order="F")
+    sizes = [[-1.0] if a.size == 0 else numbers(a).reshape(-1).tolist() for a in arguments[1:]]
+    return value.reshape([int(v) for size in sizes for v in size], order="F")
 
 
 def _eye(arguments: FunctionArguments) -> Any:
@@ -183,9 +183,9 @@ def _gauss(arguments: FunctionArguments) -> Any:
 
 def _find(arguments: FunctionArguments) -> Any:
     value = numbers(arguments[0])
-    found = np.flatnonzero(value.reshape(-1, order="F")) + 1.0
-    found = found[: whole(arguments[1], 0)] if len(arguments) > 1 else found
-    return found.reshape((1, -1) if value.shape[0] == 1 else (-1, 1))
+    places = np.flatnonzero(value.reshape(-1, order="F")) + 1.0
+    places = places[: whole(arguments[1], 0)] if len(arguments) > 1 else places
+    return places.reshape((1, -1) if value.shape[0] == 1 else (-1, 1))
 
 
 def _sort(arguments: FunctionArguments) -> Any:
@@ -196,8 +196,8 @@ def _sort(arguments: FunctionArguments) -> Any:
 
 
 def _unique(arguments: FunctionArguments) -> Any:
-    found = np.unique(numbers(arguments[0]))
-    return found.reshape((1, -1) if arguments[0].shape[0] == 1 else (-1, 1))
+    different = np.unique(numbers(arguments[0]))
+    return different.reshape((1, -1) if arguments[0].shape[0] == 1 else (-1, 1))
 
 
 def _any(arguments: FunctionArguments) -> Any:
@@ -214,8 +214,8 @@ def _strcmp(arguments: FunctionArguments, fold: bool = False) -> Any:
     def same(a: Any, b: Any) -> bool:
         if not (is_text(a) and is_text(b)):
             return False
-        one, other = string(a), string(b)
-        return one.lower() == other.lower() if fold else one == other
+        first, second = string(a), string(b)
+        return first.lower() == second.lower() if fold else first == second
 
     if is_cells(first) and not is_cells(second):
         first, second = second, first
@@ -232,16 +232,16 @@ def _strncmp(arguments: FunctionArguments, fold: bool = False) -> Any:
             return cells([cut(cell) for cell in value.reshape(-1)]).reshape(value.shape)
         if not is_text(value):
             return value
-        found = string(value)
-        return text(found[:count]) if len(found) >= count else number(0)
+        plain = string(value)
+        return text(plain[:count]) if len(plain) >= count else number(0)
 
     return _strcmp((cut(first), cut(second)), fold)
 
 
 def _strfind(arguments: FunctionArguments) -> Any:
-    inside, wanted = string(arguments[0]), string(arguments[1])
-    found = [k + 1.0 for k in range(len(inside)) if wanted and inside.startswith(wanted, k)]
-    return np.array([found]) if found else np.zeros((0, 0))
+    inside, pattern = string(arguments[0]), string(arguments[1])
+    places = [k + 1.0 for k in range(len(inside)) if pattern and inside.startswith(pattern, k)]
+    return np.array([places]) if places else np.zeros((0, 0))
 
 
 # ----------------------------------------------------------------------------------------------------- text
@@ -265,28 +265,28 @@ def _num2str(arguments: FunctionArguments) -> Any:
         return text(formatted(string(arguments[1]), [value]))
     if len(arguments) > 1:
         return text(f"{real(value):.{whole(arguments[1], 1, 20)}g}")
-    found = numbers(value)
-    if found.size == 1:
+    array = numbers(value)
+    if array.size == 1:
         return text(shown(real(value)))
-    require_size(found.size * 24)
-    lines = ["  ".join(shown(float(v)) for v in row) for row in found.reshape(found.shape[0], -1)]
+    require_size(array.size * 24)
+    lines = ["  ".join(shown(float(v)) for v in row) for row in array.reshape(array.shape[0], -1)]
     width = max((len(line) for line in lines), default=0)
     return np.array([list(line.rjust(width)) for line in lines], dtype="<U1").reshape(len(lines), width)
 
 
 def formatted(pattern: str, values: FunctionArguments) -> str:
     """Return a text with values in the places of a pattern, which is used again until all are used."""
-    given: list[float | str] = []
+    written: list[float | str] = []
     for value in values:
         if is_text(value):
-            given.append(string(value))
+            written.append(string(value))
         elif is_numbers(value):
-            given += [float(v) for v in value.reshape(-1, order="F")]
+            written += [float(v) for v in value.reshape(-1, order="F")]
         else:
             raise NotRead(f"{described(value)} cannot be written into a text")
     pattern = pattern.replace("\\n", "\n").replace("\\t", "\t")
     places = sum(match.group(4) is not None for match in FORMAT.finditer(pattern))
-    require_size(len(pattern) * (1 + len(given) / max(places, 1)) * 2)
+    require_size(len(pattern) * (1 + len(written) / max(places, 1)) * 2)
     out: list[str] = []
     while True:
         ended = False
@@ -296,13 +296,13 @@ def formatted(pattern: str, values: FunctionArguments) -> str:
             flags, width, digits, kind = match.groups()
             if kind is None:
                 return "%"
-            if ended or not given:
+            if ended or not written:
                 ended = True
                 return ""
-            return _filled(given.pop(0), flags or "", width or "", digits, kind)
+            return _filled(written.pop(0), flags or "", width or "", digits, kind)
 
         out.append(FORMAT.sub(fill, pattern))
-        if not given or not places:
+        if not written or not places:
             return "".join(out)
 
 
@@ -338,18 +338,18 @@ def _cellstr(arguments: FunctionArguments) -> Any:
 
 def _num2cell(arguments: FunctionArguments) -> Any:
     value = arguments[0]
-    found = np.empty(value.size, dtype=object)
+    array = np.empty(value.size, dtype=object)
     for k, entry in enumerate(value.reshape(-1)):
-        found[k] = np.full((1, 1), entry, dtype=value.dtype)
-    return found.reshape(value.shape)
+        array[k] = np.full((1, 1), entry, dtype=value.dtype)
+    return array.reshape(value.shape)
 
 
 def _cell(arguments: FunctionArguments) -> Any:
     size = _sized(arguments, 0.0).shape
-    found = np.empty(size, dtype=object)
+    array = np.empty(size, dtype=object)
     for k in np.ndindex(size):
-        found[k] = np.zeros((0, 0))
-    return found
+        array[k] = np.zeros((0, 0))
+    return array
 
 
 def _cell2mat(arguments: FunctionArguments) -> Any:
@@ -362,8 +362,8 @@ def _string(function: Callable[[str], str]) -> Callable[[FunctionArguments], Any
     def apply(arguments: FunctionArguments) -> Any:
         (value,) = arguments
         if is_cells(value):
-            found = cells([text(function(s)) for s in strings(value)])
-            return found.reshape(value.shape, order="F")
+            texts = cells([text(function(s)) for s in strings(value)])
+            return texts.reshape(value.shape, order="F")
         return text(function(string(value)))
 
     return apply

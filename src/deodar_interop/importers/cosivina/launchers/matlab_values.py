@@ -98,10 +98,10 @@ def real(value: Any) -> float:
 
 def whole(value: Any, least: float = -1e9, most: float = 1e9) -> int:
     """Return the whole number of an array that has one, within bounds."""
-    found = real(value)
-    if not (least <= found <= most and found == math.floor(found)):
-        raise NotRead(f"{found:g} is not a whole number from {least:g} to {most:g}")
-    return int(found)
+    plain = real(value)
+    if not (least <= plain <= most and plain == math.floor(plain)):
+        raise NotRead(f"{plain:g} is not a whole number from {least:g} to {most:g}")
+    return int(plain)
 
 
 def numbers(value: Any) -> np.ndarray:
@@ -115,8 +115,8 @@ def numbers(value: Any) -> np.ndarray:
 
 def is_true(value: Any) -> bool:
     """Return whether a condition holds: an array without a zero that is not empty."""
-    found = numbers(value)
-    return found.size > 0 and bool((found != 0).all())
+    array = numbers(value)
+    return array.size > 0 and bool((array != 0).all())
 
 
 def described(value: Any) -> str:
@@ -167,10 +167,10 @@ def index_of(value: np.ndarray, indices: Sequence[Any]) -> np.ndarray:
         if indices[0] is None:
             return flat.reshape(-1, 1)
         places = _places(indices[0], flat.size)
-        given = cast("np.ndarray", indices[0])
-        if given.dtype == bool or (1 in value.shape[:2] and 1 in given.shape[:2] and value.ndim == 2):
+        index = cast("np.ndarray", indices[0])
+        if index.dtype == bool or (1 in value.shape[:2] and 1 in index.shape[:2] and value.ndim == 2):
             return flat[places.reshape(-1)].reshape((1, -1) if value.shape[0] == 1 else (-1, 1))
-        return flat[places.reshape(-1, order="F")].reshape(given.shape, order="F")
+        return flat[places.reshape(-1, order="F")].reshape(index.shape, order="F")
     shape = (*value.shape, *(1,) * max(0, len(indices) - value.ndim))
     if len(indices) < len(shape):
         shape = (*shape[: len(indices) - 1], math.prod(shape[len(indices) - 1 :]))
@@ -178,10 +178,10 @@ def index_of(value: np.ndarray, indices: Sequence[Any]) -> np.ndarray:
         np.arange(n) if k is None else _places(k, n).reshape(-1) for k, n in zip(indices, shape, strict=True)
     ]
     require_size(math.prod(len(p) for p in places))
-    found = value.reshape(shape, order="F")[np.ix_(*places)]
-    while found.ndim > 2 and found.shape[-1] == 1:
-        found = found[..., 0]
-    return found
+    entries = value.reshape(shape, order="F")[np.ix_(*places)]
+    while entries.ndim > 2 and entries.shape[-1] == 1:
+        entries = entries[..., 0]
+    return entries
 
 
 def put_at(value: np.ndarray | None, indices: Sequence[Any], new: np.ndarray) -> np.ndarray:
@@ -234,8 +234,8 @@ def without(value: np.ndarray, indices: Sequence[Any]) -> np.ndarray:
     """Return an array without the entries at indices from 1."""
     long = [d for d, k in enumerate(indices) if k is not None]
     if len(indices) == 1 and long:
-        kept = np.delete(value.reshape(-1, order="F"), _places(indices[0], value.size).reshape(-1))
-        return kept.reshape((-1, 1) if value.shape[0] > 1 and value.shape[1] == 1 else (1, -1))
+        remaining = np.delete(value.reshape(-1, order="F"), _places(indices[0], value.size).reshape(-1))
+        return remaining.reshape((-1, 1) if value.shape[0] > 1 and value.shape[1] == 1 else (1, -1))
     if len(long) != 1 or len(indices) > value.ndim:
         raise NotRead("only whole rows or columns are removed")
     (d,) = long

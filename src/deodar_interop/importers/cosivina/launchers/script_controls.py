@@ -43,10 +43,10 @@ def plot_of(call: ClassCall) -> PlotRequest:
     """Return the visualization of a call of its class."""
     labels, components = (call.arguments[k] if k < len(call.arguments) else None for k in (0, 1))
     try:
-        shown = tuple(zip(matlab_values.names_of(labels), matlab_values.names_of(components), strict=False))
+        ports = tuple(zip(matlab_values.names_of(labels), matlab_values.names_of(components), strict=False))
     except NotRead:
-        shown = ()
-    return PlotRequest(call.name, shown, f"line {call.line}")
+        ports = ()
+    return PlotRequest(call.name, ports, f"line {call.line}")
 
 
 def _is_line(value: np.ndarray) -> bool:
@@ -94,17 +94,17 @@ def _value(cell: Any) -> Any:
         return None
     if matlab_values.is_text(cell):
         return matlab_values.string(cell)
-    found = matlab_values.numbers(cell)
-    return float(found.reshape(-1)[0]) if found.size == 1 else found.tolist()
+    array = matlab_values.numbers(cell)
+    return float(array.reshape(-1)[0]) if array.size == 1 else array.tolist()
 
 
 def _dropdown(label: str, arguments: ControlArguments) -> Control:
     targets = _targets(arguments)
-    given = argument(arguments, 3)
-    each = list(given.reshape(-1, order="F")) if matlab_values.is_cells(given) else [given]
-    if len(each) != len(targets):
-        raise NotRead(f"it has {len(each)} lists of values for {len(targets)} parameters")
-    columns = [_column(values) for values in each]
+    lists = argument(arguments, 3)
+    value_lists = list(lists.reshape(-1, order="F")) if matlab_values.is_cells(lists) else [lists]
+    if len(value_lists) != len(targets):
+        raise NotRead(f"it has {len(value_lists)} lists of values for {len(targets)} parameters")
+    columns = [_column(values) for values in value_lists]
     if not columns[0] or any(len(column) != len(columns[0]) for column in columns):
         raise NotRead("its lists of values have different lengths")
     labels = argument(arguments, 4)

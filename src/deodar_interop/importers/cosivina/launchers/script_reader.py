@@ -92,9 +92,9 @@ class ScriptReader:
         self.windows: list[BuiltWindow] = []
         self._budget = Budget()
         self._functions: dict[str, ScriptFunction] = {}
-        self._here = ""
+        self._file = ""
         self._depth = 0
-        self._said: set[tuple[str, int, str]] = set()
+        self._reported: set[tuple[str, int, str]] = set()
         self._files: dict[str, file.Simulator] = {}
         self._scripts: dict[str, blocks.Script | None] = {}
 
@@ -119,10 +119,10 @@ class ScriptReader:
 
     def say(self, why: str) -> None:
         """Report that something of the present statement is not read."""
-        key = (self._here, self.line, why)
-        if key not in self._said and len(self._said) < MOST_LINES:
-            self._said.add(key)
-            where = f"line {self.line}" + (f" of {self._here}" if self._here else "")
+        key = (self._file, self.line, why)
+        if key not in self._reported and len(self._reported) < MOST_LINES:
+            self._reported.add(key)
+            where = f"line {self.line}" + (f" of {self._file}" if self._file else "")
             self.lines.append(Line("", "statement", where, "dropped", why))
 
     # --------------------------------------------------------------------------------------------- statements
@@ -202,8 +202,8 @@ class ScriptReader:
             script = blocks.script(decoded(content))
         except DeodarError as error:
             raise NotRead(f"{name}.m {error.problems[0].what}") from None
-        for found in script.functions.values():
-            self._functions.setdefault(found.name, found)
+        for function in script.functions.values():
+            self._functions.setdefault(function.name, function)
         self._scripts[name] = script
         return script
 
@@ -211,14 +211,14 @@ class ScriptReader:
         """Read something of another file; what is reported names it."""
         if self._depth >= DEEPEST_CALL:
             raise NotRead(f"scripts and functions call one another more than {DEEPEST_CALL} deep")
-        here, line = self._here, self.line
-        self._here, self._depth = f"{name}.m", self._depth + 1
+        outer, line = self._file, self.line
+        self._file, self._depth = f"{name}.m", self._depth + 1
         try:
             run()
         except _Jumped:
             pass
         finally:
-            self._here, self.line, self._depth = here, line, self._depth - 1
+            self._file, self.line, self._depth = outer, line, self._depth - 1
 
     # -------------------------------------------------------------------------------------------- assignments
 
@@ -255,8 +255,8 @@ class ScriptReader:
                 values = self._evaluator(scope).arguments(node.arguments)
                 return values * count if len(values) == 1 else values
             if name == "size" and name not in scope and len(node.arguments) == 1:
-                found = self._evaluator(scope).value(node)
-                sizes = [matlab_values.number(v) for v in found.reshape(-1)]
+                size = self._evaluator(scope).value(node)
+                sizes = [matlab_values.number(v) for v in size.reshape(-1)]
                 return sizes[:count] + [matlab_values.number(1)] * (count - len(sizes))
             function = self._function(name)
             if function is not None and name not in scope:
@@ -438,8 +438,8 @@ class ScriptReader:
             return ClassCall(name, tuple(arguments), self.line)
         function = self._function(name)
         if function is not None:
-            results = self._call_function(function, arguments)
-            return results[0] if results else None
+            returned = self._call_function(function, arguments)
+            return returned[0] if returned else None
         if name[:1].isupper():
             return ClassCall(name, tuple(arguments), self.line)
         if name in QUIET:
@@ -485,8 +485,8 @@ class ScriptReader:
                 builders.connect(self, target, arguments[2:])
         if isinstance(target, (BuiltSimulator, BuiltWindow)) and name in builders.QUIET:
             return None
-        what = {BuiltSimulator: "a simulator", BuiltWindow: "a window", BuiltElement: "an element"}
-        raise NotRead(f"the method {name!r} of {what.get(type(target), 'an object')} is not read")
+        kinds = {BuiltSimulator: "a simulator", BuiltWindow: "a window", BuiltElement: "an element"}
+        raise NotRead(f"the method {name!r} of {kinds.get(type(target), 'an object')} is not read")
 
     def member(self, target: Any, name: str) -> Any:
         """Return a property of an object, or the value of a method without arguments."""

@@ -96,7 +96,7 @@ class _Scanner:
     def __init__(self, text: str) -> None:
         self.text = text.replace("\r\n", "\n").replace("\r", "\n")
         self.at, self.line, self.count = 0, 1, 0
-        self.found: list[ScriptStatement] = []
+        self.statements: list[ScriptStatement] = []
         self.begin()
 
     def begin(self) -> None:
@@ -126,7 +126,7 @@ class _Scanner:
             else:
                 self.word()
         self.finish()
-        return self.found
+        return self.statements
 
     def begin_again(self) -> None:
         """Report a statement whose brackets never close, and continue with the line behind its first one."""
@@ -139,16 +139,16 @@ class _Scanner:
     def skip_block(self, opening: re.Match[str]) -> None:
         """Skip a block of comments, which lines with %{ and %} alone enclose."""
         depth = 0
-        found: re.Match[str] | None = opening
+        match: re.Match[str] | None = opening
         while True:
-            if found is not None:
-                depth += 1 if found.group(1) == "{" else -1
+            if match is not None:
+                depth += 1 if match.group(1) == "{" else -1
             end = LINE.match(self.text, self.at)
             self.at = len(self.text) if end is None else min(end.end() + 1, len(self.text))
             self.line += 1
             if depth <= 0 or self.at >= len(self.text):
                 return
-            found = BLOCK.match(self.text, self.at)
+            match = BLOCK.match(self.text, self.at)
 
     def end_line(self) -> None:
         """Take a new line: it ends a statement, or a row inside brackets."""
@@ -163,14 +163,14 @@ class _Scanner:
 
     def word(self) -> None:
         """Take one word."""
-        text, here = self.text, self.text[self.at]
-        if here in QUOTED and not (here == "'" and self.transposes()):
-            found = QUOTED[here].match(text, self.at)
-            if found is None:
+        text, character = self.text, self.text[self.at]
+        if character in QUOTED and not (character == "'" and self.transposes()):
+            match = QUOTED[character].match(text, self.at)
+            if match is None:
                 self.fail("a text has no closing quote")
                 return
-            self.take("text", found.group(1).replace(here * 2, here), found.end())
-        elif here == "'":
+            self.take("text", match.group(1).replace(character * 2, character), match.end())
+        elif character == "'":
             self.take("operator", "'", self.at + 1)
         elif name := NAME.match(text, self.at):
             self.take("name", name.group(), name.end())
@@ -179,24 +179,26 @@ class _Scanner:
         elif operator := next((o for o in OPERATORS if text.startswith(o, self.at)), ""):
             self.operator(operator)
         else:
-            self.fail(f"{here!r} has no meaning in a script" if here.isprintable() else "it is not text")
+            self.fail(
+                f"{character!r} has no meaning in a script" if character.isprintable() else "it is not text"
+            )
 
-    def operator(self, value: str) -> None:
+    def operator(self, sign: str) -> None:
         """Take an operator; a separator outside brackets ends the statement."""
-        if value in OPENING:
-            self.take("operator", value, self.at + 1)
-            self.open.append(OPENING[value])
-        elif value in OPENING.values():
-            if not self.open or self.open[-1] != value:
-                self.fail(f"{value!r} closes nothing")
+        if sign in OPENING:
+            self.take("operator", sign, self.at + 1)
+            self.open.append(OPENING[sign])
+        elif sign in OPENING.values():
+            if not self.open or self.open[-1] != sign:
+                self.fail(f"{sign!r} closes nothing")
                 return
             self.open.pop()
-            self.take("operator", value, self.at + 1)
-        elif value in (";", ",") and not self.open:
+            self.take("operator", sign, self.at + 1)
+        elif sign in (";", ",") and not self.open:
             self.at += 1
             self.finish()
         else:
-            self.take("operator", value, self.at + len(value))
+            self.take("operator", sign, self.at + len(sign))
 
     def transposes(self) -> bool:
         """Return whether a quote here transposes what is before it."""
@@ -208,12 +210,12 @@ class _Scanner:
         between = bool(self.open) and self.open[-1] != ")"
         return not (self.apart and (between or len(self.tokens) == 1))
 
-    def take(self, form: Form, value: str, end: int) -> None:
+    def take(self, form: Form, word: str, end: int) -> None:
         """Add a word that ends at a position."""
         self.at = end
-        self.add(form, value)
+        self.add(form, word)
 
-    def add(self, form: Form, value: str) -> None:
+    def add(self, form: Form, word: str) -> None:
         """Add a word."""
         self.count += 1
         if self.count > MOST_TOKENS:
@@ -221,19 +223,19 @@ class _Scanner:
         if not self.tokens:
             self.first = self.at
         following = self.text[self.at : self.at + 1]
-        self.tokens.append(Token(form, value, self.line, self.apart, bool(following.strip())))
+        self.tokens.append(Token(form, word, self.line, self.apart, bool(following.strip())))
         self.apart = False
 
     def finish(self) -> None:
         """End a statement."""
         if self.tokens:
-            self.found.append(ScriptStatement(self.tokens[0].line, tuple(self.tokens)))
+            self.statements.append(ScriptStatement(self.tokens[0].line, tuple(self.tokens)))
         self.begin()
 
     def fail(self, why: str) -> None:
         """Report the statement as not read, and skip the rest of its line."""
         first = self.tokens[0].line if self.tokens else self.line
-        self.found.append(ScriptStatement(first, (), why))
+        self.statements.append(ScriptStatement(first, (), why))
         end = LINE.match(self.text, self.at)
         self.at = len(self.text) if end is None else end.end()
         self.begin()

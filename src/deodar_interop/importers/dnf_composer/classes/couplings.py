@@ -76,24 +76,24 @@ def stored_weights(b: StoredElement, came: int) -> np.ndarray:
     except DeodarError as error:
         return _no_weights(b, name, error.problems[0].what, nothing)
     if content is None:
-        what = "there is no such file" if is_plain(name) else "this name leads to another folder"
-        return _no_weights(b, name, what, nothing)
+        fault = "there is no such file" if is_plain(name) else "this name leads to another folder"
+        return _no_weights(b, name, fault, nothing)
     words = content.split(maxsplit=came * count)
     try:
-        found = np.array([float(word) for word in words[: came * count]])
+        weights = np.array([float(word) for word in words[: came * count]])
     except ValueError:
         return _no_weights(b, name, "it holds more than numbers", nothing)
     if len(words) != came * count:
-        what = f"it does not hold {came} x {count} numbers"
-        return _no_weights(b, name, what, nothing)
-    if not np.isfinite(found).all() or np.abs(found).max(initial=0.0) > LARGEST:
+        fault = f"it does not hold {came} x {count} numbers"
+        return _no_weights(b, name, fault, nothing)
+    if not np.isfinite(weights).all() or np.abs(weights).max(initial=0.0) > LARGEST:
         return _no_weights(b, name, "some of its numbers are not finite", nothing)
     b.extra.append(Line(b.label, "file", name, "carried"))
-    return found.reshape(came, count)
+    return weights.reshape(came, count)
 
 
-def _no_weights(b: StoredElement, name: str, what: str, nothing: np.ndarray) -> np.ndarray:
-    why = f"{what}; weights of 0 are used, as in dnf-composer"
+def _no_weights(b: StoredElement, name: str, fault: str, nothing: np.ndarray) -> np.ndarray:
+    why = f"{fault}; weights of 0 are used, as in dnf-composer"
     b.extra.append(Line(b.label, "file", name, "approximated", why))
     return nothing
 
@@ -101,14 +101,14 @@ def _no_weights(b: StoredElement, name: str, what: str, nothing: np.ndarray) -> 
 def _input(b: StoredElement) -> int:
     """Return the number of input samples, and report the parameters that state it."""
     b.dims()
-    came, given = input_length(b.element), b.element.values
-    pair = [name for name in ("input_x_max", "input_d_x") if name in given]
+    came, values = input_length(b.element), b.element.values
+    pair = [name for name in ("input_x_max", "input_d_x") if name in values]
     for name in pair:
         if len(pair) == 2:
             b.values.say(name, "carried", f"as {came} samples")
         else:
             b.values.say(name, "dropped", f"it has a meaning only with the other; {came} samples are used")
-    if "inputFieldSize" in given:
+    if "inputFieldSize" in values:
         if pair:
             b.values.say("inputFieldSize", "dropped", "replaced by input_x_max and input_d_x")
         else:

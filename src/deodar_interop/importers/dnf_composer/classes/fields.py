@@ -47,7 +47,7 @@ def neural_field(b: StoredElement) -> Piece:
     b.levels = {"activation": field.resting_level, "resting level": field.resting_level}
     outlets = {c: Outlet(b.label, dims, c, state=True) for c in ("output", "activation")}
     elements: list[Element] = [field]
-    if "resting level" in b.asked:
+    if "resting level" in b.components_read:
         level = Boost(b.named("resting level"), axes(dims), field.resting_level)
         elements.append(level)
         outlets["resting level"] = Outlet(level.name, dims, still=True)
@@ -58,30 +58,30 @@ def neural_field(b: StoredElement) -> Piece:
 def activation(b: StoredElement) -> SigmoidFunction:
     """Return the activation function; without a known one dnf-composer takes a sigmoid."""
     key = "activationFunction"
-    given = b.element.values.get(key)
-    body = cast("dict[str, Any]", given) if isinstance(given, dict) else {}
+    stated = b.element.values.get(key)
+    body = cast("dict[str, Any]", stated) if isinstance(stated, dict) else {}
     kind = body.get("type")
     if not isinstance(kind, str) or kind not in FUNCTIONS:
-        what = "it is not in the file" if given is None else f"its type is {kind!r}"
-        why = f"{what}; a sigmoid at 0 with a steepness of {STEEPNESS:g} is used, as in dnf-composer"
+        fault = "it is not in the file" if stated is None else f"its type is {kind!r}"
+        why = f"{fault}; a sigmoid at 0 with a steepness of {STEEPNESS:g} is used, as in dnf-composer"
         b.values.say(key, "approximated", why)
         return Logistic(STEEPNESS, 0.0)
-    found, replaced = dict(USUAL), list[str]()
+    settings, replaced = dict(USUAL), list[str]()
     for name in FUNCTIONS[kind]:
-        value = number(body.get(name))
-        if value is None or abs(value) > 1e30:
+        setting = number(body.get(name))
+        if setting is None or abs(setting) > 1e30:
             replaced.append(f"{name} {USUAL[name]:g} is used, which is not in the file")
-        elif name != "x_shift" and not FLATTEST <= value <= STEEPEST:
-            found[name] = min(max(value, FLATTEST), STEEPEST)
-            replaced.append(f"{name} is {value:g}, {found[name]:g} is used")
+        elif name != "x_shift" and not FLATTEST <= setting <= STEEPEST:
+            settings[name] = min(max(setting, FLATTEST), STEEPEST)
+            replaced.append(f"{name} is {setting:g}, {settings[name]:g} is used")
         else:
-            found[name] = value
-    made = _function(kind, found)
+            settings[name] = setting
+    function = _function(kind, settings)
     if replaced:
         b.values.say(key, "approximated", "; ".join(replaced))
     else:
-        b.values.say(key, "carried", f"as {type(made).__name__}")
-    return made
+        b.values.say(key, "carried", f"as {type(function).__name__}")
+    return function
 
 
 def _function(kind: str, values: dict[str, float]) -> SigmoidFunction:

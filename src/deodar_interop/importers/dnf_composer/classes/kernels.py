@@ -45,7 +45,7 @@ def mexican_hat(b: StoredElement) -> Piece:
     common = 0.0 if b.plane else max((up != 0) * narrow, (down != 0) * wide)
     least = CUTOFF * common
 
-    def shown() -> np.ndarray:
+    def weights_of_form() -> np.ndarray:
         pairs = ((up, narrow), (-down, wide))
         parts = [
             amplitude * outer([form.gaussian(d, width, common or width).weights for d in (0, 1)])
@@ -53,7 +53,9 @@ def mexican_hat(b: StoredElement) -> Piece:
         ]
         return parts[0] + parts[1] if parts[0].shape == parts[1].shape else parts[0]
 
-    return form.piece([form.truncated(up, narrow, least), form.truncated(-down, wide, least)], shown)
+    return form.piece(
+        [form.truncated(up, narrow, least), form.truncated(-down, wide, least)], weights_of_form
+    )
 
 
 def oscillatory(b: StoredElement) -> Piece:
@@ -65,16 +67,16 @@ def oscillatory(b: StoredElement) -> Piece:
         b.values.say("decay", "carried", f"{SLOWEST:g} in place of {decay:g}, as in dnf-composer")
         decay = SLOWEST
     form.reserve(taps.oscillation_width(decay, crossings))
-    found = [taps.oscillation(decay, crossings, count, form.circular) for count in b.counts]
+    profiles = [taps.oscillation(decay, crossings, count, form.circular) for count in b.counts]
     if form.normalized:
-        found = [taps.per_sum(part) for part in found]
+        profiles = [taps.per_sum(part) for part in profiles]
         if not b.plane and amplitude:
             if "amplitude" in b.element.values:
                 b.values.say(
                     "amplitude", "carried", "without effect in a normalized kernel, as in dnf-composer"
                 )
             amplitude = 1.0
-    return form.custom(amplitude, found)
+    return form.custom(amplitude, profiles)
 
 
 def asymmetric(b: StoredElement) -> Piece:
@@ -86,12 +88,12 @@ def asymmetric(b: StoredElement) -> Piece:
     if form.normalized and not b.plane:
         shifts = [v / abs(amplitude) if amplitude else 0.0 for v in shifts]  # the amplitude is applied below
     form.reserve(width)
-    found = list[Taps]()
+    profiles = list[Taps]()
     for d, amount in enumerate(shifts):
         bell = form.gaussian(d, width)
         turned = taps.shift(width, bell.left, bell.right, form.normalized)
-        found.append(Taps(bell.left, bell.right, bell.weights + amount * turned))
-    return form.custom(amplitude, found)
+        profiles.append(Taps(bell.left, bell.right, bell.weights + amount * turned))
+    return form.custom(amplitude, profiles)
 
 
 class StoredKernel:
@@ -110,8 +112,8 @@ class StoredKernel:
 
     def reserve(self, width: float) -> None:
         """Count the values of a kernel that is stored as an array, before it is computed."""
-        found = (taps.reaches(width, count, self.circular) for count in self.b.counts)
-        self.b.budget.take(math.prod(2 * max(sides) + 1 for sides in found))
+        reaches = (taps.reaches(width, count, self.circular) for count in self.b.counts)
+        self.b.budget.take(math.prod(2 * max(sides) + 1 for sides in reaches))
 
     def gaussian(self, d: int, width: float, reaching: float = 0.0) -> Taps:
         """Return the Gaussian of one dimension, with the reach of another width."""
@@ -123,33 +125,33 @@ class StoredKernel:
         ends = boundary(axes(self.dims), self.circular)
         return TruncatedGaussian(amplitude + 0.0, width, CUTOFF, least, self.normalized, boundary=ends)
 
-    def custom(self, amplitude: float, found: list[Taps]) -> Piece:
+    def custom(self, amplitude: float, profiles: list[Taps]) -> Piece:
         """Return a kernel of any shape, as the product of one array for each dimension."""
         height = amplitude
-        own = [part for part, axis in zip(found, self.dims, strict=True) if axis is not None]
-        for part, axis in zip(found, self.dims, strict=True):
+        along_axes = [part for part, axis in zip(profiles, self.dims, strict=True) if axis is not None]
+        for part, axis in zip(profiles, self.dims, strict=True):
             if axis is None:
                 amplitude *= float(part.weights[part.left])
 
-        def shown() -> np.ndarray:
-            return height * outer([part.weights for part in found])
+        def full_weights() -> np.ndarray:
+            return height * outer([part.weights for part in profiles])
 
         ends = boundary(axes(self.dims), self.circular)
-        if not own:
-            return self.piece([TruncatedGaussian(amplitude, normalized=True)], shown)
-        arrays = [part.centred(mirrored=not self.circular) for part in own]
+        if not along_axes:
+            return self.piece([TruncatedGaussian(amplitude, normalized=True)], full_weights)
+        arrays = [part.centred(mirrored=not self.circular) for part in along_axes]
         weights = arrays[0] if len(arrays) == 1 else np.outer(arrays[0], arrays[1])
-        return self.piece([Custom(weights, amplitude, boundary=ends)], shown)
+        return self.piece([Custom(weights, amplitude, boundary=ends)], full_weights)
 
-    def piece(self, kernels: Sequence[Kernel], shown: Callable[[], np.ndarray]) -> Piece:
+    def piece(self, kernels: Sequence[Kernel], full_weights: Callable[[], np.ndarray]) -> Piece:
         """Return the translation of a kernel; `shown` computes its weights, for elements that read them."""
         b, dims = self.b, self.dims
         elements: list[Element] = [Interaction(kernels, -self.overall + 0.0, name=b.label)]
         outlets = {"output": Outlet(b.label, dims)}
-        if "kernel" in b.asked:
+        if "kernel" in b.components_read:
             count = math.prod(b.counts)
             b.budget.take(count)
-            weights = shown()
+            weights = full_weights()
             if weights.size <= count:
                 values = np.pad(weights, (0, count - weights.size)).reshape(shape(axes(dims)))
                 elements.append(Pattern(b.named("kernel"), axes(dims), values))

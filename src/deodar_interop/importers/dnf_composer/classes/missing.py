@@ -12,10 +12,10 @@ MISSING = {"field projection": "a reduction or an expansion of 2026, which colla
 """What each label that is not translated was."""
 
 
-def placeholder(e: Foreign, sizes: SampleAxes, known: list[str], why: str = "") -> Piece:
+def placeholder(e: Foreign, sizes: SampleAxes, kinds: list[str], why: str = "") -> Piece:
     """Return a placeholder for an element, with the reason."""
-    what = why or MISSING.get(e.kind, "") or unknown(e.kind, "an unknown label of dnf-composer", known)
-    return placeholder_piece(e, _dims(e, sizes), what)
+    missing = why or MISSING.get(e.kind, "") or unknown(e.kind, "an unknown label of dnf-composer", kinds)
+    return placeholder_piece(e, _dims(e, sizes), missing)
 
 
 def _dims(e: Foreign, sizes: SampleAxes) -> Dims:

@@ -54,9 +54,9 @@ def correlated_noise(b: StoredElement) -> Piece:
 
 def _line(b: StoredElement, width: float, half: int, circular: bool) -> Kernel:
     """Return the kernel of a line; it may be longer than the axis, and all its weights are normalised."""
-    own, count = axes(b.of(b.counts)), b.counts[1]
-    ends = boundary(own, circular)
-    if not own:
+    line_axes, count = axes(b.of(b.counts)), b.counts[1]
+    ends = boundary(line_axes, circular)
+    if not line_axes:
         return TruncatedGaussian(1.0, width, normalized=True)
     if half <= ((count - 1) // 2 if circular else count - 1):
         return TruncatedGaussian(1.0, width, 0.0, float(half), normalized=True, boundary=ends)

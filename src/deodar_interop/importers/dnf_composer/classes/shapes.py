@@ -47,12 +47,12 @@ def resize_2d(b: StoredElement) -> Piece:
     if None in came or None in dims or not pairs:
         raise Unfit(f"it resamples {list(counts)} to {list(b.counts)} samples, which has no counterpart")
     elements, inner = list[Element](), list[tuple[str, ...]]()
-    here = list(axes(came))
+    shrinking = list(axes(came))
     for stage, (d, old, new) in enumerate(pairs):
         assert old is not None and new is not None
         b.budget.take(factors[d].size)
-        wide = (*here, new)
-        here[d] = new
+        wide = (*shrinking, new)
+        shrinking[d] = new
         last = stage == len(pairs) - 1
         reach, weights = b.named(f"spread along {new.name}"), b.named(f"weights along {old.name}")
         spread = b.named(f"products along {old.name}")
@@ -60,7 +60,7 @@ def resize_2d(b: StoredElement) -> Piece:
             Project(wide, name=reach),
             Pattern(weights, (new, old), factors[d]),
             Product(name=spread),
-            Project(here, "sum", name=b.label if last else b.named(f"along {old.name}")),
+            Project(shrinking, "sum", name=b.label if last else b.named(f"along {old.name}")),
         ]
         entry = elements[-5].name if stage else ""
         inner += [(entry, reach)] if entry else []
@@ -80,18 +80,18 @@ def resize_2d(b: StoredElement) -> Piece:
 def collapse(b: StoredElement) -> Piece:
     """Translate `collapse`: a reduction over one axis of a plane."""
     dims = b.dims()
-    how = COMPRESSIONS[b.values.choice("compression", tuple(COMPRESSIONS))]
-    kept = 1 if b.values.choice("keepAxis", ("x", "y")) == "x" else 0
-    fallback = (1, b.counts[1]) if kept else (b.counts[1], 1)
+    reduction = COMPRESSIONS[b.values.choice("compression", tuple(COMPRESSIONS))]
+    kept_dimension = 1 if b.values.choice("keepAxis", ("x", "y")) == "x" else 0
+    fallback = (1, b.counts[1]) if kept_dimension else (b.counts[1], 1)
     counts = _came(b, fallback)
     source = b.source()
     if source is not None and not is_plane(source):
         raise Unfit("its source has one dimension")
-    if counts[kept] != b.counts[1]:
-        raise Unfit(f"its output has {b.counts[1]} samples, where its source has {counts[kept]}")
+    if counts[kept_dimension] != b.counts[1]:
+        raise Unfit(f"its output has {b.counts[1]} samples, where its source has {counts[kept_dimension]}")
     came = b.of(counts)
-    places = [dims[1] if d == kept else None for d, axis in enumerate(came) if axis is not None]
-    return _projected(b, came, dims, places, how)
+    places = [dims[1] if d == kept_dimension else None for d, axis in enumerate(came) if axis is not None]
+    return _projected(b, came, dims, places, reduction)
 
 
 def expand(b: StoredElement) -> Piece:
@@ -131,9 +131,9 @@ def _weights(b: StoredElement, came: Dims, dims: Dims, weights: np.ndarray) -> P
     )
 
 
-def _projected(b: StoredElement, came: Dims, dims: Dims, places: list[Axis | None], how: str) -> Piece:
+def _projected(b: StoredElement, came: Dims, dims: Dims, places: list[Axis | None], reduction: str) -> Piece:
     return Piece(
-        [projection(b.label, axes(came), dims, places, how)],
+        [projection(b.label, axes(came), dims, places, reduction)],
         [[Inlet(b.label, came, whole=True)]],
         {"output": Outlet(b.label, dims)},
         needs=1,

@@ -69,20 +69,20 @@ def gauss_stimulus_2d(b: StoredElement) -> Piece:
     def pattern() -> np.ndarray:
         return (amplitude / (total if normalized else 1.0) * np.outer(*factors())).reshape(-1)
 
-    b.start, own = pattern, axes(dims)
-    if not own:
-        return _stimulus(b, dims, Boost(b.label, own, float(pattern()[0])))
-    if len(own) < 2 or not all(side.whole for side in sides):
+    b.start, stimulus_axes = pattern, axes(dims)
+    if not stimulus_axes:
+        return _stimulus(b, dims, Boost(b.label, stimulus_axes, float(pattern()[0])))
+    if len(stimulus_axes) < 2 or not all(side.whole for side in sides):
         b.budget.take(math.prod(b.counts))
-        return _stimulus(b, dims, Pattern(b.label, own, pattern().reshape(shape(own))))
+        return _stimulus(b, dims, Pattern(b.label, stimulus_axes, pattern().reshape(shape(stimulus_axes))))
     bell = GaussianStimulus(
         b.label,
-        own,
+        stimulus_axes,
         center=[side.position / side.step for side in sides],
         sigma=[width / side.step for side in sides],
         amplitude=amplitude,
         normalized=normalized,
-        boundary=boundary(own, circular),
+        boundary=boundary(stimulus_axes, circular),
     )
     return _stimulus(b, dims, bell)
 
@@ -134,13 +134,13 @@ def _side(b: StoredElement, letter: str, circular: bool) -> Side:
 
 
 def _position(b: StoredElement, name: str, extent: str, default: float) -> float:
-    value = b.values.number(name, default)
+    place = b.values.number(name, default)
     longest = number(b.element.values.get(extent, 1.0)) or 1.0
-    if name in b.element.values and not 0 <= value < longest:
+    if name in b.element.values and not 0 <= place < longest:
         b.values.say(
-            name, "approximated", f"{value:g} is outside 0..{longest:g}, where dnf-composer refuses the file"
+            name, "approximated", f"{place:g} is outside 0..{longest:g}, where dnf-composer refuses the file"
         )
-    return value
+    return place
 
 
 def _stimulus(b: StoredElement, dims: Dims, element: GaussianStimulus | Pattern | Boost) -> Piece:
@@ -157,10 +157,10 @@ def _stimulus(b: StoredElement, dims: Dims, element: GaussianStimulus | Pattern 
     )
 
 
-def boundary(own: tuple[Axis, ...], circular: bool) -> list[str] | None:
+def boundary(stimulus_axes: tuple[Axis, ...], circular: bool) -> list[str] | None:
     """Return boundaries that differ from those of the axes, else None."""
-    ends = ["periodic" if circular else "zero"] * len(own)
-    return None if ends == ["periodic" if a.periodic else "zero" for a in own] else ends
+    ends = ["periodic" if circular else "zero"] * len(stimulus_axes)
+    return None if ends == ["periodic" if a.periodic else "zero" for a in stimulus_axes] else ends
 
 
 def _windows(b: StoredElement) -> list[Window]:
@@ -172,8 +172,8 @@ def _windows(b: StoredElement) -> list[Window]:
     periods = [(a, z) for a, z in b.values.rows("onTimes", 2)]
     if periods and b.values.lines["onTimes"].verdict == "carried":
         b.values.say("onTimes", "carried", "moved by one step, since dnf-composer counts the time first")
-    found = [Window((a - 1) * b.step, z * b.step) for a, z in spans(periods, b.step)]
-    return found or [_never()]
+    windows = [Window((a - 1) * b.step, z * b.step) for a, z in spans(periods, b.step)]
+    return windows or [_never()]
 
 
 def _never() -> Window:
