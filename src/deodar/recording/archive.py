@@ -50,16 +50,16 @@ class ArchiveWriter:
         self._file = io.BytesIO()
         self._zip = zipfile.ZipFile(self._file, "w", zipfile.ZIP_STORED)
 
-    def add(self, name: str, data: xarray.Dataset) -> None:
+    def add(self, name: str, record: xarray.Dataset) -> None:
         """Add a record as the group `name`."""
-        stored = portable.pack(data, narrow=False)
+        stored = portable.pack(record, narrow=False)
         names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
         members: JsonObject = {}
         for new, variable in stored.variables.items():
-            old = data.variables[names.get(str(new), str(new))]
+            old = record.variables[names.get(str(new), str(new))]
             whole = old if portable.large(old) else variable
-            about = _array(variable)
-            array, members[str(new)] = ChunkedArray(Path(str(new)), about), about
+            metadata = _array(variable)
+            array, members[str(new)] = ChunkedArray(Path(str(new)), metadata), metadata
             values = np.asarray(whole.values)
             for place in itertools.product(*(range(math.ceil(n / c)) for n, c in _grid(array))):
                 chunk = array.empty()
@@ -67,7 +67,7 @@ class ArchiveWriter:
                 part = values[outer]
                 chunk[tuple(slice(n) for n in part.shape)] = part
                 self._store("/".join([name, str(new), "c", *map(str, place)]), array.encode(chunk))
-            self._store(f"{name}/{new}/{META}", codec.line(about).encode())
+            self._store(f"{name}/{new}/{META}", codec.line(metadata).encode())
         inline: JsonObject = {"kind": "inline", "must_understand": False, "metadata": members}
         self._store(f"{name}/{META}", _group(dict(stored.attrs), inline))
 
@@ -118,7 +118,7 @@ class Archive:
         try:
             group = codec.parse(self._zip.read(f"{name}/{META}"))
             members: Mapping[str, Any] = group["consolidated_metadata"]["metadata"]
-            variables = {new: self._variable(name, new, about) for new, about in members.items()}
+            variables = {new: self._variable(name, new, metadata) for new, metadata in members.items()}
             return portable.unpack(xarray.Dataset(variables, attrs=group["attributes"]))
         except Exception as error:  # libraries that read untrusted bytes may raise any exception
             raise self._damaged(error, name) from None
@@ -137,8 +137,8 @@ class Archive:
         self._zip.close()
         self._file.close()
 
-    def _variable(self, name: str, new: str, about: Mapping[str, Any]) -> xarray.Variable:
-        array = ChunkedArray(Path(new), about)
+    def _variable(self, name: str, new: str, metadata: Mapping[str, Any]) -> xarray.Variable:
+        array = ChunkedArray(Path(new), metadata)
         values, chunk = np.empty(array.shape, array.dtype.newbyteorder("=")), array.empty()
         for place in itertools.product(*(range(math.ceil(n / c)) for n, c in _grid(array))):
             content = self._zip.read("/".join([name, new, "c", *map(str, place)]))
@@ -149,13 +149,13 @@ class Archive:
             outer = (slice(k * c, (k + 1) * c) for k, c in zip(place, array.chunks, strict=True))
             part = values[(*outer, ...)]  # a view, also of an array without axes
             part[...] = chunk[tuple(slice(n) for n in part.shape)]
-        return xarray.Variable(about["dimension_names"], values, about["attributes"])
+        return xarray.Variable(metadata["dimension_names"], values, metadata["attributes"])
 
     def _damaged(self, error: Exception, name: str = "") -> RecordError:
         text = " ".join(str(error).split())[:200]
-        what = f"the record {name} of it cannot be read" if name else "cannot be read as a file of records"
+        fault = f"the record {name} of it cannot be read" if name else "cannot be read as a file of records"
         return RecordError(
-            f"{what}, it may be damaged ({type(error).__name__}: {text})",
+            f"{fault}, it may be damaged ({type(error).__name__}: {text})",
             where=self.where,
             fix="Take another copy, or run its trials again",
         )
@@ -191,5 +191,5 @@ def _array(variable: xarray.Variable) -> JsonObject:
 
 
 def _group(attributes: JsonObject, inline: JsonObject | None = None) -> bytes:
-    about: JsonObject = {"zarr_format": 3, "node_type": "group", "attributes": attributes}
-    return codec.line(about | ({} if inline is None else {"consolidated_metadata": inline})).encode()
+    metadata: JsonObject = {"zarr_format": 3, "node_type": "group", "attributes": attributes}
+    return codec.line(metadata | ({} if inline is None else {"consolidated_metadata": inline})).encode()

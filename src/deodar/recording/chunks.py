@@ -58,15 +58,15 @@ class ChunkedArray:
         RecordError: its chunks are encoded in a way that this version does not know.
     """
 
-    def __init__(self, folder: Path, about: Mapping[str, Any]) -> None:
+    def __init__(self, folder: Path, metadata: Mapping[str, Any]) -> None:
         self.folder, self.name = folder, folder.name
-        self.shape = tuple(map(int, about["shape"]))
-        self.chunks = tuple(map(int, about["chunk_grid"]["configuration"]["chunk_shape"]))
-        self.dtype = np.dtype(str(about["data_type"])).newbyteorder("<")
-        self.fill = math.nan if about["fill_value"] == "NaN" else about["fill_value"]
+        self.shape = tuple(map(int, metadata["shape"]))
+        self.chunks = tuple(map(int, metadata["chunk_grid"]["configuration"]["chunk_shape"]))
+        self.dtype = np.dtype(str(metadata["data_type"])).newbyteorder("<")
+        self.fill = math.nan if metadata["fill_value"] == "NaN" else metadata["fill_value"]
         key, named = (
-            about["chunk_key_encoding"],
-            [(c["name"], c.get("configuration", {})) for c in about["codecs"]],
+            metadata["chunk_key_encoding"],
+            [(c["name"], c.get("configuration", {})) for c in metadata["codecs"]],
         )
         names = [name for name, _ in named]
         self._checked = names[-1] == "crc32c"
@@ -118,10 +118,10 @@ class ChunkedArray:
         Raises:
             ChunkError: a chunk is damaged.
         """
-        found = np.empty(shape, self.dtype)
+        block = np.empty(shape, self.dtype)
         for place, inner, outer in self._parts(start, shape):
-            found[*outer] = self.read(place)[*inner]
-        return found
+            block[*outer] = self.read(place)[*inner]
+        return block
 
     def _parts(self, start: Sequence[int], shape: Sequence[int]) -> Iterator[tuple[ChunkIndex, Slab, Slab]]:
         """Yield the chunks of a block, with the part of each chunk and where it is in the block."""
@@ -167,14 +167,14 @@ class ChunkedArray:
         Raises:
             ChunkError: it is damaged.
         """
-        found = self.empty() if room is None else room
+        chunk = self.empty() if room is None else room
         try:
             content: Any = np.frombuffer(self.path(place).read_bytes(), np.uint8)
         except FileNotFoundError:
-            found.fill(self.fill)
-            return found
-        self.decode(content, found)
-        return found
+            chunk.fill(self.fill)
+            return chunk
+        self.decode(content, chunk)
+        return chunk
 
     def encode(self, values: np.ndarray) -> bytes:
         """Return the content of the file of a chunk."""

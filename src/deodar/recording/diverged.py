@@ -16,25 +16,25 @@ attribute that counts them.
 
 
 def marked(
-    data: xarray.Dataset, dimensions: Sequence[str], reasons: Mapping[tuple[int, ...], str]
+    record: xarray.Dataset, dimensions: Sequence[str], reasons: Mapping[tuple[int, ...], str]
 ) -> xarray.Dataset:
     """Return the record with all values of the copies that diverged set to NaN.
 
     All, from the start, because reductions such as `max` skip single missing values.
 
     Args:
-        data: the record.
+        record: the record.
         dimensions: the dimensions of the copies.
         reasons: for the index of a copy along these dimensions, why it diverged.
     """
     if not reasons:
-        return data
-    texts = np.full([data.sizes[d] for d in dimensions], "", object)
+        return record
+    texts = np.full([record.sizes[d] for d in dimensions], "", object)
     for place, reason in reasons.items():
         texts[place] = reason
-        for variable in data.data_vars.values():  # their first dimensions are those of the copies
+        for variable in record.data_vars.values():  # their first dimensions are those of the copies
             variable.values[place] = np.nan
-    return counted(data.assign_coords({_name(data): (list(dimensions), texts.astype(str))}))
+    return counted(record.assign_coords({_name(record): (list(dimensions), texts.astype(str))}))
 
 
 def coordinate(sizes: Mapping[str, int], reasons: Mapping[tuple[int, ...], str]) -> xarray.Dataset:
@@ -47,34 +47,34 @@ def coordinate(sizes: Mapping[str, int], reasons: Mapping[tuple[int, ...], str])
     texts = np.full(list(sizes.values()), "", object)
     for place, reason in reasons.items():
         texts[place] = reason
-    data = xarray.Dataset(coords={d: np.arange(n) for d, n in sizes.items()})
-    return counted(data.assign_coords({_name(data): (list(sizes), texts.astype(str))}))
+    empty = xarray.Dataset(coords={d: np.arange(n) for d, n in sizes.items()})
+    return counted(empty.assign_coords({_name(empty): (list(sizes), texts.astype(str))}))
 
 
 def alike(records: Sequence[xarray.Dataset], dimensions: Sequence[str]) -> list[xarray.Dataset]:
     """Return records that all have the coordinate, if any has it."""
-    if not any(_name(data) in data.coords for data in records):
+    if not any(_name(record) in record.coords for record in records):
         return list(records)
 
-    def blank(data: xarray.Dataset) -> xarray.Dataset:
-        return data.assign_coords(
-            {_name(data): (list(dimensions), np.full([data.sizes[d] for d in dimensions], "", "<U1"))}
+    def blank(record: xarray.Dataset) -> xarray.Dataset:
+        return record.assign_coords(
+            {_name(record): (list(dimensions), np.full([record.sizes[d] for d in dimensions], "", "<U1"))}
         )
 
-    return [data if _name(data) in data.coords else blank(data) for data in records]
+    return [record if _name(record) in record.coords else blank(record) for record in records]
 
 
-def counted(data: xarray.Dataset) -> xarray.Dataset:
+def counted(record: xarray.Dataset) -> xarray.Dataset:
     """Return the record with an attribute that counts its diverged copies in a sentence, if any."""
-    name = _name(data)
-    if name not in data.coords:
-        return data
-    texts = np.ravel(data[name].values).tolist()
+    name = _name(record)
+    if name not in record.coords:
+        return record
+    texts = np.ravel(record[name].values).tolist()
     bad = [text for text in texts if text]
     where = f"the coordinate {name!r} gives the reasons, the first is: {bad[0]}"
-    return data.assign_attrs({REASON: f"{len(bad)} of {len(texts)} copies are NaN; {where}"})
+    return record.assign_attrs({REASON: f"{len(bad)} of {len(texts)} copies are NaN; {where}"})
 
 
-def _name(data: xarray.Dataset) -> str:
+def _name(record: xarray.Dataset) -> str:
     # a swept document parameter may have that name
-    return REASON if REASON not in data.sizes else f"{REASON}.reason"
+    return REASON if REASON not in record.sizes else f"{REASON}.reason"

@@ -73,14 +73,14 @@ def format_of(path: Path, format: str | None = None) -> str:
         if format not in SUFFIXES:
             raise RecordError(f"there is no format {format!r}", fix=did_you_mean(format, SUFFIXES))
         return format
-    found = [kind for kind, suffix in SUFFIXES.items() if path.suffix.lower() == suffix]
-    if not found:
+    kinds = [kind for kind, suffix in SUFFIXES.items() if path.suffix.lower() == suffix]
+    if not kinds:
         raise RecordError(
             f"the name ends in {path.suffix or 'nothing'!r}, which names no format",
             where=str(path),
             fix="End it in .zarr, .nc or .csv",
         )
-    return found[0]
+    return kinds[0]
 
 
 def claim(path: Path, format: str, force: bool = False) -> None:
@@ -102,20 +102,20 @@ def load_record(path: str | Path) -> xarray.Dataset:
         RecordError: the record does not exist, is damaged, or was not written by deodar.
         TooLarge: the record does not fit into memory.
     """
-    with _reading(path := Path(path)), _opened(*locate(path)) as data:
-        need, free = data.nbytes, psutil.virtual_memory().available
+    with _reading(path := Path(path)), _opened(*locate(path)) as stored:
+        need, free = stored.nbytes, psutil.virtual_memory().available
         if need > SHARE * free:
             raise TooLarge(
                 f"needs {need / 2**30:,.1f} GiB of memory and {free / 2**30:,.1f} GiB are free",
                 fix="Open it with dd.open_record, which reads only what is used",
             )
-        _require_record(data)
+        _require_record(stored)
         try:
-            whole = data.load()
+            whole = stored.load()
         except (MemoryError, OSError):
             raise
         except Exception:  # libraries that read untrusted bytes may raise any exception
-            whole = sound.readable(data).load()
+            whole = sound.readable(stored).load()
         return portable.unpack(whole)
 
 
@@ -133,9 +133,9 @@ def open_record(path: str | Path) -> xarray.Dataset:
     """
     with _reading(path := Path(path)):
         place, kind = locate(path)
-        data = portable.unpack_lazily(_require_record(_opened(place, kind)))
-        data.encoding["source"] = str(place)
-        return data
+        record = portable.unpack_lazily(_require_record(_opened(place, kind)))
+        record.encoding["source"] = str(place)
+        return record
 
 
 @contextlib.contextmanager
@@ -155,10 +155,10 @@ def _reading(path: Path) -> Generator[None]:
         ) from None
 
 
-def _require_record(data: xarray.Dataset) -> xarray.Dataset:
-    if KEY not in data.attrs and portable.KEY not in data.attrs:
+def _require_record(record: xarray.Dataset) -> xarray.Dataset:
+    if KEY not in record.attrs and portable.KEY not in record.attrs:
         raise RecordError("is not a record of deodar: it does not state the model that made it")
-    return data
+    return record
 
 
 def locate(path: Path) -> tuple[Path, str]:
@@ -166,10 +166,12 @@ def locate(path: Path) -> tuple[Path, str]:
     try:
         mode = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError):
-        near = (
+        suggestion = (
             did_you_mean(path.name, [p.name for p in path.parent.iterdir()]) if path.parent.is_dir() else ""
         )
-        raise RecordError("there is no such record", fix=near if near.startswith("Did") else "") from None
+        raise RecordError(
+            "there is no such record", fix=suggestion if suggestion.startswith("Did") else ""
+        ) from None
     except (OSError, ValueError) as error:
         raise RecordError(f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
     if stat.S_ISDIR(mode):
@@ -228,24 +230,24 @@ def is_zarr(path: Path) -> bool:
 # ---------------------------------------------------------------------------------------------------- formats
 
 
-def _write_zarr(data: xarray.Dataset, path: Path) -> None:
+def _write_zarr(record: xarray.Dataset, path: Path) -> None:
     with warnings.catch_warnings():
         # other programs open a record at once, and without a warning, if its metadata are in one file
         warnings.filterwarnings("ignore", message="Consolidated metadata")
-        stored = portable.pack(data, narrow=False)
+        stored = portable.pack(record, narrow=False)
         names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
         encoding: dict[Any, Any] = {name: {"chunks": shape} for name, shape in _frame_chunks(stored).items()}
         large = {
             str(name): old
             for name in stored.variables
-            if portable.large(old := data.variables[names.get(str(name), str(name))])
+            if portable.large(old := record.variables[names.get(str(name), str(name))])
         }
         for name in large:
             encoding.setdefault(name, {})["compressors"] = COMPRESSORS
         stored.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=encoding)
     for name, variable in large.items():
-        about = codec.parse((path / name / "zarr.json").read_text(encoding="utf-8"))
-        array = ChunkedArray(path / name, about)
+        metadata = codec.parse((path / name / "zarr.json").read_text(encoding="utf-8"))
+        array = ChunkedArray(path / name, metadata)
         for slab in slabs(variable.shape, portable.BLOCK):
             array.store([part.start for part in slab], variable[slab].values)
 
@@ -253,30 +255,30 @@ def _write_zarr(data: xarray.Dataset, path: Path) -> None:
 def _frame_chunks(stored: xarray.Dataset) -> dict[Any, tuple[int, ...]]:
     """Return chunks of whole frames of one copy, so that one moment of a long record is read at once."""
     names = codec.parse(stored.attrs[portable.KEY])["names"]
-    found: dict[Any, tuple[int, ...]] = {}
+    chunks: dict[Any, tuple[int, ...]] = {}
     for name, variable in stored.data_vars.items():
         dims = [names.get(str(d), str(d)) for d in variable.dims]
         time = time_dimension(xarray.DataArray(np.empty((0,) * len(dims)), dims=dims))
         if time is not None and variable.size:
             lead = dict.fromkeys(dims[: dims.index(time)], 1)
-            wanted = growing.frame_chunks(variable, dims, time, lead)
-            found[name] = tuple(min(n, c) for n, c in zip(variable.shape, wanted, strict=True))
-    return found
+            frames = growing.frame_chunks(variable, dims, time, lead)
+            chunks[name] = tuple(min(n, c) for n, c in zip(variable.shape, frames, strict=True))
+    return chunks
 
 
-def _write_netcdf(data: xarray.Dataset, path: Path) -> None:
-    for name, variable in data.variables.items():
+def _write_netcdf(record: xarray.Dataset, path: Path) -> None:
+    for name, variable in record.variables.items():
         if variable.nbytes > netcdf.LARGEST:
             raise RecordError(
                 f"needs {variable.nbytes / 2**30:.1f} GiB; NetCDF 3 holds 4",
                 where=str(name),
                 fix="Save it as .zarr",
             )
-    stored = portable.pack(data, narrow=True)
+    stored = portable.pack(record, narrow=True)
     names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
 
     def reader(new: str) -> netcdf.ReadSlab:
-        old = data.variables[names.get(new, new)]
+        old = record.variables[names.get(new, new)]
         whole = old if portable.large(old) else stored.variables[new]
         return lambda slab: whole[slab].values
 
@@ -289,5 +291,5 @@ def _opened(path: Path, kind: str) -> xarray.Dataset:
     # the metadata of the group commit a record that grows; records of earlier versions may lack them
     group = codec.parse((path / "zarr.json").read_text(encoding="utf-8"))
     members = group.get("consolidated_metadata", {}).get("metadata")
-    data = xarray.open_zarr(path, zarr_format=3, consolidated=bool(members), decode_cf=False, chunks=None)
-    return sound.present(lazy.lazily(data, path, members or {}), path)
+    stored = xarray.open_zarr(path, zarr_format=3, consolidated=bool(members), decode_cf=False, chunks=None)
+    return sound.present(lazy.lazily(stored, path, members or {}), path)

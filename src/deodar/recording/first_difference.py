@@ -70,24 +70,24 @@ def first_differences(
     """
     places = common_ports(one, other)
     copies = _copies(one)
-    found: dict[PortPlace, FirstDifference] = {}
+    differences: dict[PortPlace, FirstDifference] = {}
     total = len(places) * len(copies)
     for done, (place, copy) in enumerate(itertools.product(places, copies)):
         times = one.sample_times(place)
         count = max(1, len(times))
         for first, last in one.chunks(place):
-            before = found.get(place)
+            before = differences.get(place)
             if before is not None and times[first] >= before.time:
                 break
             difference = _within(one, other, place, copy, (first, last))
             if difference is not None and (before is None or difference.time < before.time):
-                found[place] = difference
+                differences[place] = difference
             if not progress((done + last / count) / total):
                 return []
             if difference is not None:
                 break
     progress(1.0)
-    return sorted(found.values(), key=lambda d: (d.time, d.path))
+    return sorted(differences.values(), key=lambda d: (d.time, d.path))
 
 
 def _copies(record: RecordReader) -> Sequence[Copy]:

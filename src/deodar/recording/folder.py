@@ -110,8 +110,8 @@ def convert(path: Path, format: str) -> Path:
         OutputError: the system refused; the Zarr folder is still there.
         RecordError: the format cannot hold the record; the same.
     """
-    data = files.load_record(path / record_name("zarr"))
-    new = files.save_record(data, path / record_name(format), format)
+    record = files.load_record(path / record_name("zarr"))
+    new = files.save_record(record, path / record_name(format), format)
     places.clear(path / record_name("zarr"))
     return new
 
@@ -120,9 +120,9 @@ def _drop_others(path: Path, format: str) -> None:
     """Remove the replaced run's record in another format: it does not belong to the new model in the
     folder.
     """
-    for other in files.SUFFIXES:
-        old = path / record_name(other)
-        if other == format or old.is_symlink():
+    for kind in files.SUFFIXES:
+        old = path / record_name(kind)
+        if kind == format or old.is_symlink():
             continue
         if old.is_dir() and files.is_zarr(old):
             shutil.rmtree(old)

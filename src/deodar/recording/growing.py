@@ -75,8 +75,10 @@ class _Samples(NamedTuple):
 class _Tail:
     """The last chunks of an array in one region, as far as they are known."""
 
-    def __init__(self, array: ChunkedArray, axis: int, region: Region, known: Callable[[], int]) -> None:
-        self.array, self.axis, self.known = array, axis, known
+    def __init__(
+        self, array: ChunkedArray, axis: int, region: Region, samples_known: Callable[[], int]
+    ) -> None:
+        self.array, self.axis, self.samples_known = array, axis, samples_known
         self.frames = array.chunks[axis]
         self.start = -1
         bounds = [part.indices(n)[:2] for part, n in zip(region, array.shape, strict=False)]
@@ -125,13 +127,13 @@ class _Tail:
         if not self.values.size:
             self.values = np.empty(self.shape, self.array.dtype)
         self.values.fill(self.array.fill)
-        there = min(self.known(), chunk + self.frames) - chunk
-        if there > 0:
+        stored = min(self.samples_known(), chunk + self.frames) - chunk
+        if stored > 0:
             lead = (slice(None),) * self.axis
             start = [*self.lead, chunk, *[0] * (len(self.shape) - self.axis - 1)]
-            shape = [*self.shape[: self.axis], there, *self.shape[self.axis + 1 :]]
+            shape = [*self.shape[: self.axis], stored, *self.shape[self.axis + 1 :]]
             try:
-                self.values[*lead, :there] = self.array.load(start, shape)
+                self.values[*lead, :stored] = self.array.load(start, shape)
             except ChunkError as error:
                 raise self._damaged(chunk, error) from None
 
@@ -205,7 +207,7 @@ class GrowingRecord:
                 if settings is not None:
                     self._settle(settings)
                     if cut:
-                        self.known = dict(self.lengths)
+                        self.sample_counts = dict(self.lengths)
                     self._commit(self.lengths)
         except BaseException:
             self._unlock()
@@ -218,7 +220,7 @@ class GrowingRecord:
         self._changed = threading.Condition()
         self._closing = False
         # commits that were asked for, and those that are in the file
-        self._asked = self._committed = 0
+        self._requested = self._committed = 0
         self._error: BaseException | None = None
         self._thread = threading.Thread(target=self._loop, name="deodar-record", daemon=True)
         self._thread.start()
@@ -233,14 +235,14 @@ class GrowingRecord:
         self._axis: dict[str, int] = {}
         self._dimension: dict[str, str] = {}
         members = self._group["consolidated_metadata"]["metadata"]
-        for name, about in layout["variables"].items():
-            if dimension := about.get("grows"):
+        for name, layout_entry in layout["variables"].items():
+            if dimension := layout_entry.get("grows"):
                 self._arrays[name] = ChunkedArray(path / name, members[name])
                 self._dimension[name] = dimension
                 dims = [layout["names"].get(d, d) for d in members[name]["dimension_names"]]
                 self._axis[name] = dims.index(dimension)
         self.lengths = {dimension: int(lengths.get(dimension, 0)) for dimension in self._dimension.values()}
-        self.known = {
+        self.sample_counts = {
             dimension: int(members[name]["shape"][self._axis[name]])
             for name, dimension in self._dimension.items()
         }
@@ -254,8 +256,8 @@ class GrowingRecord:
 
     def _settle(self, settings: Mapping[str, Any]) -> None:
         """Set entries of the provenance."""
-        about = {**codec.parse(self._group["attributes"][KEY]), **settings}
-        self._group["attributes"][KEY] = codec.line(about)
+        provenance = {**codec.parse(self._group["attributes"][KEY]), **settings}
+        self._group["attributes"][KEY] = codec.line(provenance)
 
     # ---------------------------------------------------------------------------------- in the run's thread
 
@@ -298,7 +300,7 @@ class GrowingRecord:
             OutputError: a sample could not be written.
         """
         with self._changed:
-            self._asked = mine = self._asked + 1
+            self._requested = mine = self._requested + 1
             self._changed.notify_all()
             self._changed.wait_for(lambda: self._committed >= mine or self._error is not None)
             self._require()
@@ -329,7 +331,7 @@ class GrowingRecord:
             with _writing(self.path):
                 self._settle({**(settings or {}), "complete": complete})
                 if complete:  # what an earlier run had written beyond is dropped
-                    self.known = dict(self.lengths)
+                    self.sample_counts = dict(self.lengths)
                 self._resize()
                 if more is not None:
                     self._add(more)
@@ -349,7 +351,7 @@ class GrowingRecord:
                 portable.KEY: codec.line(layout, ascii=True),
             }
             self._group = {**self._group, "attributes": attributes}
-            self._asked += 1
+            self._requested += 1
             self._changed.notify_all()
 
     def abandon(self) -> None:
@@ -368,7 +370,7 @@ class GrowingRecord:
         """
         with _writing(self.path):
             for name, array in self._arrays.items():
-                count = self.known[self._dimension[name]] - first
+                count = self.sample_counts[self._dimension[name]] - first
                 if (axis := self._axis[name]) and count > 0:  # not the times
                     copies = [part.stop - part.start for part in region]
                     shape = [*copies, count, *array.shape[axis + 1 :]]
@@ -381,7 +383,7 @@ class GrowingRecord:
         for name, dimension in self._dimension.items():
             array: Any = zarr.open_array(self.path / name, mode="r+")
             shape = list(array.shape)
-            shape[self._axis[name]] = max(self.lengths[dimension], self.known[dimension])
+            shape[self._axis[name]] = max(self.lengths[dimension], self.sample_counts[dimension])
             array.resize(tuple(shape))
 
     def _update_arrays(self) -> None:
@@ -391,9 +393,9 @@ class GrowingRecord:
             output.replace(self.path / name / "zarr.json", codec.line(member).encode())
         self._updated = time.monotonic()
 
-    def _add(self, more: xarray.Dataset) -> None:
+    def _add(self, extra: xarray.Dataset) -> None:
         """Write further coordinates, and attributes, into the folder and the metadata of the group."""
-        stored = portable.pack(more, narrow=False)
+        stored = portable.pack(extra, narrow=False)
         layout = codec.parse(self._group["attributes"][portable.KEY])
         new = codec.parse(stored.attrs.pop(portable.KEY))
         for name in (str(n) for n in stored.coords if n not in stored.sizes):
@@ -424,15 +426,15 @@ class GrowingRecord:
             with self._changed:
                 self._changed.wait_for(
                     lambda: (
-                        self._closing or self._asked > self._committed or self._bytes > PENDING_BYTES // 2
+                        self._closing or self._requested > self._committed or self._bytes > PENDING_BYTES // 2
                     ),
                     max(0.0, due - time.monotonic()),
                 )
                 due = time.monotonic() + FLUSH_SECONDS  # from here on: writing may take long
                 waiting, self._waiting = self._waiting, []
-                closing, asked, lengths = self._closing, self._asked, dict(self.lengths)
+                closing, requested, lengths = self._closing, self._requested, dict(self.lengths)
             try:
-                if waiting or asked > self._committed:
+                if waiting or requested > self._committed:
                     with _writing(self.path):
                         self._write(waiting, lengths)
             except BaseException as error:
@@ -442,7 +444,7 @@ class GrowingRecord:
                 return
             with self._changed:
                 self._bytes -= sum(a.nbytes for samples in waiting for a in samples.arrays.values())
-                self._committed = asked
+                self._committed = requested
                 self._changed.notify_all()
 
     def _write(self, waiting: Sequence[_Samples], lengths: Mapping[str, int]) -> None:
@@ -468,16 +470,16 @@ class GrowingRecord:
         tail = used.get(key) or self._tails.get(key)
         if tail is None:
             dimension = self._dimension[name]
-            tail = _Tail(self._arrays[name], self._axis[name], region, lambda: self.known[dimension])
+            tail = _Tail(self._arrays[name], self._axis[name], region, lambda: self.sample_counts[dimension])
         used[key] = tail
         return tail
 
     def _commit(self, lengths: Mapping[str, int]) -> None:
         """Replace the metadata of the group, which state the lengths of all arrays."""
         members = self._group["consolidated_metadata"]["metadata"]
-        self.known = {d: max(n, lengths[d]) for d, n in self.known.items()}
+        self.sample_counts = {d: max(n, lengths[d]) for d, n in self.sample_counts.items()}
         for name, dimension in self._dimension.items():
-            members[name]["shape"][self._axis[name]] = self.known[dimension]
+            members[name]["shape"][self._axis[name]] = self.sample_counts[dimension]
         place = self.path / "zarr.json"
         output.write(place, codec.line(self._group).encode(), durable=False)
         self._inode = place.stat().st_ino
@@ -506,9 +508,9 @@ def _create(path: Path, empty: xarray.Dataset, growing: Sequence[str], piece: Ma
     for name in stored.variables:
         dims = [layout["names"].get(str(d), str(d)) for d in stored[name].dims]
         for dimension in set(dims) & set(growing):
-            about = layout["variables"][name]
-            about.pop("sha256")
-            about["grows"] = dimension
+            entry = layout["variables"][name]
+            entry.pop("sha256")
+            entry["grows"] = dimension
             encoding[name] = {
                 "chunks": frame_chunks(stored[name], dims, dimension, piece),
                 "compressors": COMPRESSORS,

@@ -56,16 +56,16 @@ class LazyArray(BackendArray):
 
     def _selected(self, key: tuple[Any, ...]) -> np.ndarray:
         """Return the values of an outer index: a number, slice or array of numbers for each axis."""
-        wanted = [np.arange(n)[k] for k, n in zip(key, self.shape, strict=True)]
-        axes = [_parts(np.atleast_1d(w), c) for w, c in zip(wanted, self.array.chunks, strict=True)]
-        found = np.empty([np.size(w) for w in wanted], self.dtype)
+        indices = [np.arange(n)[k] for k, n in zip(key, self.shape, strict=True)]
+        axes = [_parts(np.atleast_1d(w), c) for w, c in zip(indices, self.array.chunks, strict=True)]
+        selected = np.empty([np.size(w) for w in indices], self.dtype)
         rooms = threading.local()
 
         def take(parts: tuple[_Part, ...]) -> None:
             if not hasattr(rooms, "chunk"):
                 rooms.chunk = self.array.empty()
             chunk = self.array.read(tuple(part.chunk for part in parts), rooms.chunk)
-            found[tuple(part.outer for part in parts)] = chunk[np.ix_(*(part.inner for part in parts))]
+            selected[tuple(part.outer for part in parts)] = chunk[np.ix_(*(part.inner for part in parts))]
 
         places = list(itertools.product(*axes))
         threads = min(THREADS, os.cpu_count() or 1)
@@ -75,17 +75,17 @@ class LazyArray(BackendArray):
         else:
             with ThreadPoolExecutor(threads) as pool:
                 list(pool.map(take, places, chunksize=16))
-        return found.reshape([n for w in wanted for n in w.shape])
+        return selected.reshape([n for w in indices for n in w.shape])
 
 
-def _parts(wanted: np.ndarray, size: int) -> list[_Part]:
+def _parts(places: np.ndarray, size: int) -> list[_Part]:
     """Return the chunks of this size that contain the wanted places, in their order."""
-    if not wanted.size:
+    if not places.size:
         return []
-    chunks = wanted // size
-    starts = [0, *(np.flatnonzero(np.diff(chunks)) + 1).tolist(), len(wanted)]
+    chunks = places // size
+    starts = [0, *(np.flatnonzero(np.diff(chunks)) + 1).tolist(), len(places)]
     return [
-        _Part(int(chunks[a]), wanted[a:b] - chunks[a] * size, slice(a, b))
+        _Part(int(chunks[a]), places[a:b] - chunks[a] * size, slice(a, b))
         for a, b in itertools.pairwise(starts)
     ]
 
@@ -100,11 +100,11 @@ def lazily(data: xarray.Dataset, path: Path, members: Mapping[str, Any]) -> xarr
     """
     new: dict[str, xarray.Variable] = {}
     for name in data.data_vars:
-        variable, about = data.variables[name], members.get(str(name))
-        if about is None or not variable.size:
+        variable, metadata = data.variables[name], members.get(str(name))
+        if metadata is None or not variable.size:
             continue
         try:
-            array = ChunkedArray(path / str(name), about)
+            array = ChunkedArray(path / str(name), metadata)
         except (RecordError, TypeError, KeyError):
             continue  # an array of texts, or of another program: Zarr reads it
         if array.chunks != variable.shape:

@@ -102,16 +102,16 @@ def _many(tag: int, items: list[bytes]) -> bytes:
 
 
 def _name(text: str) -> bytes:
-    data = text.encode()
-    return _int(len(data)) + _fill(data)
+    encoded = text.encode()
+    return _int(len(encoded)) + _fill(encoded)
 
 
-def _int(value: int) -> bytes:
-    return struct.pack(">i", value)
+def _int(number: int) -> bytes:
+    return struct.pack(">i", number)
 
 
-def _fill(data: bytes) -> bytes:
-    return data + bytes(_padded(len(data)) - len(data))
+def _fill(content: bytes) -> bytes:
+    return content + bytes(_padded(len(content)) - len(content))
 
 
 def _padded(size: int) -> int:

@@ -76,9 +76,9 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
                 old.rename(path)
             raise
     except OutputError as error:
-        here = str(beside / "new") if beside is not None else str(path)
+        unfinished = str(beside / "new") if beside is not None else str(path)
         raise type(error)(
-            [Problem(p.where.replace(here, str(path)), p.what, p.fix) for p in error.problems]
+            [Problem(p.where.replace(unfinished, str(path)), p.what, p.fix) for p in error.problems]
         ) from None
     except OSError as error:
         raise output.failed(path, error) from None

@@ -55,42 +55,42 @@ BLOCK = 2**22
 """Number of values of a block."""
 
 
-def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
+def pack(record: xarray.Dataset, narrow: bool) -> xarray.Dataset:
     """Return a Dataset that a file can store.
 
     With `narrow`, of 8, 16 and 32 bit integers and floats only, as in NetCDF 3. The values of large arrays of
     floats are left out (`large`): they are zeros, without memory.
     """
-    names = _names([*data.variables, *data.dims])
-    kept: dict[str, Any] = {
+    names = _names([*record.variables, *record.dims])
+    layout: dict[str, Any] = {
         "version": VERSION,
         "names": {new: str(old) for old, new in names.items() if new != old},
         "variables": {},
     }
-    empty = [str(names[d]) for d, n in data.sizes.items() if n == 0] if narrow else []
+    empty = [str(names[d]) for d, n in record.sizes.items() if n == 0] if narrow else []
     if empty:
-        kept["empty"] = empty
+        layout["empty"] = empty
     variables: dict[str, Any] = {}
-    for name, variable in data.variables.items():
+    for name, variable in record.variables.items():
         if not empty and large(variable):
             zero = np.zeros((), variable.dtype)
-            array, about = np.broadcast_to(zero, variable.shape), _described(variable)
+            array, description = np.broadcast_to(zero, variable.shape), _described(variable)
         else:
-            array, about = _stored(str(name), np.asarray(variable.values), narrow)
+            array, description = _stored(str(name), np.asarray(variable.values), narrow)
         attributes = _plain(variable.attrs)
-        kept["variables"][names[name]] = about | {"attributes": attributes}
+        layout["variables"][names[name]] = description | {"attributes": attributes}
         if empty:
             array = np.pad(array, [(0, int(n == 0)) for n in array.shape])
         dims = [names[d] for d in variable.dims]
         variables[names[name]] = xarray.Variable(
             dims, array, {k: v for k, v in attributes.items() if _simple(v)}
         )
-    attributes = _plain(data.attrs)
-    shown = {k: v for k, v in attributes.items() if isinstance(v, str)}
-    kept["attributes"] = {k: None if k in shown else v for k, v in attributes.items()}
-    kept["coords"] = [names[n] for n in data.coords]
-    coords = {names[n]: variables.pop(names[n]) for n in data.coords}
-    return xarray.Dataset(variables, coords, shown | {KEY: codec.line(kept, ascii=True)})
+    attributes = _plain(record.attrs)
+    texts = {k: v for k, v in attributes.items() if isinstance(v, str)}
+    layout["attributes"] = {k: None if k in texts else v for k, v in attributes.items()}
+    layout["coords"] = [names[n] for n in record.coords]
+    coords = {names[n]: variables.pop(names[n]) for n in record.coords}
+    return xarray.Dataset(variables, coords, texts | {KEY: codec.line(layout, ascii=True)})
 
 
 def large(variable: xarray.Variable) -> bool:
@@ -107,26 +107,26 @@ def unpack(stored: xarray.Dataset) -> xarray.Dataset:
     text = stored.attrs.get(KEY)
     if text is None:
         return stored
-    kept = _layout(text)
-    names: Mapping[str, str] = kept["names"]
-    if set(kept["variables"]) != set(map(str, stored.variables)):
+    layout = _layout(text)
+    names: Mapping[str, str] = layout["names"]
+    if set(layout["variables"]) != set(map(str, stored.variables)):
         raise RecordError(
-            f"is damaged: of its arrays, {_listed(set(kept['variables']) ^ set(map(str, stored.variables)))}"
-            " are missing or too many"
+            "is damaged: of its arrays,"
+            f" {_listed(set(layout['variables']) ^ set(map(str, stored.variables)))} are missing or too many"
         )
-    stored = stored.isel({d: slice(0, 0) for d in kept.get("empty", ())})
+    stored = stored.isel({d: slice(0, 0) for d in layout.get("empty", ())})
     variables: dict[str, Any] = {}
-    for name, about in kept["variables"].items():
+    for name, description in layout["variables"].items():
         variable = stored.variables[name]
-        array = _restored(names.get(name, name), np.asarray(variable.values), about)
+        array = _restored(names.get(name, name), np.asarray(variable.values), description)
         variables[names.get(name, name)] = (
             [names.get(str(d), str(d)) for d in variable.dims],
             array,
-            about["attributes"],
+            description["attributes"],
         )
-    coords = {n: variables.pop(n) for n in [names.get(c, c) for c in kept["coords"]]}
+    coords = {n: variables.pop(n) for n in [names.get(c, c) for c in layout["coords"]]}
     attributes = {
-        k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in kept["attributes"].items()
+        k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in layout["attributes"].items()
     }
     return xarray.Dataset(variables, coords, attributes)
 
@@ -139,47 +139,49 @@ def unpack_lazily(stored: xarray.Dataset) -> xarray.Dataset:
     text = stored.attrs.get(KEY)
     if text is None:
         return stored
-    kept = _layout(text)
-    names: Mapping[str, str] = kept["names"]
-    stored = stored.isel({d: slice(0, 0) for d in kept.get("empty", ())})
+    layout = _layout(text)
+    names: Mapping[str, str] = layout["names"]
+    stored = stored.isel({d: slice(0, 0) for d in layout.get("empty", ())})
     whole = [
         name
-        for name, about in kept["variables"].items()
-        if name in kept["coords"] or "labels" in about or str(stored[name].dtype) != about["type"]
+        for name, description in layout["variables"].items()
+        if name in layout["coords"]
+        or "labels" in description
+        or str(stored[name].dtype) != description["type"]
     ]
     for name in whole:
-        about = kept["variables"][name]
-        values = _restored(names.get(name, name), np.asarray(stored[name].values), about)
+        description = layout["variables"][name]
+        values = _restored(names.get(name, name), np.asarray(stored[name].values), description)
         stored = stored.assign({name: (stored[name].dims, values)})
-    stored = stored.set_coords(kept["coords"])
+    stored = stored.set_coords(layout["coords"])
     changed = {new: old for new, old in names.items() if new in stored.variables or new in stored.dims}
-    data = stored.rename(changed)
-    for name, about in kept["variables"].items():
-        data.variables[names.get(name, name)].attrs = dict(about["attributes"])
+    record = stored.rename(changed)
+    for name, description in layout["variables"].items():
+        record.variables[names.get(name, name)].attrs = dict(description["attributes"])
     # a folder lists its arrays in any order
-    coords = data.coords
-    data = data[[names.get(n, n) for n in kept["variables"] if names.get(n, n) not in coords]]
-    data = data.assign_coords({name: c for name, c in coords.items() if name not in data.coords})
-    data.attrs = {
-        k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in kept["attributes"].items()
+    coords = record.coords
+    record = record[[names.get(n, n) for n in layout["variables"] if names.get(n, n) not in coords]]
+    record = record.assign_coords({name: c for name, c in coords.items() if name not in record.coords})
+    record.attrs = {
+        k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in layout["attributes"].items()
     }
-    return data
+    return record
 
 
 def _layout(text: str) -> dict[str, Any]:
     """Return the layout that an attribute lists; raise RecordError if it is of a newer version."""
-    kept = codec.parse(text)
-    version = kept.get("version", 1)
+    layout = codec.parse(text)
+    version = layout.get("version", 1)
     if version > VERSION:
         raise RecordError(
             f"is a record of version {version}; this deodar reads versions up to {VERSION}",
             fix="Install a newer deodar",
         )
-    return kept
+    return layout
 
 
 def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dict[str, Any]]:
-    about: dict[str, Any] = {"type": str(array.dtype)}
+    description: dict[str, Any] = {"type": str(array.dtype)}
     if array.dtype.kind in "UTO" and all(isinstance(v, str) for v in array.ravel().tolist()):
         labels, codes = np.unique(array.astype(str), return_inverse=True)
         return codes.reshape(array.shape).astype(np.int32), {
@@ -191,7 +193,7 @@ def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dic
             f"holds values of the type {array.dtype}; a record holds numbers, true or false, and text",
             where=name,
         )
-    about["sha256"] = _digest(array)
+    description["sha256"] = _digest(array)
     if not narrow or array.dtype in (
         np.dtype("f4"),
         np.dtype("f8"),
@@ -199,9 +201,9 @@ def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dic
         np.dtype("i2"),
         np.dtype("i4"),
     ):
-        return array, about
+        return array, description
     if array.dtype == np.dtype("f2"):
-        return array.astype(np.float32), about
+        return array.astype(np.float32), description
     if array.dtype.kind == "f":
         raise RecordError(
             f"holds values of the type {array.dtype}, which NetCDF 3 does not have",
@@ -209,12 +211,12 @@ def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dic
             fix="Save it as .zarr",
         )
     if array.dtype.kind == "b":
-        return array.astype(np.int8), about
+        return array.astype(np.int8), description
     low, high = (int(array.min()), int(array.max())) if array.size else (0, 0)
     if low >= -(2**31) and high < 2**31:
-        return array.astype(np.int32), about
+        return array.astype(np.int32), description
     if max(-low, high) <= EXACT_INTEGERS:
-        return array.astype(np.float64), about
+        return array.astype(np.float64), description
     raise RecordError(
         "holds whole numbers beyond 2^53, which NetCDF 3 cannot hold exactly",
         where=name,
@@ -222,18 +224,18 @@ def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dic
     )
 
 
-def _restored(name: str, array: np.ndarray, about: Mapping[str, Any]) -> np.ndarray:
-    if "labels" in about:
+def _restored(name: str, array: np.ndarray, description: Mapping[str, Any]) -> np.ndarray:
+    if "labels" in description:
         codes = array.astype(np.int64)
-        labels = np.asarray(about["labels"], dtype=str)
-        good = _digest(codes) == about["sha256"] and (
+        labels = np.asarray(description["labels"], dtype=str)
+        good = _digest(codes) == description["sha256"] and (
             not codes.size or 0 <= codes.min() <= codes.max() < len(labels)
         )
         out = labels[codes] if good else codes
     else:
-        out = array.astype(np.dtype(about["type"]))
+        out = array.astype(np.dtype(description["type"]))
         good = (
-            "sha256" not in about or _digest(out) == about["sha256"]
+            "sha256" not in description or _digest(out) == description["sha256"]
         )  # of growing arrays each chunk has its own
     if not good:
         raise RecordError(
@@ -250,10 +252,10 @@ def _digest(array: np.ndarray) -> str:
 
 def _described(variable: xarray.Variable) -> dict[str, Any]:
     """Return type and hash of an array that is read in blocks; the hash is that of `_digest`."""
-    little, found = variable.dtype.newbyteorder("<"), hashlib.sha256(str(variable.shape).encode())
+    little, digest = variable.dtype.newbyteorder("<"), hashlib.sha256(str(variable.shape).encode())
     for slab in slabs(variable.shape, BLOCK):
-        found.update(np.ascontiguousarray(variable[slab].values).astype(little, copy=False).tobytes())
-    return {"type": str(variable.dtype), "sha256": found.hexdigest()}
+        digest.update(np.ascontiguousarray(variable[slab].values).astype(little, copy=False).tobytes())
+    return {"type": str(variable.dtype), "sha256": digest.hexdigest()}
 
 
 def _names(names: list[Hashable]) -> dict[Hashable, str]:

@@ -67,20 +67,20 @@ def parsed(text: str) -> Probe:
     """
     path, every, when = text, None, None
     while True:
-        rest, comma, last = path.rpartition(",")
-        name, sign, value = last.partition("=")
-        quoted = (rest.count('"') - rest.count('\\"')) % 2 == 1
+        before, comma, last = path.rpartition(",")
+        name, sign, setting = last.partition("=")
+        quoted = (before.count('"') - before.count('\\"')) % 2 == 1
         if not comma or not sign or quoted or name.strip() not in ("every", "when"):
             return Probe(path, every, when)
-        path = rest
+        path = before
         if name.strip() == "when":
-            when = value.strip()
+            when = setting.strip()
             continue
         try:
-            every = float(value)
+            every = float(setting)
         except ValueError:
             raise ParameterError(
-                f"every is {value!r}; expected a time", where=text, fix=f"For example {path},every=10"
+                f"every is {setting!r}; expected a time", where=text, fix=f"For example {path},every=10"
             ) from None
 
 
@@ -95,17 +95,17 @@ def probes(record: Probe | Handle | str | Iterable[Probe | Handle | str]) -> lis
     Raises:
         ParameterError: it is something else, or empty.
     """
-    one = isinstance(record, (str, Handle, Probe)) or not np.iterable(record)
-    given: list[Any] = [record] if one else list(record)  # type: ignore[arg-type]
-    texts = [path_of(what) if isinstance(what, Handle) else what for what in given]
-    if not all(isinstance(what, (str, Probe)) for what in texts):
+    is_one = isinstance(record, (str, Handle, Probe)) or not np.iterable(record)
+    requested: list[Any] = [record] if is_one else list(record)  # type: ignore[arg-type]
+    texts = [path_of(port) if isinstance(port, Handle) else port for port in requested]
+    if not all(isinstance(port, (str, Probe)) for port in texts):
         raise ParameterError(
             f"record names ports by their paths, not {show(record)}",
             fix="For example record=['u.activation']",
         )
     if not texts:
         raise ParameterError("record is empty", fix="Name at least one port, or leave it out")
-    return [what if isinstance(what, Probe) else parsed(what) for what in texts]
+    return [port if isinstance(port, Probe) else parsed(port) for port in texts]
 
 
 def threshold(element: object, port: str) -> float:
@@ -113,10 +113,10 @@ def threshold(element: object, port: str) -> float:
 
     It is that of the sigmoid for the activation of a field, 0.5 for its output, and 0 for other ports.
     """
-    found = getattr(getattr(element, "sigmoid", None), "threshold", None)
-    if not isinstance(found, float):
+    level = getattr(getattr(element, "sigmoid", None), "threshold", None)
+    if not isinstance(level, float):
         return 0.0
-    return {"activation": found, "output": 0.5}.get(port, 0.0)
+    return {"activation": level, "output": 0.5}.get(port, 0.0)
 
 
 class Series(NamedTuple):
@@ -146,8 +146,8 @@ def series(names: Sequence[str], strides: Sequence[int], conditions: Sequence[st
         groups.setdefault((stride, when, name if when else ""), []).append(name)
     main = next((key for key in groups if key[1] is None), None)
     return [
-        Series(TIME if key == main else f"{found[0]}.{TIME}", key[0], key[1], tuple(found))
-        for key, found in groups.items()
+        Series(TIME if key == main else f"{members[0]}.{TIME}", key[0], key[1], tuple(members))
+        for key, members in groups.items()
     ]
 
 
@@ -171,8 +171,8 @@ class Selector:
         above: for each variable with a condition whether its last sample was above the threshold.
     """
 
-    def __init__(self, found: Sequence[Series], thresholds: Mapping[str, float]) -> None:
-        self.found, self.thresholds = list(found), dict(thresholds)
+    def __init__(self, listed: Sequence[Series], thresholds: Mapping[str, float]) -> None:
+        self.found, self.thresholds = list(listed), dict(thresholds)
         self.above: dict[str, bool] = {}
 
     def choose(
@@ -186,28 +186,28 @@ class Selector:
             values: values by name, the samples along `axis`; variables with a condition have them first.
             axis: number of leading dimensions of copies.
         """
-        for one in self.found:
-            skipped = -first % one.stride
+        for group in self.found:
+            skipped = -first % group.stride
             # a slice copies nothing
-            place: slice | np.ndarray = slice(skipped, None, one.stride)
-            number: int | None = (first + skipped) // one.stride
-            if one.when is not None:
-                every = np.arange(skipped, len(times), one.stride)
-                place, number = self._met(one, every, values[one.names[0]]), None
+            place: slice | np.ndarray = slice(skipped, None, group.stride)
+            number: int | None = (first + skipped) // group.stride
+            if group.when is not None:
+                every = np.arange(skipped, len(times), group.stride)
+                place, number = self._met(group, every, values[group.names[0]]), None
             if times[place].size:
                 lead = (slice(None),) * axis
-                chosen = {name: values[name][*lead, place] for name in one.names}
-                yield Chosen(one.dimension, number, times[place], chosen)
+                chosen = {name: values[name][*lead, place] for name in group.names}
+                yield Chosen(group.dimension, number, times[place], chosen)
 
-    def _met(self, one: Series, place: np.ndarray, values: np.ndarray) -> np.ndarray:
+    def _met(self, group: Series, place: np.ndarray, values: np.ndarray) -> np.ndarray:
         """Return the places of samples that meet the condition of a series."""
-        name = one.names[0]
+        name = group.names[0]
         if not place.size:
             return place
         above = values[place].reshape(place.size, -1).max(1) > self.thresholds[name]
         before = np.concatenate([[self.above.get(name, bool(above[0]))], above[:-1]])
         self.above[name] = bool(above[-1])
-        return place[above] if one.when == "peak" else place[above != before]
+        return place[above] if group.when == "peak" else place[above != before]
 
 
 def selector(

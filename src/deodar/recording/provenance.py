@@ -49,9 +49,9 @@ def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
 
 def stored(doc: Document) -> JsonObject:
     """Return a document as records contain it; `document` reads it."""
-    data, arrays = document_files.to_data(doc)
+    body, arrays = document_files.to_data(doc)
     packed = base64.b64encode(document_files.pack(arrays)).decode() if arrays else ""
-    return {"document": data, "arrays": packed}
+    return {"document": body, "arrays": packed}
 
 
 def made_by(device: Any, precision: str = "float32", devices: int = 1, joined: int = 1) -> dict[str, str]:
@@ -73,20 +73,20 @@ def made_by(device: Any, precision: str = "float32", devices: int = 1, joined: i
     return versions | {"python": platform.python_version(), **where, **rounding, "machine": machine()}
 
 
-def rounds_separately(about: Mapping[str, Any]) -> bool:
+def rounds_separately(origin: Mapping[str, Any]) -> bool:
     """Return whether a record was made with separate rounding of products and sums."""
-    return (about.get("made_by") or {}).get("rounding") == SEPARATELY
+    return (origin.get("made_by") or {}).get("rounding") == SEPARATELY
 
 
-def cores_of(about: Mapping[str, Any]) -> int:
+def cores_of(origin: Mapping[str, Any]) -> int:
     """Return the number of cores that a record was made with; 1 if it states none."""
-    cores = str((about.get("made_by") or {}).get("cores", ""))
+    cores = str((origin.get("made_by") or {}).get("cores", ""))
     return max(1, int(cores)) if cores.isdecimal() else 1
 
 
-def devices_of(about: Mapping[str, Any]) -> int:
+def devices_of(origin: Mapping[str, Any]) -> int:
     """Return the number of devices that shared the run of a record; 1 if it states none."""
-    return int((about.get("made_by") or {}).get("devices", 1))
+    return int((origin.get("made_by") or {}).get("devices", 1))
 
 
 def machine() -> str:
@@ -105,9 +105,11 @@ def _processor() -> str:
     return platform.processor()
 
 
-def document(about: Mapping[str, Any]) -> Document:
+def document(origin: Mapping[str, Any]) -> Document:
     """Return the document of a record."""
     arrays = (
-        document_files.unpack(base64.b64decode(about["arrays"]), "the record") if about.get("arrays") else {}
+        document_files.unpack(base64.b64decode(origin["arrays"]), "the record")
+        if origin.get("arrays")
+        else {}
     )
-    return document_files.from_data(about["document"], arrays)
+    return document_files.from_data(origin["document"], arrays)

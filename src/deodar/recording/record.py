@@ -74,27 +74,27 @@ def dataset(
     return xarray.Dataset(out, coords, {KEY: codec.line(about), "title": doc.name})
 
 
-def with_times(data: xarray.Dataset, series: Sequence[Series]) -> xarray.Dataset:
+def with_times(record: xarray.Dataset, series: Sequence[Series]) -> xarray.Dataset:
     """Return a record without samples whose variables have dimensions of time of their own.
 
     Args:
-        data: the record; its dimension `time` has length 0.
+        record: the record; its dimension `time` has length 0.
         series: the series of the variables.
     """
     dimensions = {name: s.dimension for s in series for name in s.names}
-    times, coords = data[TIME], {n: c for n, c in data.coords.items() if n != TIME}
+    times, coords = record[TIME], {n: c for n, c in record.coords.items() if n != TIME}
     variables: dict[Any, Any] = {}
-    for name, variable in data.data_vars.items():
+    for name, variable in record.data_vars.items():
         dims = [dimensions[str(name)] if d == TIME else d for d in variable.dims]
         variables[name] = (dims, variable.values, variable.attrs)
     for dimension in dimensions.values():
         coords[dimension] = (dimension, times.values, times.attrs)
-    return xarray.Dataset(variables, coords, data.attrs)
+    return xarray.Dataset(variables, coords, record.attrs)
 
 
-def about(data: xarray.Dataset) -> JsonObject:
+def about(record: xarray.Dataset) -> JsonObject:
     """Return the provenance of a record, as plain data; empty for a Dataset of other origin."""
-    text = data.attrs.get(KEY)
+    text = record.attrs.get(KEY)
     return codec.parse(text) if isinstance(text, str) else {}
 
 

@@ -142,34 +142,34 @@ class FolderStore:
             if not isinstance(error, FileNotFoundError):
                 raise unreadable(str(error.filename or self.path / name), error) from None
 
-        found: dict[str, int] = {}
+        file_sizes: dict[str, int] = {}
         for folder, _, files in os.walk(self.path / name, onerror=failed):
             for file in files:
                 path = Path(folder, file)
                 try:
-                    found[path.relative_to(self.path).as_posix()] = path.stat().st_size
+                    file_sizes[path.relative_to(self.path).as_posix()] = path.stat().st_size
                 except FileNotFoundError:
                     continue  # a file under its first name, which another process has renamed
                 except OSError as error:
                     raise unreadable(str(path), error) from None
-        return found
+        return file_sizes
 
 
-def refused(where: str, error: BaseException, what: str = "") -> OutputError:
+def refused(where: str, error: BaseException, fault: str = "") -> OutputError:
     """Return the error of a file that a store did not take.
 
     Args:
         where: the store or the file, without credentials.
         error: the exception of the system or of a package.
-        what: its text without credentials; empty: that of the exception.
+        fault: its text without credentials; empty: that of the exception.
     """
     number = getattr(error, "errno", None)
-    text = what or getattr(error, "strerror", None) or first_line(error)
+    text = fault or getattr(error, "strerror", None) or first_line(error)
     if number in FULL:
         return OutputError("the store of the records is full", where=where, fix=f"Make room there. {AGAIN}")
     if number in FORBIDDEN or isinstance(error, PermissionError | NotImplementedError):
-        what = f"the store of the records cannot be written ({text})"
-        return OutputError(what, where=where, fix=f"Permit it there. {AGAIN}")
+        fault = f"the store of the records cannot be written ({text})"
+        return OutputError(fault, where=where, fix=f"Permit it there. {AGAIN}")
     if number in GONE or isinstance(error, FileNotFoundError):
         fix = f"Connect or create it, or correct its address. {AGAIN}"
         return OutputError("the store of the records is not there", where=where, fix=fix)

@@ -44,7 +44,7 @@ class RemoteStore:
             raise MissingExtra("fsspec", "store", "a store of records at an address") from None
         self.shown, self._hidden = shown, hidden
         try:
-            found = url_to_fs(address)
+            file_system, root = url_to_fs(address)
         except ImportError as error:
             raise ParameterError(
                 f"the address of the store needs another package ({hidden(first_line(error))})",
@@ -57,10 +57,10 @@ class RemoteStore:
                 where=shown,
                 fix="Name a folder, or an address such as s3://BUCKET/NAME",
             ) from None
-        self._fs: Any = found[0]
-        self._root = str(found[1]).rstrip("/")
-        given = self._fs.protocol
-        protocols = {given} if isinstance(given, str) else {*given}
+        self._fs: Any = file_system
+        self._root = str(root).rstrip("/")
+        protocol = self._fs.protocol
+        protocols = {protocol} if isinstance(protocol, str) else {*protocol}
         self.fades = not protocols & WHOLE
 
     def create(self) -> None:
@@ -116,15 +116,15 @@ class RemoteStore:
         """Return the size of each file whose name begins with `name/`."""
         try:
             self._fs.invalidate_cache()  # other processes put files, too
-            found = self._fs.find(self._path(name).rstrip("/"), detail=True)
+            details = self._fs.find(self._path(name).rstrip("/"), detail=True)
         except FileNotFoundError:
             return {}
         except Exception as error:  # packages of fsspec may raise any exception
             raise self._unreadable(name, error) from None
         first = len(self._root) + 1
         return {
-            str(path)[first:]: int(about["size"] or 0)
-            for path, about in found.items()
+            str(path)[first:]: int(detail["size"] or 0)
+            for path, detail in details.items()
             if str(path).startswith(f"{self._root}/")
         }
 

@@ -119,49 +119,49 @@ def request(data: xarray.Dataset, trust: bool = False) -> tuple[Model, dict[str,
         RecordError: the record has no provenance, or a session made it.
         Untrusted: its document names a function, and `trust` is not given.
     """
-    made = _made(data)
-    if "session" in made:
+    origin = _origin(data)
+    if "session" in origin:
         raise RecordError(
             "was recorded from a session, which may be changed while it runs, so it cannot be run again",
             fix="Run its model: the file model.json in the folder of the record",
         )
     try:
-        model = Model(document=provenance.document(made), trusted=trust)
-        settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials")}
-        settings |= {"record": _recorded(made, model), "sweep": _sweep(made)}
-        settings |= {"precision": Arithmetic(made["precision"], made.get("accuracy", "default")).name}
-        settings |= {"on": Resources(**{key: made.get(key) for key in USED})}
+        model = Model(document=provenance.document(origin), trusted=trust)
+        settings = {key: origin[key] for key in ("duration", "dt", "seed", "every", "trials")}
+        settings |= {"record": _recorded(origin, model), "sweep": _sweep(origin)}
+        settings |= {"precision": Arithmetic(origin["precision"], origin.get("accuracy", "default")).name}
+        settings |= {"on": Resources(**{key: origin.get(key) for key in USED})}
     except (KeyError, TypeError, ValueError) as error:
         raise RecordError(f"what made the record cannot be read ({type(error).__name__}: {error})") from None
     return model, settings
 
 
-def _sweep(made: Mapping[str, Any]) -> Sweep | None:
-    sweep: Any = made["sweep"]
-    return Points(sweep, own_noise=True) if made.get("own_noise", False) else sweep or None
+def _sweep(origin: Mapping[str, Any]) -> Sweep | None:
+    sweep: Any = origin["sweep"]
+    return Points(sweep, own_noise=True) if origin.get("own_noise", False) else sweep or None
 
 
-def _recorded(made: Mapping[str, Any], model: Model) -> list[str] | None:
+def _recorded(origin: Mapping[str, Any], model: Model) -> list[str] | None:
     """Return the ports that were recorded; before document version 3 a field's path meant another port."""
-    record: list[str] | None = made["record"]
-    if record is None or made["document"].get("deodar", 0) >= 3:
+    record: list[str] | None = origin["record"]
+    if record is None or origin["document"].get("deodar", 0) >= 3:
         return record
     return [recorded(model.document, path) for path in record]
 
 
-def world_of(data: xarray.Dataset) -> World | None:
+def world_of(record: xarray.Dataset) -> World | None:
     """Open the world of a record again; None if it had no world.
 
     Raises:
         RecordError: the record has no provenance.
         WorldError: the world no longer exists, or is a different one.
     """
-    return _world(_made(data).get("world"))
+    return _world(_origin(record).get("world"))
 
 
 def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
     """Return the differences between two records of one run; an incomplete one is compared up to its end."""
-    before, after = _made(old), _made(new)
+    before, after = _origin(old), _origin(new)
     times = min(old.sizes.get("time", 0), new.sizes.get("time", 0))
     whole = before.get("complete", True) and after.get("complete", True)
     a, b = (old, new) if whole else _common(old, new)
@@ -170,37 +170,37 @@ def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
         name in a.variables and name in b.variables and _same(a[name].values, b[name].values)
         for name in {**a.variables, **b.variables}
     )
-    shown = {
+    differing = {
         name: value for name, value in largest.items() if name in a.data_vars or name in b.data_vars or value
     }
-    return Repetition(new, differences(before, after), shown, same, times)
+    return Repetition(new, differences(before, after), differing, same, times)
 
 
 def _common(old: xarray.Dataset, new: xarray.Dataset) -> tuple[xarray.Dataset, xarray.Dataset]:
     """Return both records cut to their common times, and trials or points of a sweep."""
     for dim in [d for d in old.sizes if d in new.sizes and d in old.coords and d in new.coords]:
         shared = np.intersect1d(old[dim].values, new[dim].values)
-        old, new = (data.isel({dim: np.isin(data[dim].values, shared)}) for data in (old, new))
+        old, new = (record.isel({dim: np.isin(record[dim].values, shared)}) for record in (old, new))
     return old, new
 
 
-def _made(data: xarray.Dataset) -> dict[str, Any]:
+def _origin(record: xarray.Dataset) -> dict[str, Any]:
     try:
-        made = about(data)
+        origin = about(record)
     except ValueError:
-        made = {}
-    if "document" not in made:
+        origin = {}
+    if "document" not in origin:
         raise RecordError("the record does not say what made it, so it cannot be repeated or compared")
-    return made
+    return origin
 
 
 def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> tuple[Difference, ...]:
     """Return the versions, the device, the machine and the world that differ between two provenances."""
-    then, now = before.get("made_by", {}), after.get("made_by", {})
+    then, present = before.get("made_by", {}), after.get("made_by", {})
     out = [
-        Difference(k, str(then.get(k, "unknown")), str(now.get(k, "unknown")))
-        for k in {**then, **now}
-        if then.get(k) != now.get(k)
+        Difference(k, str(then.get(k, "unknown")), str(present.get(k, "unknown")))
+        for k in {**then, **present}
+        if then.get(k) != present.get(k)
     ]
     was, is_ = _identity(before.get("world")), _identity(after.get("world"))
     if was != is_:
@@ -232,14 +232,14 @@ def _world(described: Mapping[str, Any] | None) -> World | None:
     if described is None:
         return None
     kind = str(described.get("world"))
-    found = registry.kinds("worlds").get(kind)
+    world_class = registry.kinds("worlds").get(kind)
     give = f"Give it: --world {kind.lower()}:FILE"
-    if found is None:
+    if world_class is None:
         raise WorldError(
             f"the record was made with the world {_shown(described)}, which is not known here", fix=give
         )
     try:
-        world = again(found, described)
+        world = again(world_class, described)
     except DeodarError as error:
         raise WorldError(
             f"the record was made with the world {_shown(described)}, and it cannot be opened:"

@@ -76,18 +76,18 @@ class RecordReader:
         self._watch = writer_lock.WriterWatch(place)
         self._stamp = writer_lock.stamp(place)
         self._written = writer_lock.is_written(place) is True
-        data = files.open_record(path)
+        record = files.open_record(path)
         try:
-            made = about(data)
-            if not isinstance(made.get("document"), dict):
+            origin = about(record)
+            if not isinstance(origin.get("document"), dict):
                 raise RecordError("does not state the document that made it", where=str(path))
-            self.document: Document = provenance.document(made)
+            self.document: Document = provenance.document(origin)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             text = f"{type(error).__name__}: {error}"
             raise RecordError(
                 f"is damaged: its provenance cannot be read ({text})", where=str(path)
             ) from None
-        self._take(data)
+        self._take(record)
         self._axes = {n.id: {**n.ins, **n.outs} for n in resolve(self.document)[0] if n.declared}
         self._names: dict[PortPlace, str] = {}
         for name in map(str, self.data.data_vars):
@@ -100,23 +100,25 @@ class RecordReader:
         if not self._names:
             raise RecordError("contains no port of its document", where=str(path))
 
-    def _take(self, data: xarray.Dataset) -> None:
-        made = about(data)
-        found: dict[str, _Recorded] = {}
-        for name, variable in data.data_vars.items():
+    def _take(self, record: xarray.Dataset) -> None:
+        origin = about(record)
+        recorded: dict[str, _Recorded] = {}
+        for name, variable in record.data_vars.items():
             dimension = time_dimension(variable)
             if dimension is not None:
-                times = np.asarray(data[dimension].values, float)
-                found[str(name)] = _Recorded(variable.variable, times, variable.dims.index(dimension))
-        times = {str(f.variable.dims[f.axis]): f.times for f in found.values()}
-        first = next(iter(found.values()), None)
+                times = np.asarray(record[dimension].values, float)
+                recorded[str(name)] = _Recorded(variable.variable, times, variable.dims.index(dimension))
+        times = {str(f.variable.dims[f.axis]): f.times for f in recorded.values()}
+        first = next(iter(recorded.values()), None)
         lead = [] if first is None else [str(d) for d in first.variable.dims[: first.axis]]
-        self.complete = bool(made.get("complete", True))
-        said = [str(data.attrs[key]) for key in ("damaged", diverged.REASON) if data.attrs.get(key)]
-        self._found = [f"{text[0].upper()}{text[1:].rstrip('.')}." for text in said]
-        self.copies = {d: data[d].values if d in data.coords else np.arange(data.sizes[d]) for d in lead}
+        self.complete = bool(origin.get("complete", True))
+        sentences = [str(record.attrs[key]) for key in ("damaged", diverged.REASON) if record.attrs.get(key)]
+        self._faults = [f"{text[0].upper()}{text[1:].rstrip('.')}." for text in sentences]
+        self.copies = {
+            d: record[d].values if d in record.coords else np.arange(record.sizes[d]) for d in lead
+        }
         self.times = np.unique(np.concatenate([*times.values(), np.zeros(0)]))
-        self.data, self._recorded = data, found
+        self.data, self._recorded = record, recorded
 
     @property
     def growing(self) -> bool:
@@ -127,13 +129,13 @@ class RecordReader:
     def notes(self) -> list[str]:
         """Sentences on what is missing in it."""
         if self.complete:
-            return self._found
+            return self._faults
         state = (
             "still being written, and shown up to its last commit"
             if self.growing
             else "incomplete: it ends before the end of its run"
         )
-        return [f"The record is {state}.", *self._found]
+        return [f"The record is {state}.", *self._faults]
 
     @property
     def ports(self) -> Iterable[PortPlace]:
@@ -229,9 +231,9 @@ class RecordReader:
         times = self.sample_times(place)
         stride = max(1, -(-len(times) // most))
         for first, last in self.chunks(place):
-            own = np.arange(-(-first // stride) * stride, last, stride)
-            if len(own):
-                yield times[own], self.block(place, copy, first, last)[own - first]
+            sampled = np.arange(-(-first // stride) * stride, last, stride)
+            if len(sampled):
+                yield times[sampled], self.block(place, copy, first, last)[sampled - first]
 
     def _read(self, place: PortPlace, lead: tuple[int, ...], first: int, last: int) -> np.ndarray:
         try:

@@ -25,5 +25,5 @@ def slabs(shape: Sequence[int], most: int) -> Iterator[Slab]:
             yield slice(first, min(first + step, shape[0])), *whole[1:]
         return
     for k in range(shape[0]):
-        for rest in slabs(shape[1:], most):
-            yield slice(k, k + 1), *rest
+        for tail in slabs(shape[1:], most):
+            yield slice(k, k + 1), *tail

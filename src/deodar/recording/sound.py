@@ -20,23 +20,23 @@ DAMAGED = "damaged"
 """Name of the attribute that states what was left out of a damaged record."""
 
 
-def present(data: xarray.Dataset, path: Path) -> xarray.Dataset:
+def present(record: xarray.Dataset, path: Path) -> xarray.Dataset:
     """Return a stored Dataset, as a Zarr folder has it, without the samples from a missing chunk on.
 
     Args:
-        data: the Dataset before `portable.unpack`.
+        record: the Dataset before `portable.unpack`.
         path: its folder.
     """
-    layout = _layout(data)
+    layout = _layout(record)
     ends: dict[str, tuple[int, str]] = {}
     for name, stored in layout.get("variables", {}).items():
-        if "grows" not in stored or name not in data.variables:
+        if "grows" not in stored or name not in record.variables:
             continue
-        variable = data.variables[name]
+        variable = record.variables[name]
         dims = [layout["names"].get(str(d), str(d)) for d in variable.dims]
         axis, chunks = dims.index(stored["grows"]), variable.encoding["chunks"]
         count = [math.ceil(n / c) for n, c in zip(variable.shape, chunks, strict=True)]
-        whole = axis == 0 or _complete(data)
+        whole = axis == 0 or _complete(record)
         rows = itertools.product(*(range(n) if i != axis else [0] for i, n in enumerate(count)))
         missing = [
             k for row in rows if (k := _missing(path / name / "c", row, axis, count[axis], whole)) >= 0
@@ -44,7 +44,7 @@ def present(data: xarray.Dataset, path: Path) -> xarray.Dataset:
         if missing:
             first = min(missing) * chunks[axis]
             _shorten(ends, str(variable.dims[axis]), first, layout["names"].get(name, name))
-    return _cut(data, ends, "missing")
+    return _cut(record, ends, "missing")
 
 
 def _missing(folder: Path, row: tuple[int, ...], axis: int, count: int, whole: bool) -> int:
@@ -53,23 +53,23 @@ def _missing(folder: Path, row: tuple[int, ...], axis: int, count: int, whole: b
     A row of copies need not be `whole` in an incomplete record: what follows its last chunk is not written
     yet.
     """
-    there = [folder.joinpath(*map(str, (*row[:axis], k, *row[axis + 1 :]))).is_file() for k in range(count)]
-    end = count if whole else max((k for k in range(count) if there[k]), default=-1)
-    return next((k for k in range(end) if not there[k]), -1)
+    exists = [folder.joinpath(*map(str, (*row[:axis], k, *row[axis + 1 :]))).is_file() for k in range(count)]
+    end = count if whole else max((k for k in range(count) if exists[k]), default=-1)
+    return next((k for k in range(end) if not exists[k]), -1)
 
 
-def readable(data: xarray.Dataset) -> xarray.Dataset:
+def readable(record: xarray.Dataset) -> xarray.Dataset:
     """Return a stored Dataset without the samples from a chunk on that cannot be read.
 
     Raises:
         Exception: an array that does not grow cannot be read.
     """
-    layout = _layout(data)
+    layout = _layout(record)
     ends: dict[str, tuple[int, str]] = {}
     for name, stored in layout.get("variables", {}).items():
         if "grows" not in stored:
             continue
-        variable = data.variables[name]
+        variable = record.variables[name]
         dims = [layout["names"].get(str(d), str(d)) for d in variable.dims]
         axis = dims.index(stored["grows"])
         frames = variable.encoding["chunks"][axis]
@@ -79,16 +79,16 @@ def readable(data: xarray.Dataset) -> xarray.Dataset:
             except Exception:  # libraries that read untrusted bytes may raise any exception
                 _shorten(ends, str(variable.dims[axis]), first, layout["names"].get(name, name))
                 break
-    return _cut(data, ends, "damaged")
+    return _cut(record, ends, "damaged")
 
 
-def _layout(data: xarray.Dataset) -> dict[str, Any]:
-    text = data.attrs.get(portable.KEY)
+def _layout(record: xarray.Dataset) -> dict[str, Any]:
+    text = record.attrs.get(portable.KEY)
     return {} if text is None else codec.parse(text)
 
 
-def _complete(data: xarray.Dataset) -> bool:
-    return bool(about(data).get("complete", True))
+def _complete(record: xarray.Dataset) -> bool:
+    return bool(about(record).get("complete", True))
 
 
 def _shorten(ends: dict[str, tuple[int, str]], dimension: str, length: int, name: str) -> None:
@@ -96,15 +96,16 @@ def _shorten(ends: dict[str, tuple[int, str]], dimension: str, length: int, name
         ends[dimension] = length, name
 
 
-def _cut(data: xarray.Dataset, ends: dict[str, tuple[int, str]], what: str) -> xarray.Dataset:
+def _cut(record: xarray.Dataset, ends: dict[str, tuple[int, str]], state: str) -> xarray.Dataset:
     if not ends:
-        return data
-    said = "; ".join(
-        f"{data.sizes[d] - n} of {data.sizes[d]} samples of {d} are left out: a chunk of {name} is {what}"
+        return record
+    sentence = "; ".join(
+        f"{record.sizes[d] - n} of {record.sizes[d]} samples of {d} are left out:"
+        f" a chunk of {name} is {state}"
         for d, (n, name) in ends.items()
     )
-    before = data.attrs.get(DAMAGED)
-    layout = _layout(data)
+    before = record.attrs.get(DAMAGED)
+    layout = _layout(record)
     layout["attributes"][DAMAGED] = None
-    attributes = {DAMAGED: f"{before}; {said}" if before else said, portable.KEY: codec.line(layout)}
-    return data.isel({d: slice(n) for d, (n, _) in ends.items()}).assign_attrs(attributes)
+    attributes = {DAMAGED: f"{before}; {sentence}" if before else sentence, portable.KEY: codec.line(layout)}
+    return record.isel({d: slice(n) for d, (n, _) in ends.items()}).assign_attrs(attributes)

@@ -35,39 +35,39 @@ class StoreAddress:
     full: str = field(repr=False)
 
     @classmethod
-    def of(cls, given: str | os.PathLike[str]) -> StoreAddress:
+    def of(cls, address: str | os.PathLike[str]) -> StoreAddress:
         """Read the path of a folder, or an address.
 
         Raises:
             ParameterError: it is neither, it names no place below its scheme, or its credentials were
                 replaced by `***`.
         """
-        text = str(given) if isinstance(given, str | os.PathLike) else ""
+        text = str(address) if isinstance(address, str | os.PathLike) else ""
         fix = "Name a folder, or an address such as s3://BUCKET/NAME"
         if not text.strip():
-            raise ParameterError(f"{given!r} names no store of records", fix=fix)
+            raise ParameterError(f"{address!r} names no store of records", fix=fix)
         if "::" in text and "://" in text:
-            what = "a chain of addresses (::) is no store of records"
-            raise ParameterError(what, where=masked(text), fix=fix)
+            fault = "a chain of addresses (::) is no store of records"
+            raise ParameterError(fault, where=masked(text), fix=fix)
         if not _URL.match(text):
-            if not isinstance(given, str) and re.match(r"[a-zA-Z][\w+.-]+:[/\\]\w", text):
-                what = "a path has no //, so that it cannot be the address of a store"
-                raise ParameterError(what, where=text, fix='Name the address as text: "s3://BUCKET/NAME"')
+            if not isinstance(address, str) and re.match(r"[a-zA-Z][\w+.-]+:[/\\]\w", text):
+                fault = "a path has no //, so that it cannot be the address of a store"
+                raise ParameterError(fault, where=text, fix='Name the address as text: "s3://BUCKET/NAME"')
             path = str(output.location(text).absolute())
             return cls(path, path)
         if HIDDEN in text:
-            what = "the address of the store was written without its credentials"
-            raise ParameterError(what, where=masked(text), fix="Name it again, with the whole address")
-        scheme, _, rest = text.partition("://")
+            fault = "the address of the store was written without its credentials"
+            raise ParameterError(fault, where=masked(text), fix="Name it again, with the whole address")
+        scheme, _, place = text.partition("://")
         if scheme.lower() in LOCAL:
-            if not re.match(r"(localhost)?/", rest, re.IGNORECASE):
-                what = "the address of a folder has three slashes, and its whole path after them"
+            if not re.match(r"(localhost)?/", place, re.IGNORECASE):
+                fault = "the address of a folder has three slashes, and its whole path after them"
                 raise ParameterError(
-                    what, where=text, fix="For example file:///data/records, or data/records"
+                    fault, where=text, fix="For example file:///data/records, or data/records"
                 )
             path = str(Path(url2pathname(urlsplit(text).path)).absolute())
             return cls(path, path)
-        if not rest.strip("/"):
+        if not place.strip("/"):
             raise ParameterError("the address names no place below its scheme", where=text, fix=fix)
         text = text.rstrip("/")
         return cls(masked(text), text)

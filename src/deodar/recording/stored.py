@@ -32,14 +32,14 @@ def leaves(tree: PyTree, of: str) -> list[np.ndarray]:
     Raises:
         RecordError: a leaf is not a number, array, truth value or text; `of` names its owner.
     """
-    found = [np.array(hosts.gathered(leaf)) for leaf in jax.tree.leaves(tree)]
-    for leaf in found:
+    arrays = [np.array(hosts.gathered(leaf)) for leaf in jax.tree.leaves(tree)]
+    for leaf in arrays:
         if leaf.dtype.kind not in "biufcU":
             raise RecordError(
                 f"the state of {of} contains a {leaf.dtype} value, which a file cannot hold",
                 fix="Let its `keep` return arrays, numbers and containers of them",
             )
-    return found
+    return arrays
 
 
 def filled(template: PyTree, stored: Sequence[np.ndarray], of: str) -> PyTree:
@@ -48,20 +48,20 @@ def filled(template: PyTree, stored: Sequence[np.ndarray], of: str) -> PyTree:
     Raises:
         RecordError: the number, shapes or types of the leaves differ; `of` names their owner.
     """
-    here, structure = jax.tree.flatten(template)
-    own = [hosts.gathered(leaf) for leaf in here]
-    if [(a.shape, a.dtype.kind) for a in own] != [(a.shape, a.dtype.kind) for a in stored]:
+    places, structure = jax.tree.flatten(template)
+    arrays = [hosts.gathered(leaf) for leaf in places]
+    if [(a.shape, a.dtype.kind) for a in arrays] != [(a.shape, a.dtype.kind) for a in stored]:
         raise RecordError(f"the stored state of {of} does not fit: it is of another model or world")
     return jax.tree.unflatten(structure, list(stored))
 
 
-def write(path: Path, about: Mapping[str, Any], arrays: Sequence[np.ndarray], kind: str) -> None:
+def write(path: Path, metadata: Mapping[str, Any], arrays: Sequence[np.ndarray], kind: str) -> None:
     """Write a state: it is complete or absent.
 
     Raises:
         OutputError: the system refused.
     """
-    text = codec.line({"kind": kind, "version": VERSION, **about})
+    text = codec.line({"kind": kind, "version": VERSION, **metadata})
 
     numbered = {f"{k:06}": array for k, array in enumerate(arrays)}
     content = io.BytesIO()
@@ -77,12 +77,12 @@ def header(path: Path) -> JsonObject:
     """
     try:
         with np.load(path, allow_pickle=False) as archive:
-            about = codec.parse(bytes(archive[HEADER]).decode())
+            metadata = codec.parse(bytes(archive[HEADER]).decode())
     except (ValueError, KeyError, OSError, EOFError, zipfile.BadZipFile) as error:
         raise RecordError(f"cannot be read ({type(error).__name__}: {error})", where=str(path)) from None
-    if not isinstance(about, dict):
+    if not isinstance(metadata, dict):
         raise RecordError("is damaged: its text is not an object", where=str(path))
-    return about
+    return metadata
 
 
 def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
@@ -98,19 +98,19 @@ def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
         raise RecordError(f"cannot be read: {error.strerror or error}", where=where) from None
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as archive:
-            about = codec.parse(bytes(archive[HEADER]).decode())
+            metadata = codec.parse(bytes(archive[HEADER]).decode())
             names = sorted(name for name in archive.files if name != HEADER)
             arrays = [archive[name] for name in names]
     except (ValueError, KeyError, OSError, EOFError, zipfile.BadZipFile) as error:
         raise RecordError(
             f"cannot be read as a {kind}, it may be damaged ({type(error).__name__}: {error})", where=where
         ) from None
-    if not isinstance(about, dict) or about.get("kind") != kind:
+    if not isinstance(metadata, dict) or metadata.get("kind") != kind:
         raise RecordError(f"expected a {kind}, got another file", where=where)
-    if about.get("version", 0) > VERSION:
+    if metadata.get("version", 0) > VERSION:
         raise RecordError(
-            f"is a {kind} of version {about['version']}; this deodar reads versions up to {VERSION}",
+            f"is a {kind} of version {metadata['version']}; this deodar reads versions up to {VERSION}",
             where=where,
             fix="Install a newer deodar",
         )
-    return about, arrays
+    return metadata, arrays

@@ -23,20 +23,20 @@ ROWS = 100_000
 """Number of rows that are made at a time, so that memory does not grow with the record."""
 
 
-def write(data: xarray.Dataset, path: Path) -> None:
+def write(record: xarray.Dataset, path: Path) -> None:
     """Write the table.
 
     Variables over the same dimensions share rows; columns that do not belong to a row are empty.
     """
-    blocks = _blocks(data)
+    blocks = _blocks(record)
     columns = _columns(blocks)
     place = {name: k for k, name in enumerate(columns)}
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         for block, names in blocks.items():
-            shape = tuple(data.sizes[d] for d in block)
-            points = [data[d].values if d in data.coords else np.arange(data.sizes[d]) for d in block]
+            shape = tuple(record.sizes[d] for d in block)
+            points = [record[d].values if d in record.coords else np.arange(record.sizes[d]) for d in block]
             for slab in slabs(shape, ROWS):
                 index = np.indices([part.stop - part.start for part in slab]).reshape(len(shape), -1)
                 rows = index.shape[1] if shape else 1
@@ -44,7 +44,7 @@ def write(data: xarray.Dataset, path: Path) -> None:
                 for dim, values, i, part in zip(block, points, index, slab, strict=True):
                     cells[place[dim]] = _text(values[part.start + i])
                 for name in names:
-                    cells[place[name]] = _text(np.ravel(data[name][slab].values))
+                    cells[place[name]] = _text(np.ravel(record[name][slab].values))
                 writer.writerows(zip(*cells, strict=True))
 
 
@@ -53,38 +53,38 @@ def beside(path: Path) -> Path:
     return path.with_name(f"{path.name}-metadata.json")
 
 
-def metadata(data: xarray.Dataset, name: str) -> str:
+def metadata(record: xarray.Dataset, name: str) -> str:
     """Return the metadata of the table of that file name, as JSON: title, columns with units, and the
     provenance as notes.
     """
     columns: list[dict[str, str]] = []
-    for column in _columns(_blocks(data)):
-        about: dict[str, Any] = dict(data[column].attrs) if column in data.variables else {}
-        kind = data[column].dtype if column in data.variables else np.dtype(np.int64)
-        said = {"titles": column, "datatype": _datatype(kind)}
-        said |= {"dc:description": str(about["long_name"])} if about.get("long_name") else {}
-        said |= {"schema:unitText": str(about["units"])} if about.get("units") else {}
-        columns.append(said)
-    title = {"dc:title": str(data.attrs["title"])} if data.attrs.get("title") else {}
-    rest = {
+    for column in _columns(_blocks(record)):
+        attributes: dict[str, Any] = dict(record[column].attrs) if column in record.variables else {}
+        kind = record[column].dtype if column in record.variables else np.dtype(np.int64)
+        description = {"titles": column, "datatype": _datatype(kind)}
+        description |= {"dc:description": str(attributes["long_name"])} if attributes.get("long_name") else {}
+        description |= {"schema:unitText": str(attributes["units"])} if attributes.get("units") else {}
+        columns.append(description)
+    title = {"dc:title": str(record.attrs["title"])} if record.attrs.get("title") else {}
+    notes = {
         str(key): value if isinstance(value, str) else str(value)
-        for key, value in data.attrs.items()
+        for key, value in record.attrs.items()
         if key != "title"
     }
-    found = {
+    table = {
         "@context": "http://www.w3.org/ns/csvw",
         "url": name,
         **title,
         "tableSchema": {"columns": columns},
-        "notes": [rest],
+        "notes": [notes],
     }
-    return codec.text(found) + "\n"
+    return codec.text(table) + "\n"
 
 
-def _blocks(data: xarray.Dataset) -> dict[tuple[str, ...], list[str]]:
+def _blocks(record: xarray.Dataset) -> dict[tuple[str, ...], list[str]]:
     """Return the names of the variables, by their dimensions."""
     blocks: dict[tuple[str, ...], list[str]] = {}
-    for name, variable in data.data_vars.items():
+    for name, variable in record.data_vars.items():
         blocks.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
     return blocks
 

@@ -103,10 +103,10 @@ def stamp(path: Path) -> Stamp:
     """Return what changes with every commit of a record; empty if it cannot be read."""
     inner = path / "zarr.json"
     try:
-        found = (inner if inner.is_file() else path).stat()
+        status = (inner if inner.is_file() else path).stat()
     except OSError:
         return ()
-    return found.st_ino, found.st_mtime_ns, found.st_size
+    return status.st_ino, status.st_mtime_ns, status.st_size
 
 
 class WriterWatch:
@@ -125,7 +125,7 @@ class WriterWatch:
         if is_written(self.path) is not False:
             self._since = None
             return False
-        seen, now = stamp(self.path), time.monotonic()
+        seen, moment = stamp(self.path), time.monotonic()
         if self._since is None or self._since[0] != seen:
-            self._since = seen, now
-        return now - self._since[1] >= CERTAIN_SECONDS
+            self._since = seen, moment
+        return moment - self._since[1] >= CERTAIN_SECONDS
