@@ -34,9 +34,9 @@ COMMANDS: Extensions[ModuleType] = Extensions(
 """The commands by name."""
 
 
-def _needed(given: Sequence[str]) -> dict[str, ModuleType]:
+def _needed(words: Sequence[str]) -> dict[str, ModuleType]:
     """Return the commands that a call may name: its words that are commands, or all if there are none."""
-    named = {word: COMMANDS[word] for word in given if word in COMMANDS}
+    named = {word: COMMANDS[word] for word in words if word in COMMANDS}
     return named or dict(sorted(COMMANDS.items()))
 
 
@@ -46,7 +46,7 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}. Type: {self.prog} --help\n")
 
 
-def parser(given: Sequence[str] = ()) -> argparse.ArgumentParser:
+def parser(words: Sequence[str] = ()) -> argparse.ArgumentParser:
     """Return the parser of the command line, with the commands that the call needs."""
     top = _Parser(prog="deodar", description="A workbench for Dynamic Field Theory.")
     top.add_argument("--version", action="version", version=f"deodar {__version__}")
@@ -59,7 +59,7 @@ def parser(given: Sequence[str] = ()) -> argparse.ArgumentParser:
         help="import a module with elements of your own first",
     )
     inside = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, module in _needed(given).items():
+    for name, module in _needed(words).items():
         sub = inside.add_parser(name, help=module.HELP, description=module.HELP)
         module.arguments(sub)
         sub.set_defaults(run=module.run)
@@ -70,14 +70,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; status 0: success, 1: an error, printed as one paragraph on stderr, 2: an invalid
     call.
     """
-    given = list(sys.argv[1:] if argv is None else argv)
-    if given and not given[0].startswith("-"):
+    words = list(sys.argv[1:] if argv is None else argv)
+    if words and not words[0].startswith("-"):
         try:
-            COMMANDS[given[0]]
+            COMMANDS[words[0]]
         except UnknownName as error:
             print(f"deodar: {error}", file=sys.stderr)
             return 2
-    args = parser(given).parse_args(given)
+    args = parser(words).parse_args(words)
     try:
         for name in args.imports:
             _import(name)

@@ -39,9 +39,12 @@ def drawn(args: argparse.Namespace) -> AnalysisDrawing | None:
     for word in _figure.WORDS:
         if getattr(args, word, None) is not None:
             args.wrong(f"{_options.flags(word)} is for records of runs; {args.record} holds a {kind}")
-    more = [Path(name) for name in args.variables if Path(name).suffix.lower() in (".nc", ".zarr")]
-    ports = [name for name in args.variables if Path(name) not in more]
+    other_files = [Path(name) for name in args.variables if Path(name).suffix.lower() in (".nc", ".zarr")]
+    ports = [name for name in args.variables if Path(name) not in other_files]
     if len(ports) > 1:
         args.wrong(f"one port is drawn, not {len(ports)}: {', '.join(ports)}")
-    found = [(args.record, kind), *((path, kind_of(files.open_record(path))) for path in more)]
-    return AnalysisDrawing(analysis_figure(found, *ports), found)
+    kinds = [
+        (args.record, kind),
+        *((path, kind_of(files.open_record(path))) for path in other_files),
+    ]
+    return AnalysisDrawing(analysis_figure(kinds, *ports), kinds)

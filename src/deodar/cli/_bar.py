@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 class Bar:
     """A progress bar on stderr; `what` names the counted rows."""
 
-    def __init__(self, hidden: bool, what: str) -> None:
+    def __init__(self, hidden: bool, noun: str) -> None:
         # start-up time: only a terminal needs rich
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TextColumn
@@ -25,7 +25,7 @@ class Bar:
         )
         self._bar = Progress(*columns, console=Console(file=sys.stderr), transient=True, disable=hidden)
         self._task = self._bar.add_task("", total=1.0, done="", left="")
-        self._what = what
+        self._noun = noun
 
     def __enter__(self) -> Bar:
         self._bar.start()
@@ -36,12 +36,12 @@ class Bar:
 
     def show(self, progress: Progress) -> None:
         """Draw the progress."""
-        left = "" if progress.left is None else f"{lasting(progress.left)} left"
+        time_left = "" if progress.left is None else f"{lasting(progress.left)} left"
         self._bar.update(
             self._task,
             completed=progress.share,
-            done=f"{progress.rows} of {progress.of} {self._what}",
-            left=left,
+            done=f"{progress.rows} of {progress.of} {self._noun}",
+            left=time_left,
         )
 
 

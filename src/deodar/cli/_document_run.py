@@ -74,28 +74,33 @@ def run(args: argparse.Namespace) -> int:
             on=dc.replace(used, progress=progress),
         )
 
-    data, stopped, out = None, "", Path() if folder is None else folder.path()
+    record, stopped, out = None, "", Path() if folder is None else folder.path()
     progress = False if folder is None else _options.progress(args)
     try:
         with _run_report.quiet():
             if hosts.count() == 1:  # several have no terminal
                 _long.confirm_run(args, args.duration or 0.0, step, simulated)
-            data = simulated(args.duration or 0.0, progress, Output(out, args.force, args.snapshots))
+            record = simulated(args.duration or 0.0, progress, Output(out, args.force, args.snapshots))
     except Interrupted as error:
-        data, stopped = error.data, str(error)
+        record, stopped = error.data, str(error)
     if folder is None:  # the first host writes and reports
         return 1 if stopped else 0
-    return _run_report.finish(args, GrownRecord(out, folder.format), EndedRun(model.document, data, stopped))
+    return _run_report.finish(
+        args, GrownRecord(out, folder.format), EndedRun(model.document, record, stopped)
+    )
 
 
 def _show_warnings(model: Model, file: Path, world: World | None) -> None:
     """Print the first warnings of the check and of the world on stderr; they do not prevent the run."""
-    found = [p for p in (*agreement.judge(model.document, world), *model.check()) if p.severity == "warning"]
-    for warning in found[:WARNINGS]:
+    warnings = [
+        p for p in (*agreement.judge(model.document, world), *model.check()) if p.severity == "warning"
+    ]
+    for warning in warnings[:WARNINGS]:
         print(f"deodar run: warning: {warning}", file=sys.stderr)
-    if len(found) > WARNINGS:
+    if len(warnings) > WARNINGS:
         print(
-            f"deodar run: warning: {len(found) - WARNINGS} more; type: deodar check {_options.shown(file)}",
+            f"deodar run: warning: {len(warnings) - WARNINGS} more;"
+            f" type: deodar check {_options.shown(file)}",
             file=sys.stderr,
         )
 

@@ -114,11 +114,11 @@ def drawn(args: argparse.Namespace) -> DrawnFigure:
         figure = _from_file(args)
         record = Path(args.variables[0]) if args.variables else None
         return DrawnFigure(figure, [panel.variable for panel in figure.panels], record, args.record.stem)
-    data = files.open_record(args.record)
-    names = variables(data, args.variables)
+    record = files.open_record(args.record)
+    names = variables(record, args.variables)
     kind = "path" if getattr(args, "gif", None) is not None else args.kind
-    figure = FigureFile(panels(args, data, names, kind), letters="none")
-    return DrawnFigure(figure, names, data, f"{stem(args.record)}-plot")
+    figure = FigureFile(panels(args, record, names, kind), letters="none")
+    return DrawnFigure(figure, names, record, f"{stem(args.record)}-plot")
 
 
 def stem(record: Path) -> str:
@@ -131,7 +131,7 @@ def stem(record: Path) -> str:
 
 
 def panels(
-    args: argparse.Namespace, data: xarray.Dataset, names: Sequence[str], kind: str | None
+    args: argparse.Namespace, record: xarray.Dataset, names: Sequence[str], kind: str | None
 ) -> list[FigurePanel]:
     """Return one panel for each variable, with the part that the options select."""
     # start-up time
@@ -144,7 +144,7 @@ def panels(
             name,
             kind,
             at=args.at,
-            trial=args.trial if "trial" in data[name].dims or len(names) == 1 else None,
+            trial=args.trial if "trial" in record[name].dims or len(names) == 1 else None,
             where=where or None,
             axes=args.axes,
             places=spots or None,
@@ -171,30 +171,30 @@ def _from_file(args: argparse.Namespace) -> FigureFile:
     return FigureFile.read(args.record)
 
 
-def selected(args: argparse.Namespace, data: xarray.Dataset, names: Sequence[str]) -> xarray.Dataset:
+def selected(args: argparse.Namespace, record: xarray.Dataset, names: Sequence[str]) -> xarray.Dataset:
     """Return the selected trial, point of a sweep and times of the named variables, without reading them."""
     # start-up time
     import xarray
 
-    views = [panel.view(data) for panel in panels(args, data, names, None)]
-    return xarray.Dataset({view.name: view.chosen() for view in views}, attrs=data.attrs)
+    views = [panel.view(record) for panel in panels(args, record, names, None)]
+    return xarray.Dataset({view.name: view.chosen() for view in views}, attrs=record.attrs)
 
 
-def variables(data: xarray.Dataset, names: list[str]) -> list[str]:
+def variables(record: xarray.Dataset, names: list[str]) -> list[str]:
     """Return the named variables; a path of an element means all of its ports."""
-    known = list(map(str, data.data_vars))
-    if not known:
+    recorded = list(map(str, record.data_vars))
+    if not recorded:
         raise RecordError("the record holds no variable")
-    found: list[str] = []
+    chosen: list[str] = []
     for name in names:
-        if name not in known:
-            of = [n for n in known if n.startswith(f"{name}.")]
+        if name not in recorded:
+            of = [n for n in recorded if n.startswith(f"{name}.")]
             if not of:
-                raise RecordError(f"the record holds no variable {name!r}", fix=did_you_mean(name, known))
-            found += of
+                raise RecordError(f"the record holds no variable {name!r}", fix=did_you_mean(name, recorded))
+            chosen += of
         else:
-            found.append(name)
-    return list(dict.fromkeys(found)) if names else known
+            chosen.append(name)
+    return list(dict.fromkeys(chosen)) if names else recorded
 
 
 def _number(args: argparse.Namespace, text: str) -> float:

@@ -56,9 +56,9 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def refuse_alone(args: argparse.Namespace) -> None:
     """Refuse options that require `--live`."""
-    given = [name for name in OF_A_LIVE_RUN if getattr(args, name) is not None]
-    if given:
-        args.wrong(f"{_options.flags(*given)} needs --live")
+    options = [name for name in OF_A_LIVE_RUN if getattr(args, name) is not None]
+    if options:
+        args.wrong(f"{_options.flags(*options)} needs --live")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -90,8 +90,8 @@ def run(args: argparse.Namespace) -> int:
         if recorder is not None:
             answer["out"] = str(recorder.path)
             if not args.json:
-                shown = _options.shown(recorder.path)
-                print(f"Wrote {', '.join(recorder.names)} to {shown}. Look at it with: deodar plot {shown}")
+                folder = _options.shown(recorder.path)
+                print(f"Wrote {', '.join(recorder.names)} to {folder}. Look at it with: deodar plot {folder}")
     else:
         session.run(duration)
     if args.cost and not stopped:
@@ -114,10 +114,10 @@ def interrupted_by_sigterm() -> Generator[None]:
         return
 
     def end(number: int, frame: FrameType | None) -> None:
-        asked = signal.getsignal(signal.SIGINT)
-        if not callable(asked):  # a script that starts a command with `&` makes it ignore SIGINT
+        handler = signal.getsignal(signal.SIGINT)
+        if not callable(handler):  # a script that starts a command with `&` makes it ignore SIGINT
             raise KeyboardInterrupt
-        asked(signal.SIGINT, frame)
+        handler(signal.SIGINT, frame)
 
     before = signal.signal(signal.SIGTERM, end)
     try:
@@ -128,15 +128,16 @@ def interrupted_by_sigterm() -> Generator[None]:
 
 def _refuse(args: argparse.Namespace) -> None:
     """Refuse options that do not fit."""
-    given = [name for name in (*OF_A_BATCH, *OF_A_RECORD) if getattr(args, name)]
+    options = [name for name in (*OF_A_BATCH, *OF_A_RECORD) if getattr(args, name)]
     if args.live and args.record:
-        given = [name for name in given if name in OF_A_BATCH]
+        options = [name for name in options if name in OF_A_BATCH]
         if args.format != "zarr":
             args.wrong(f"a live run is recorded as zarr; `deodar export` converts it to {args.format}")
-    if given:
-        what = "a session has no batch" if args.live and args.record else "nothing is recorded"
+    if options:
+        reason = "a session has no batch" if args.live and args.record else "nothing is recorded"
         args.wrong(
-            f"with --{'live' if args.live else 'cost'} {what}, so {_options.flags(*given)} cannot be given"
+            f"with --{'live' if args.live else 'cost'} {reason},"
+            f" so {_options.flags(*options)} cannot be given"
             + (" without --record" if args.live and not args.record else "")
         )
 

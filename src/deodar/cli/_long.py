@@ -59,8 +59,8 @@ def confirm_run(args: argparse.Namespace, duration: float, dt: float, run: Calla
     from deodar.batch.simulate import expected_steps
 
     steps = expected_steps(duration, dt)
-    what = f"{steps:.3g} steps of dt = {dt:g}"
-    confirm(args, "run", steps, what, lambda: steps * seconds_a_step(lambda n: run(n * dt)))
+    size = f"{steps:.3g} steps of dt = {dt:g}"
+    confirm(args, "run", steps, size, lambda: steps * seconds_a_step(lambda n: run(n * dt)))
 
 
 def seconds_a_step(run: Callable[[int], object]) -> float:

@@ -50,9 +50,9 @@ def add_cluster(parser: argparse.ArgumentParser, what: str, mixed: bool = False)
 def cluster(args: argparse.Namespace) -> Cluster | None:
     """Return the cluster of `--cluster`; None without it."""
     if args.cluster is None:
-        given = cluster_again(args)
-        if given:
-            args.wrong(f"{given[0].split()[0]} needs --cluster ADDRESS")
+        options = cluster_again(args)
+        if options:
+            args.wrong(f"{options[0].split()[0]} needs --cluster ADDRESS")
         return None
     if args.workers:
         args.wrong("--workers and --cluster exclude each other")
@@ -65,10 +65,10 @@ def cluster(args: argparse.Namespace) -> Cluster | None:
 
 def cluster_again(args: argparse.Namespace) -> list[str]:
     """Return the options of a cluster as they are typed."""
-    given = [f"--cluster {shlex.quote(args.cluster)}"] if args.cluster else []
-    given += ["--trust-network"] if args.trust_network else []
-    given += ["--mixed"] if getattr(args, "mixed", False) else []
-    return given + ([f"--patience {args.patience:g}"] if args.patience else [])
+    options = [f"--cluster {shlex.quote(args.cluster)}"] if args.cluster else []
+    options += ["--trust-network"] if args.trust_network else []
+    options += ["--mixed"] if getattr(args, "mixed", False) else []
+    return options + ([f"--patience {args.patience:g}"] if args.patience else [])
 
 
 def add_devices(parser: argparse.ArgumentParser) -> None:

@@ -61,7 +61,7 @@ def add_cores(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def use_cores(cores: int | None, wanted: int = 1) -> None:
+def use_cores(cores: int | None, usual: int = 1) -> None:
     """Use the number of cores of `--cores`; without it `wanted`, unless NPROC is set or JAX has started."""
     # start-up time: these bring JAX
     from deodar import cores as setting
@@ -69,7 +69,7 @@ def use_cores(cores: int | None, wanted: int = 1) -> None:
     if cores is not None:
         setting.use_cores(cores)
     elif not setting.settled():
-        setting.use_cores(wanted)
+        setting.use_cores(usual)
 
 
 def use_rounding(separate: bool) -> None:
@@ -176,10 +176,10 @@ def apply_set(model: Model, args: argparse.Namespace) -> None:
 
 def whole(text: str) -> int:
     """Parse an integer, 0 or above."""
-    value = int(text)
-    if value < 0:
+    number = int(text)
+    if number < 0:
         raise ValueError
-    return value
+    return number
 
 
 whole.__name__ = "whole number"
@@ -195,10 +195,10 @@ several.__name__ = "whole number or all"
 
 def positive(text: str) -> float:
     """Parse a number above 0."""
-    value = float(text)
-    if not 0 < value < float("inf"):
+    number = float(text)
+    if not 0 < number < float("inf"):
         raise ValueError
-    return value
+    return number
 
 
 positive.__name__ = "number above 0"

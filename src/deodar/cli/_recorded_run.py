@@ -76,7 +76,7 @@ def continued(args: argparse.Namespace) -> int:
     stopped = ""
     try:
         with _run_report.quiet():
-            data = resume(
+            record = resume(
                 args.file,
                 args.duration,
                 _options.world(args.world),
@@ -85,8 +85,8 @@ def continued(args: argparse.Namespace) -> int:
                 Resources(cluster=_machines.cluster(args), progress=_options.progress(args)),
             )
     except Interrupted as error:
-        data, stopped = error.data, str(error)
-    return _run_report.finish(args, GrownRecord(args.file), EndedRun(doc, data, stopped))
+        record, stopped = error.data, str(error)
+    return _run_report.finish(args, GrownRecord(args.file), EndedRun(doc, record, stopped))
 
 
 def repeated(args: argparse.Namespace) -> int:
@@ -122,9 +122,9 @@ def _with_value(args: argparse.Namespace, names: Iterable[str]) -> list[str]:
 
 def _compute_as(args: argparse.Namespace, record: xarray.Dataset) -> None:
     """Use the rounding and the number of cores of a record, unless options name others."""
-    made = about(record)
-    _options.use_rounding(args.separate_rounding or provenance.rounds_separately(made))
-    _options.use_cores(args.cores, provenance.cores_of(made))
+    origin = about(record)
+    _options.use_rounding(args.separate_rounding or provenance.rounds_separately(origin))
+    _options.use_cores(args.cores, provenance.cores_of(origin))
 
 
 def _accepts(args: argparse.Namespace, differences: Sequence[Difference]) -> bool:

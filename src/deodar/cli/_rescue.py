@@ -89,8 +89,8 @@ def _own() -> Iterator[Path]:
     """Yield the folders for user data and for temporary files; the caller skips those that it cannot
     create.
     """
-    data = platformdirs.user_data_path("deodar", appauthor=False) / "results"
+    results = platformdirs.user_data_path("deodar", appauthor=False) / "results"
     with contextlib.suppress(OSError):
-        data.mkdir(parents=True, exist_ok=True)
-    yield data
+        results.mkdir(parents=True, exist_ok=True)
+    yield results
     yield Path(tempfile.gettempdir())

@@ -57,19 +57,19 @@ def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: Ended
     """Write a run and print where; status 1 if it was stopped, written elsewhere, or differs without a
     reason.
     """
-    data, stopped, repetition = run.data, run.stopped, run.repetition
-    if stopped and (data is None or not _times(data)):
+    values, stopped, repetition = run.data, run.stopped, run.repetition
+    if stopped and (values is None or not _times(values)):
         _say(_options.paragraph([stopped, "Nothing had been recorded, so nothing was written"]))
         return 1
-    assert data is not None
-    written = output.write(data, run.document, not args.json)
+    assert values is not None
+    written = output.write(values, run.document, not args.json)
     out, record, failure = written
-    if "diverged" in data.attrs:
-        _say(f"warning: {data.attrs['diverged']}")
+    if "diverged" in values.attrs:
+        _say(f"warning: {values.attrs['diverged']}")
     if args.json:
         elsewhere = {"instead_of": output.label} if failure else {}
-        print(codec.text(_answer(written, data, run) | elsewhere))
-    wrote = f"Wrote {_contents(data)} to {_options.shown(out)}"
+        print(codec.text(_answer(written, values, run) | elsewhere))
+    wrote = f"Wrote {_contents(values)} to {_options.shown(out)}"
     table = record.suffix == SUFFIXES["csv"]
     look = (
         f"The table is {_options.shown(record)}"
@@ -95,39 +95,39 @@ def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: Ended
     return 0 if repetition is None or repetition.faithful else 1
 
 
-def _say(what: str) -> None:
-    print(f"deodar run: {what}", file=sys.stderr)
+def _say(message: str) -> None:
+    print(f"deodar run: {message}", file=sys.stderr)
 
 
-def _times(data: xarray.Dataset) -> int:
+def _times(record: xarray.Dataset) -> int:
     """Return the number of times of the variable with most of them."""
-    return max((n for d, n in data.sizes.items() if probe.is_time(str(d))), default=0)
+    return max((n for d, n in record.sizes.items() if probe.is_time(str(d))), default=0)
 
 
-def _contents(data: xarray.Dataset) -> str:
-    names = list(map(str, data.data_vars))
-    shown = ", ".join(names[:NAMES]) + (f" and {len(names) - NAMES} more" if len(names) > NAMES else "")
-    times = _times(data)
-    trials = f"{data.sizes['trial']} trials, " if "trial" in data.sizes else ""
-    return f"{shown} ({trials}{f'{times} times' if times != 1 else 'one time'})"
+def _contents(record: xarray.Dataset) -> str:
+    names = list(map(str, record.data_vars))
+    listed = ", ".join(names[:NAMES]) + (f" and {len(names) - NAMES} more" if len(names) > NAMES else "")
+    times = _times(record)
+    trials = f"{record.sizes['trial']} trials, " if "trial" in record.sizes else ""
+    return f"{listed} ({trials}{f'{times} times' if times != 1 else 'one time'})"
 
 
-def _answer(written: WrittenRun, data: xarray.Dataset, run: EndedRun) -> dict[str, Json]:
+def _answer(written: WrittenRun, record: xarray.Dataset, run: EndedRun) -> dict[str, Json]:
     answer: dict[str, Json] = {
         "out": str(written.out),
         "record": str(written.record),
         "variables": {
-            str(n): dict(zip(map(str, v.dims), v.shape, strict=True)) for n, v in data.data_vars.items()
+            str(n): dict(zip(map(str, v.dims), v.shape, strict=True)) for n, v in record.data_vars.items()
         },
         "complete": not run.stopped,
     }
     if (written.out / "model.json").is_file():
         answer["model"] = str(written.out / "model.json")
-    if (found := run.repetition) is not None:
+    if (repetition := run.repetition) is not None:
         answer["repetition"] = {
-            "same_bits": found.same_bits,
-            "differences": [{"what": d.what, "then": d.then, "now": d.now} for d in found.differences],
-            "largest": {k: v if v < float("inf") else None for k, v in found.largest.items()},
-            "compared": found.compared,
+            "same_bits": repetition.same_bits,
+            "differences": [{"what": d.what, "then": d.then, "now": d.now} for d in repetition.differences],
+            "largest": {k: v if v < float("inf") else None for k, v in repetition.largest.items()},
+            "compared": repetition.compared,
         }
     return answer

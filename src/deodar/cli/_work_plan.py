@@ -16,22 +16,22 @@ def show(setup: Setup, json: bool) -> int:
     # start-up time: these bring JAX
     from deodar.experiments.planning import plan
 
-    found = plan(setup)
-    times = {n: found.duration(n) for n in found.counts()}
+    work = plan(setup)
+    times = {n: work.duration(n) for n in work.counts()}
     if json:
-        answer = {"pieces": list(found.pieces), "memory": found.memory, "seconds": found.seconds}
-        answer |= {"row": found.row, "record": found.record, "stored": found.stored, "most": found.most}
+        answer = {"pieces": list(work.pieces), "memory": work.memory, "seconds": work.seconds}
+        answer |= {"row": work.row, "record": work.record, "stored": work.stored, "most": work.most}
         print(codec.text({**answer, "times": {str(n): seconds for n, seconds in times.items()}}))
         return 0
-    pieces = f"{_number(len(found.pieces), 'piece')} of at most {max(found.pieces)}"
-    memory = f"about {found.memory / 2**20:.0f} MB of memory for each worker"
-    print(f"{setup.experiment.name}: {_number(sum(found.pieces), 'trial')} in {pieces}; {memory}")
-    records = f" and at most {_size(found.record)} of records" if found.record else ""
-    print(f"  stored: {_size(found.row)} for a row{records} of each trial, {_size(found.stored)} in total")
+    pieces = f"{_number(len(work.pieces), 'piece')} of at most {max(work.pieces)}"
+    memory = f"about {work.memory / 2**20:.0f} MB of memory for each worker"
+    print(f"{setup.experiment.name}: {_number(sum(work.pieces), 'trial')} in {pieces}; {memory}")
+    records = f" and at most {_size(work.record)} of records" if work.record else ""
+    print(f"  stored: {_size(work.row)} for a row{records} of each trial, {_size(work.stored)} in total")
     for n, seconds in times.items():
         print(f"  {_number(n, 'worker')}: at most {_long.duration(seconds)}")
-    why = "each has one piece" if found.most == len(found.pieces) else "the caller is busy with their pieces"
-    print(f"More than {_number(found.most, 'worker')} would not help: {why}.")
+    why = "each has one piece" if work.most == len(work.pieces) else "the caller is busy with their pieces"
+    print(f"More than {_number(work.most, 'worker')} would not help: {why}.")
     print("Measured on this machine; trials may end earlier.")
     return 0
 
@@ -43,5 +43,5 @@ def _size(count: int) -> str:
     return f"{count} bytes"
 
 
-def _number(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"
+def _number(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"

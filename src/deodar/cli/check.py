@@ -38,20 +38,20 @@ def run(args: argparse.Namespace) -> int:
             raise
         print(_json(error.problems))
         return 1
-    found = model.check()
-    failed = any(args.strict or p.severity == "problem" for p in found)
+    problems = model.check()
+    failed = any(args.strict or p.severity == "problem" for p in problems)
     if args.json:
-        print(_json(found))
+        print(_json(problems))
         return int(failed)
-    for p in found:
+    for p in problems:
         print(f"warning: {p}" if p.severity == "warning" else p)
     if not failed:
-        d, n = model.document, len(found)
-        good = f"no problem, {n} warning{'s' if n > 1 else ''}" if found else "good"
+        d, n = model.document, len(problems)
+        good = f"no problem, {n} warning{'s' if n > 1 else ''}" if problems else "good"
         print(f"{args.file}: {good}. {len(d.entries)} elements, {len(d.connections)} connections.")
     return int(failed)
 
 
-def _json(found: Sequence[Problem]) -> str:
-    listed = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in found]
+def _json(problems: Sequence[Problem]) -> str:
+    listed = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
     return codec.text({"problems": listed})

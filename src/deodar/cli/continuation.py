@@ -82,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
     if save is not None:
         files.claim(save, files.format_of(save), args.force)
     with Console(stderr=True).status("following steady states"):
-        found = continuation(
+        branch = continuation(
             model,
             args.parameter,
             (args.first, args.last),
@@ -92,20 +92,20 @@ def run(args: argparse.Namespace) -> int:
             args.even,
             finer=not args.one_grid,
         )
-        points = [b for b in found.bifurcations if b.kind == "branch point"] if args.switch else []
-        others = [other for b in points for other in found.switch(b)]
-        figure = None if target is None else bifurcation_diagram(found, *others, shown=args.show)
+        points = [b for b in branch.bifurcations if b.kind == "branch point"] if args.switch else []
+        side_branches = [side_branch for b in points for side_branch in branch.switch(b)]
+        figure = None if target is None else bifurcation_diagram(branch, *side_branches, shown=args.show)
     if target is not None and figure is not None:
         _files.save_figure(figure, target, args.force)
-    written = [] if save is None else _saved([found, *others], save, args.force)
+    written = [] if save is None else _saved([branch, *side_branches], save, args.force)
     if args.json:
-        answer = found.data() | {"switched": [other.data() for other in others]}
+        answer = branch.data() | {"switched": [side_branch.data() for side_branch in side_branches]}
         answer["figure"] = None if target is None else str(target)
         print(codec.text(answer | {"files": list(map(str, written))}))
         return 0
-    print(_table(found))
-    for other in others:
-        print(f"\nA branch that leaves a branch point:\n{_table(other)}")
+    print(_table(branch))
+    for side_branch in side_branches:
+        print(f"\nA branch that leaves a branch point:\n{_table(side_branch)}")
     if target is not None:
         print(f"\nFigure: {target}")
     for path in written:
@@ -119,18 +119,18 @@ def _saved(branches: Sequence[SteadyBranch], path: Path, force: bool) -> list[Pa
     return [branch.save(name, force) for branch, name in zip(branches, names, strict=True)]
 
 
-def _table(found: SteadyBranch) -> str:
+def _table(branch: SteadyBranch) -> str:
     """Return the bifurcations in words, one per line."""
-    low, high = float(found.values.min()), float(found.values.max())
+    low, high = float(branch.values.min()), float(branch.values.max())
     lines = [
-        f"{len(found.values)} steady states over {found.parameter} from {low:.4g} to {high:.4g},"
-        f" {int(found.stable.sum())} of them stable"
+        f"{len(branch.values)} steady states over {branch.parameter} from {low:.4g} to {high:.4g},"
+        f" {int(branch.stable.sum())} of them stable"
     ]
-    for b in found.bifurcations:
+    for b in branch.bifurcations:
         lines.append(f"  {b.value:<12.8g} {b.words}")
         if b.step_value is not None:
             lines.append(
-                f"{'':15}with the Euler step {found.line.right_hand_side.dt:g} at {b.step_value:.6g}"
+                f"{'':15}with the Euler step {branch.line.right_hand_side.dt:g} at {b.step_value:.6g}"
             )
         if b.fine_value is not None:
             lines.append(f"{'':15}on a grid twice as fine {b.fine_value:.8g}")
@@ -138,10 +138,10 @@ def _table(found: SteadyBranch) -> str:
             strongest = sorted(b.sensitivity.items(), key=lambda pair: -abs(pair[1]))[:3]
             text = ", ".join(f"{slope:+.3g} per {path}" for path, slope in strongest)
             lines.append(f"{'':15}moves by {text}")
-    if not found.bifurcations:
+    if not branch.bifurcations:
         lines.append("  no bifurcation")
-    if found.not_refined:
-        lines.append(f"Not followed on a finer grid: {found.not_refined}.")
-    if found.ended[1] in ("points", "lost"):
-        lines.append(f"The branch ends inside the span, at {found.values[-1]:.6g}.")
+    if branch.not_refined:
+        lines.append(f"Not followed on a finer grid: {branch.not_refined}.")
+    if branch.ended[1] in ("points", "lost"):
+        lines.append(f"The branch ends inside the span, at {branch.values[-1]:.6g}.")
     return "\n".join(lines)

@@ -39,12 +39,12 @@ def run(args: argparse.Namespace) -> int:
     """Examine the installation; status 1 if a requirement is missing."""
     if args.plans:
         return _plans(args.json)
-    found = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
+    state = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
     if args.json:
-        print(codec.text(found))
+        print(codec.text(state))
     else:
-        print(_page(found))
-    return 1 if found["missing"] else 0
+        print(_page(state))
+    return 1 if state["missing"] else 0
 
 
 def _plans(as_json: bool) -> int:
@@ -112,19 +112,19 @@ def examine() -> dict[str, Any]:
     ]
     packages = {name: version(name) for name in sorted(needed)}
     place = cache.folder()
-    kept = (
+    program_sizes = (
         [p.stat().st_size for p in place.iterdir() if p.is_file()]
         if place is not None and place.is_dir()
         else []
     )
-    near = next((p for p in (place, *place.parents) if p.exists()), None) if place is not None else None
+    existing = next((p for p in (place, *place.parents) if p.exists()), None) if place is not None else None
     memory = psutil.virtual_memory()
     return {
         "deodar": __version__,
         "python": platform.python_version(),
         "system": platform.platform(),
         "packages": packages,
-        "missing": [name for name, found in packages.items() if found is None],
+        "missing": [name for name, installed in packages.items() if installed is None],
         "plugins": _plugins(),
         "extras": {extra: None not in map(version, names) for extra, names in _extras().items()},
         "device": device.name(device.find()),
@@ -138,9 +138,9 @@ def examine() -> dict[str, Any]:
         },
         "compiled_programs": {
             "folder": str(place) if place is not None else None,
-            "count": len(kept),
-            "mib": round(sum(kept) / 2**20, 1),
-            "writable": bool(near is not None and os.access(near, os.W_OK)),
+            "count": len(program_sizes),
+            "mib": round(sum(program_sizes) / 2**20, 1),
+            "writable": bool(existing is not None and os.access(existing, os.W_OK)),
         },
     }
 
@@ -180,10 +180,10 @@ def _needs(path: str) -> dict[str, Any]:
 
 def _is_experiment(path: Path) -> bool:
     try:
-        data = codec.read(path.read_bytes())
+        content = codec.read(path.read_bytes())
     except (DocumentError, OSError):
         return False
-    return isinstance(data, dict) and "experiment" in data
+    return isinstance(content, dict) and "experiment" in content
 
 
 def _plugins() -> list[dict[str, str]]:
@@ -220,54 +220,54 @@ def _kernels(kernels: str, problem: str, off: bool) -> str:
     return f"deodar-native {kernels}" if kernels else "deodar-native is not installed (docs/speed.md)"
 
 
-def _page(found: dict[str, Any]) -> str:
+def _page(state: dict[str, Any]) -> str:
     # start-up time: these bring JAX
     from deodar.compiler import device
 
-    lines = [f"deodar {found['deodar']} on Python {found['python']}, {found['system']}"]
+    lines = [f"deodar {state['deodar']} on Python {state['python']}, {state['system']}"]
     lines.append(
-        f"device     {found['device']}; {found['cores']} cores, {found['memory_gib']['free']} of"
-        f" {found['memory_gib']['total']} GiB memory free"
+        f"device     {state['device']}; {state['cores']} cores, {state['memory_gib']['free']} of"
+        f" {state['memory_gib']['total']} GiB memory free"
     )
-    devices = ", ".join(f"{name} ({kind})" for name, kind in found["devices"].items())
+    devices = ", ".join(f"{name} ({kind})" for name, kind in state["devices"].items())
     lines.append(
         f"devices    {devices}. "
-        + ("Choose one with --device" if len(found["devices"]) > 1 else device.INSTALL)
+        + ("Choose one with --device" if len(state["devices"]) > 1 else device.INSTALL)
     )
     lines.append(
         "packages   "
-        + ", ".join(f"{name} {version}" for name, version in found["packages"].items() if version)
+        + ", ".join(f"{name} {version}" for name, version in state["packages"].items() if version)
     )
-    if found["missing"]:
-        lines.append(f"MISSING    {', '.join(found['missing'])}. Type: pip install --upgrade deodar")
-    for p in found["plugins"]:
+    if state["missing"]:
+        lines.append(f"MISSING    {', '.join(state['missing'])}. Type: pip install --upgrade deodar")
+    for p in state["plugins"]:
         lines.append(
             f"plug-in    {p['package']} {p['version']}: "
             + (f"PROBLEM: {p['name']} {p['problem']}" if p["problem"] else f"{p['group']} {p['name']}")
         )
-    for document in found.get("documents", ()):
-        other = (
+    for document in state.get("documents", ()):
+        verdict = (
             "opens"
             if document["opens"]
             else "no package is missing, but it does not open. Type: " + document["check"]
         )
         lines += [
-            f"document   {document['file']}: {what}"
-            for what in ["PROBLEM: " + p for p in document["problems"]] or [other]
+            f"document   {document['file']}: {line}"
+            for line in ["PROBLEM: " + p for p in document["problems"]] or [verdict]
         ]
-    for extra, there in found["extras"].items():
+    for extra, installed in state["extras"].items():
         lines.append(
             f"extra      {extra}: "
-            + ("installed" if there else f"not installed. Type: pip install 'deodar[{extra}]'")
+            + ("installed" if installed else f"not installed. Type: pip install 'deodar[{extra}]'")
         )
-    lines.append(f"kernels    {_kernels(**found['native'])}")
-    programs = found["compiled_programs"]
+    lines.append(f"kernels    {_kernels(**state['native'])}")
+    programs = state["compiled_programs"]
     if programs["folder"] is None:
         lines.append("programs   compiled programs are not kept (DEODAR_CACHE=off)")
     else:
-        state = "" if programs["writable"] else ", which cannot be written to: every start compiles again"
+        note = "" if programs["writable"] else ", which cannot be written to: every start compiles again"
         lines.append(
             f"programs   {programs['count']} compiled programs, {programs['mib']} MiB, in"
-            f" {programs['folder']}{state}"
+            f" {programs['folder']}{note}"
         )
     return "\n".join(lines)

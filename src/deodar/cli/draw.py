@@ -42,11 +42,11 @@ def run(args: argparse.Namespace) -> int:
     from deodar.importers.opening import load
     from deodar.model.draw import draw
 
-    made = draw(load(args.file), legend=not args.no_legend, depth=args.depth)
+    drawing = draw(load(args.file), legend=not args.no_legend, depth=args.depth)
     out: Path = args.out or places.free(Path(), f"{args.file.stem}-architecture", ".svg")
-    made.save(out, args.width, args.force)
-    width = made.size[0] if args.width is None else args.width
-    size = [round(width, 2), round(width * made.size[1] / made.size[0], 2)]
+    drawing.save(out, args.width, args.force)
+    width = drawing.size[0] if args.width is None else args.width
+    size = [round(width, 2), round(width * drawing.size[1] / drawing.size[0], 2)]
     if args.json:
         print(codec.text({"out": str(out), "inches": size}))
     else:

@@ -37,12 +37,12 @@ def run(args: argparse.Namespace) -> int:
         cls = registry.kind(args.kind)
         source = docstring.source(cls)
         if args.json:
-            found = (
+            kinds = (
                 schema(cls, reference)
                 if issubclass(cls, Part)
                 else {"title": cls.__name__, "description": source}
             )
-            print(codec.text(found))
+            print(codec.text(kinds))
         else:
             kind = describe(cls)
             print(f"{kind.name}  ({kind.public_name})\n\n{source}")
@@ -50,25 +50,25 @@ def run(args: argparse.Namespace) -> int:
                 print("\n".join(["", "Values:", *_values(kind.parameters)]))
         return 0
     listed = {room: registry.kinds(room) for room in registry.ROOMS}
-    known = {name for found in listed.values() for name in found}
+    names = {name for kinds in listed.values() for name in kinds}
     outside = {
-        name: cls for name, cls in registry.kinds().items() if name not in known and not registry.own(cls)
+        name: cls for name, cls in registry.kinds().items() if name not in names and not registry.own(cls)
     }
     listed |= {"own": outside} if outside else {}
     lines = {
         room: {
             name: docstring.parse(docstring.source(cls)).summary or cls.__name__
-            for name, cls in found.items()
+            for name, cls in kinds.items()
         }
-        for room, found in listed.items()
+        for room, kinds in listed.items()
     }
     if args.json:
         print(codec.text(lines))
         return 0
-    width = max(len(name) for found in lines.values() for name in found)
-    for room, found in lines.items():
+    width = max(len(name) for kinds in lines.values() for name in kinds)
+    for room, kinds in lines.items():
         print(room.split(".")[-1])
-        for name, line in found.items():
+        for name, line in kinds.items():
             print(f"  {name:{width}}  {line}")
     return 0
 
@@ -77,5 +77,5 @@ def _values(parameters: Sequence[ParameterDescription]) -> Iterator[str]:
     """Yield for each parameter its default, unit, range and the cost of a change."""
     width = max(len(p.name) for p in parameters)
     for p in parameters:
-        about = [p.typed, p.unit, range_text(p.lower, p.upper), " | ".join(p.choices), p.cost]
-        yield f"    {p.name:{width}}  {'; '.join(a for a in about if a)}"
+        columns = [p.typed, p.unit, range_text(p.lower, p.upper), " | ".join(p.choices), p.cost]
+        yield f"    {p.name:{width}}  {'; '.join(a for a in columns if a)}"

@@ -112,12 +112,14 @@ def run(args: argparse.Namespace) -> int:
     if args.folders:
         args.wrong(f"only merge takes folders, and this is {args.file}")
     part = args.trials if isinstance(args.trials, tuple) else None
-    found = Experiment.load(args.file, load)
-    given: dict[str, Any] = {"model": load(str(found.model), trust=args.trust)}
-    given |= {key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None}
+    stated = Experiment.load(args.file, load)
+    settings: dict[str, Any] = {"model": load(str(stated.model), trust=args.trust)}
+    settings |= {
+        key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None
+    }
     if part is not None:
-        del given["trials"]
-    experiment = dc.replace(found, **given)
+        del settings["trials"]
+    experiment = dc.replace(stated, **settings)
     if args.follow is not None:
         return _follow(args, len(experiment.cells) if part is None else part[1] - part[0])
     cluster = _machines.cluster(args)
@@ -132,14 +134,14 @@ def run(args: argparse.Namespace) -> int:
     try:
         with Bar(args.no_progress or args.json, "trials") as bar:
             on = Resources(workers=args.workers or None, cluster=cluster, progress=bar.show)
-            data = run_trials(setup, out, on, part)
+            results = run_trials(setup, out, on, part)
     except (KeyboardInterrupt, OutputError, WorkerError) as stop:
         if not (out / ROWS).is_file():
             raise
         _tell_stop(args, out, part, "stopped" if isinstance(stop, KeyboardInterrupt) else f"{stop}")
         return 1
-    _tell(args, out, data)
-    return 1 if 0 < _diverged(data) == data.sizes["trial"] else 0
+    _tell(args, out, results)
+    return 1 if 0 < _diverged(results) == results.sizes["trial"] else 0
 
 
 def _tell_stop(args: argparse.Namespace, out: Path, part: tuple[int, int] | None, why: str) -> None:
@@ -151,12 +153,12 @@ def _tell_stop(args: argparse.Namespace, out: Path, part: tuple[int, int] | None
         "--workers": args.workers,
         "--records": None if args.records is None else shlex.quote(masked(args.records)),
     }
-    again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
-    again += [f"{name} {value}" for name, value in options.items() if value is not None]
-    again += _machines.cluster_again(args)
-    again += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
-    kept = _options.paragraph([why, "What is done is kept"])
-    print(f"deodar experiment: {kept} Resume with: {' '.join(again)}", file=sys.stderr)
+    command = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
+    command += [f"{name} {value}" for name, value in options.items() if value is not None]
+    command += _machines.cluster_again(args)
+    command += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
+    sentence = _options.paragraph([why, "What is done is kept"])
+    print(f"deodar experiment: {sentence} Resume with: {' '.join(command)}", file=sys.stderr)
 
 
 def trials(text: str) -> int | tuple[int, int]:
@@ -183,8 +185,8 @@ def _merge(args: argparse.Namespace) -> int:
     else:
         print(f"{merged.data.sizes['trial']} trials. Written to {_options.shown(out)}.")
         if missing:
-            shown = ", ".join(missing[:MOST_CELLS]) + (", ..." if len(missing) > MOST_CELLS else "")
-            print(f"Trials without a row, as --trials names them: {shown}")
+            listed = ", ".join(missing[:MOST_CELLS]) + (", ..." if len(missing) > MOST_CELLS else "")
+            print(f"Trials without a row, as --trials names them: {listed}")
     return 1 if missing else 0
 
 
@@ -200,43 +202,43 @@ def _follow(args: argparse.Namespace, of: int) -> int:
     from deodar.recording import writer_lock
 
     begun: tuple[float, int] | None = None
-    said = -1
+    rows_told = -1
     stored(args.follow)  # or the error that it is no such folder
     tail, rows, writer = RowsTail(args.follow / ROWS), list[dict[str, Any]](), RowsWriter(time.monotonic())
     with contextlib.suppress(KeyboardInterrupt):
         while True:
             running = writer_lock.is_written(args.follow)  # before the rows: it may end after them
             rows += tail.new()
-            now = time.monotonic()
-            begun = begun or (now, len(rows))
-            runs = writer.runs(running, len(rows) > said >= 0, now)
-            if len(rows) != said:
-                _tell_standing(args, standing(rows, of, begun, now))
+            moment = time.monotonic()
+            begun = begun or (moment, len(rows))
+            runs = writer.runs(running, len(rows) > rows_told >= 0, moment)
+            if len(rows) != rows_told:
+                _tell_standing(args, standing(rows, of, begun, moment))
             if len(rows) >= of:
                 return 0
             if running is False and not runs:
                 _say("no process runs it; the call that began it resumes it")
                 return 1
-            if running is False and said < 0:
+            if running is False and rows_told < 0:
                 wait = f"rows of another one are awaited for {QUIET_SECONDS:g} s"
                 _say(f"no process of this machine runs it; {wait}")
-            said = len(rows)
+            rows_told = len(rows)
             time.sleep(following.FOLLOW_SECONDS)
     return 0
 
 
-def _say(what: str) -> None:
-    print(f"deodar experiment: {what}", file=sys.stderr, flush=True)
+def _say(message: str) -> None:
+    print(f"deodar experiment: {message}", file=sys.stderr, flush=True)
 
 
-def _tell_standing(args: argparse.Namespace, now: Standing) -> None:
+def _tell_standing(args: argparse.Namespace, standing: Standing) -> None:
     if args.json:
-        print(codec.line(dc.asdict(now) | {"share": now.share}), flush=True)
+        print(codec.line(dc.asdict(standing) | {"share": standing.share}), flush=True)
         return
-    left = "" if now.left is None else f", {_long.duration(now.left)} left"
-    text = [f"{now.rows} of {now.of} trials ({100 * now.share:.0f} %){left}"]
-    text += [f"slowest: {now.slowest}"] if now.slowest else []
-    text += [f"diverged: {cell}" for cell in now.diverged]
+    time_left = "" if standing.left is None else f", {_long.duration(standing.left)} left"
+    text = [f"{standing.rows} of {standing.of} trials ({100 * standing.share:.0f} %){time_left}"]
+    text += [f"slowest: {standing.slowest}"] if standing.slowest else []
+    text += [f"diverged: {cell}" for cell in standing.diverged]
     print("; ".join(text), flush=True)
 
 
@@ -248,20 +250,20 @@ def _confirm(args: argparse.Namespace, setup: Any, out: Path) -> None:
 
     if setup.trials * setup.steps < LONG_STEPS:
         return
-    left = setup.trials - (load_results(out).sizes["trial"] if (out / ROWS).is_file() else 0)
-    what = f"{left} trials of at most {setup.steps:.3g} steps of dt = {setup.dt:g}"
+    remaining = setup.trials - (load_results(out).sizes["trial"] if (out / ROWS).is_file() else 0)
+    size = f"{remaining} trials of at most {setup.steps:.3g} steps of dt = {setup.dt:g}"
 
     def seconds() -> float:
         first = setup.pieces()[0]
         a_step = _long.seconds_a_step(lambda n: setup.shortened(n).rows(first))
-        return a_step * setup.steps * left / len(first) / min(args.workers or 1, len(setup.pieces()))
+        return a_step * setup.steps * remaining / len(first) / min(args.workers or 1, len(setup.pieces()))
 
-    _long.confirm(args, "experiment", left * setup.steps, what, seconds)
+    _long.confirm(args, "experiment", remaining * setup.steps, size, seconds)
 
 
 def _check(args: argparse.Namespace, setup: Any) -> int:
     pieces = [len(piece) for piece in setup.pieces()]
-    way = (
+    batches = (
         f"in {len(pieces)} batch{'es' if len(pieces) > 1 else ''} of at most {max(pieces)}"
         if setup.batched
         else "one by one"
@@ -269,65 +271,65 @@ def _check(args: argparse.Namespace, setup: Any) -> int:
     if args.json:
         print(codec.line({"trials": sum(pieces), "batched": setup.batched, "pieces": pieces}))
     else:
-        print(f"{setup.experiment.name}: {sum(pieces)} trials, {way}. Nothing is wrong with it.")
+        print(f"{setup.experiment.name}: {sum(pieces)} trials, {batches}. Nothing is wrong with it.")
     return 0
 
 
-def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
+def _tell(args: argparse.Namespace, out: Path, results: xarray.Dataset) -> None:
     names = sorted(p.name for p in out.iterdir())
     outcomes = {
-        str(name): int((data["outcome"] == name).sum())
-        for name in sorted(set(data["outcome"].values.tolist()))
+        str(name): int((results["outcome"] == name).sum())
+        for name in sorted(set(results["outcome"].values.tolist()))
     }
-    if lost := _diverged(data):
-        print(f"deodar experiment: warning: {data.attrs['diverged']}", file=sys.stderr)
+    if lost := _diverged(results):
+        print(f"deodar experiment: warning: {results.attrs['diverged']}", file=sys.stderr)
     if args.json:
         answer = {
             "out": str(out),
-            "trials": data.sizes["trial"],
+            "trials": results.sizes["trial"],
             "outcomes": outcomes,
             "diverged": lost,
             "files": names,
         }
         print(codec.text(answer | ({} if args.records is None else {"records": masked(args.records)})))
         return
-    for line in _cells(data):
+    for line in _cells(results):
         print(line)
-    shown = ", ".join(f"{name} {n}" for name, n in outcomes.items())
+    counts = ", ".join(f"{name} {n}" for name, n in outcomes.items())
     none = "their batch begins before this part, and runs with that one"
-    print(f"{data.sizes['trial']} trials: {shown or none}.")
+    print(f"{results.sizes['trial']} trials: {counts or none}.")
     print(f"Written to {_options.shown(out)}: {', '.join(names)}.")
     if args.records is not None:
         print(f"Records written to {masked(args.records)}; dd.open_records reads them.")
 
 
-def _diverged(data: xarray.Dataset) -> int:
+def _diverged(results: xarray.Dataset) -> int:
     """Return the number of trials that diverged."""
-    return int((data["diverged"] != "").sum()) if "diverged" in data.attrs else 0
+    return int((results["diverged"] != "").sum()) if "diverged" in results.attrs else 0
 
 
-def _cells(data: xarray.Dataset) -> Iterator[str]:
+def _cells(results: xarray.Dataset) -> Iterator[str]:
     """Yield for each combination of levels its outcomes and the median duration of a trial."""
     # start-up time
     import numpy as np
 
     from deodar.experiments.following import called
 
-    factors = [str(name) for name in data.coords if name != "trial"]
-    labels = list(zip(*(data[name].values.tolist() for name in factors), strict=True)) if factors else []
-    unit = data["duration"].attrs["units"]
+    factors = [str(name) for name in results.coords if name != "trial"]
+    labels = list(zip(*(results[name].values.tolist() for name in factors), strict=True)) if factors else []
+    unit = results["duration"].attrs["units"]
     cells = list(dict.fromkeys(labels))
     for cell in cells[:MOST_CELLS]:
         of = np.asarray([label == cell for label in labels])
-        ended = data["outcome"].values[of].tolist()
+        ended = results["outcome"].values[of].tolist()
         shares = ", ".join(
             f"{name} {100 * ended.count(name) / len(ended):.0f} %" for name in sorted(set(ended))
         )
         where = called(dict(zip(factors, cell, strict=True)))
         after = "" if unit in ("abstract", "") or unit.startswith("1 =") else f" {unit}"
-        durations = data["duration"].values[of]
-        known = durations[~np.isnan(durations)]
-        middle = f"median {np.median(known):g}{after}" if known.size else "no duration"
+        durations = results["duration"].values[of]
+        finite = durations[~np.isnan(durations)]
+        middle = f"median {np.median(finite):g}{after}" if finite.size else "no duration"
         yield f"  {where}: {len(ended)} trials, {shares}, {middle}"
     if len(cells) > MOST_CELLS:
         yield f"  ... and {len(cells) - MOST_CELLS} more combinations"

@@ -115,13 +115,13 @@ def _target(args: argparse.Namespace) -> tuple[str, Path]:
     if format is None:
         ending = "" if out is None else out.suffix.lower()
         endings |= {name: exporter.ENDING for name, exporter in of_records().items()}
-        found = [name for name, known in endings.items() if known and known == ending]
-        if not found:
+        formats = [name for name, suffix in endings.items() if suffix and suffix == ending]
+        if not formats:
             args.wrong("the format is missing: end --out in .nc, .csv, .zarr, .gif or .mp4, or give --to")
-        format = found[0]
+        format = formats[0]
     if out is not None and format in VIDEOS and out.suffix.lower() != endings[format]:
-        what = f"a name that ends in {endings[format]}" if endings[format] else "the name of a folder"
-        args.wrong(f"--to {format} needs {what}, not {out}")
+        expected = f"a name that ends in {endings[format]}" if endings[format] else "the name of a folder"
+        args.wrong(f"--to {format} needs {expected}, not {out}")
     if out is None:
         figure = args.record.suffix.lower() == ".toml" or format in of_models()
         name = args.record.stem.rpartition(":")[2] if figure else _figure.stem(args.record)
@@ -150,9 +150,11 @@ def _write_model(args: argparse.Namespace, format: str, out: Path) -> int:
 
     if args.variables:
         args.wrong(f"--to {format} writes a whole model, not {', '.join(args.variables)}")
-    given = [name for name in (*DRAWN, *SELECTED) if getattr(args, name) is not None]
-    if given:
-        args.wrong(f"--{given[0].replace('_', '-')} is about a record, and --to {format} writes a model")
+    drawing_options = [name for name in (*DRAWN, *SELECTED) if getattr(args, name) is not None]
+    if drawing_options:
+        args.wrong(
+            f"--{drawing_options[0].replace('_', '-')} is about a record, and --to {format} writes a model"
+        )
     output.claim(out, args.force)
     _require_options(args, format)
     exporter = EXPORTERS[format]
@@ -184,8 +186,8 @@ def _shown(bar: Bar) -> Callable[[int, int], None]:
     began = time.monotonic()
 
     def show(done: int, of: int) -> None:
-        left = (time.monotonic() - began) / done * (of - done)
-        bar.show(Progress(done, of, done / of, left))
+        seconds = (time.monotonic() - began) / done * (of - done)
+        bar.show(Progress(done, of, done / of, seconds))
 
     return show
 
@@ -200,9 +202,9 @@ def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:
     for option in DRAWN:
         if getattr(args, option) is not None:
             args.wrong(f"--{option.replace('_', '-')} selects what is drawn, and --to {format} writes values")
-    data = files.open_record(args.record)
-    names = _figure.variables(data, args.variables)
-    part = _figure.selected(args, data, names)
+    record = files.open_record(args.record)
+    names = _figure.variables(record, args.variables)
+    part = _figure.selected(args, record, names)
     if format in EXPORTERS:
         EXPORTERS[format].save(part, out, args.force)
     else:

@@ -56,9 +56,9 @@ def run(args: argparse.Namespace) -> int:
     if args.out is not None and not failed:
         save(Model(document=with_report(doc, report)), args.out, args.force)
     if args.json:
-        found = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
+        lines = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
         written = str(args.out) if args.out is not None and not failed else None
-        print(codec.text({**located(report, doc).data(), "problems": found, "out": written}))
+        print(codec.text({**located(report, doc).data(), "problems": lines, "out": written}))
         return int(failed)
     _report.show(report)
     for severity, title in (

@@ -108,61 +108,61 @@ def run(args: argparse.Namespace) -> int:
         args.y: (args.y_low, args.y_high, args.y_number),
     }
     with Bar(args.no_progress or args.json or not sys.stderr.isatty(), "cells") as bar:
-        found = regime_map(
+        regimes = regime_map(
             model,
             over,
             args.field,
             args.strength,
             refine=not args.every_cell,
-            on=Resources(progress=lambda done, known: bar.show(Progress(done, known, done / known, None))),
+            on=Resources(progress=lambda done, cells: bar.show(Progress(done, cells, done / cells, None))),
             sigma=args.sigma,
             inputs=args.input,
             precision=args.precision,
         )
-    loci = regime_loci(found) if args.loci else []
+    loci = regime_loci(regimes) if args.loci else []
     if target is not None:
-        _files.save_figure(regime_map_figure(found, loci), target, args.force)
+        _files.save_figure(regime_map_figure(regimes, loci), target, args.force)
     if save is not None:
-        found.save(save, args.force)
+        regimes.save(save, args.force)
     if args.json:
         lines = {"loci": [line.data() for line in loci]} if args.loci else {}
-        print(codec.text(found.data() | lines | {"figure": None if target is None else str(target)}))
+        print(codec.text(regimes.data() | lines | {"figure": None if target is None else str(target)}))
         return 0
-    print(_table(found))
+    print(_table(regimes))
     if args.loci:
-        print(_lines(found, loci))
+        print(_lines(regimes, loci))
     if target is not None:
         print(f"\nFigure: {target}")
     return 0
 
 
-def _table(found: RegimeMap) -> str:
+def _table(regimes: RegimeMap) -> str:
     """Return the regimes and their shares in words, one per line."""
-    about, (x, y) = found.about, found.parameters
-    rows, columns = found.labels.shape
-    size = f"{rows} x {columns} cells, {int(found.computed.sum())} of them computed"
+    measured, (x, y) = regimes.about, regimes.parameters
+    rows, columns = regimes.labels.shape
+    size = f"{rows} x {columns} cells, {int(regimes.computed.sum())} of them computed"
     lines = [
-        f"{about['field']} over {x} and {y}: {size}",
-        f"Measured alone, without noise, with inputs of {about['strength']:g}.",
+        f"{measured['field']} over {x} and {y}: {size}",
+        f"Measured alone, without noise, with inputs of {measured['strength']:g}.",
         "",
-        *(f"  {share:6.1%}  {word}" for word, share in found.shares.items()),
+        *(f"  {share:6.1%}  {word}" for word, share in regimes.shares.items()),
     ]
-    inside = all(v[0] <= at <= v[-1] for v, at in zip(found.values, found.at, strict=True))
+    inside = all(v[0] <= at <= v[-1] for v, at in zip(regimes.values, regimes.at, strict=True))
     if inside:
         lines.append(
-            f"\nThe model itself ({x} {found.at[0]:g}, {y} {found.at[1]:g}): {found.word(*found.at)}"
+            f"\nThe model itself ({x} {regimes.at[0]:g}, {y} {regimes.at[1]:g}): {regimes.word(*regimes.at)}"
         )
     return "\n".join(lines)
 
 
-def _lines(found: RegimeMap, loci: list[Locus]) -> str:
+def _lines(regimes: RegimeMap, loci: list[Locus]) -> str:
     """Return the borders that are folds in words, one per line, and the distance of the model from each."""
     if not loci:
         return "\nNo border is a fold."
     lines = ["\nBorders that are folds, and the change of both parameters that reaches them from the model:"]
     for name in dict.fromkeys(line.of for line in loci):
         parts = [line for line in loci if line.of == name]
-        distance = "-" if 0 in found.at else f"{min(line.distance(found.at) for line in parts):.1%}"
+        distance = "-" if 0 in regimes.at else f"{min(line.distance(regimes.at) for line in parts):.1%}"
         lines.append(f"  {distance:>6}  {name}")
         for point in dict.fromkeys(point for line in parts for point in line.points):
             lines.append(f"{'':10}{point.kind} at {point.values[0]:.5g}, {point.values[1]:.5g}")

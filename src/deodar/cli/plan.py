@@ -62,34 +62,40 @@ def run(args: argparse.Namespace) -> int:
     count = len(device.several("all", args.device)) if args.devices == "all" else args.devices
     if count is not None:
         device.require_count(count)
-    made = plan(model.document, exact=exact, devices=count or 1)
-    if made.shards is None:
-        about: JsonObject = {"plan": made.describe().splitlines()}
-        print(codec.text(about) if args.json else made.describe())
+    program_plan = plan(model.document, exact=exact, devices=count or 1)
+    if program_plan.shards is None:
+        answer: JsonObject = {"plan": program_plan.describe().splitlines()}
+        print(codec.text(answer) if args.json else program_plan.describe())
         return 0
-    found = planned(made, 8 if precision == "float64" else 4)
-    held = memory.device_bytes([n for g in made.groups for n in g.nodes], precision, made.shards)
-    print(codec.text(_json(made.shards, found, held)) if args.json else _text(made.shards, found, held))
+    traffic = planned(program_plan, 8 if precision == "float64" else 4)
+    bytes_each = memory.device_bytes(
+        [n for g in program_plan.groups for n in g.nodes], precision, program_plan.shards
+    )
+    print(
+        codec.text(_json(program_plan.shards, traffic, bytes_each))
+        if args.json
+        else _text(program_plan.shards, traffic, bytes_each)
+    )
     return 0
 
 
-def _text(shards: Shards, found: Sequence[Traffic], held: int) -> str:
+def _text(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> str:
     lines = [
         f"{shards.devices} devices divide the axis {shards.axis}: {shards.samples} samples,"
         f" {shards.samples // shards.devices} on each"
     ]
-    lines += [f"  {t.path}: {t.method}, {t.bytes:,} bytes" for t in found]
-    lines.append(f"traffic: {sum(t.bytes for t in found):,} bytes a step")
-    lines.append(f"memory: at most about {held / 2**20:,.1f} MiB on each device")
+    lines += [f"  {t.path}: {t.method}, {t.bytes:,} bytes" for t in traffic]
+    lines.append(f"traffic: {sum(t.bytes for t in traffic):,} bytes a step")
+    lines.append(f"memory: at most about {bytes_each / 2**20:,.1f} MiB on each device")
     return "\n".join(lines)
 
 
-def _json(shards: Shards, found: Sequence[Traffic], held: int) -> JsonObject:
+def _json(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> JsonObject:
     return {
         "axis": shards.axis,
         "samples": shards.samples,
         "devices": shards.devices,
-        "elements": [{"path": t.path, "method": t.method, "bytes": t.bytes} for t in found],
-        "bytes": sum(t.bytes for t in found),
-        "memory": held,
+        "elements": [{"path": t.path, "method": t.method, "bytes": t.bytes} for t in traffic],
+        "bytes": sum(t.bytes for t in traffic),
+        "memory": bytes_each,
     }

@@ -88,12 +88,12 @@ def run(args: argparse.Namespace) -> int:
     drawn = _figure.drawn(args)
     out = _claimed(args, drawn.stem)
     video = None if args.gif is None else _video(args, drawn)
-    made = drawn.figure.draw(drawn.record)
+    drawing = drawn.figure.draw(drawn.record)
     if args.save_as is not None:
-        _save_as(args, drawn.figure, [float(n) for n in made.get_size_inches()])
+        _save_as(args, drawn.figure, [float(n) for n in drawing.get_size_inches()])
     if video is not None:
         video()
-    _files.save_figure(made, out, args.force)
+    _files.save_figure(drawing, out, args.force)
     _say(args, drawn, out)
     return 0
 
@@ -130,8 +130,8 @@ def _say(args: argparse.Namespace, drawn: _figure.DrawnFigure, out: Path) -> Non
     also = {"gif": args.gif, "figure": args.save_as}
     if args.json:
         kinds = dict(zip(drawn.names, drawn.figure.kinds(drawn.record), strict=True))
-        rest = {key: str(path) for key, path in also.items() if path is not None}
-        print(codec.text({"out": str(out), "kinds": kinds, **rest}))
+        other_files = {key: str(path) for key, path in also.items() if path is not None}
+        print(codec.text({"out": str(out), "kinds": kinds, **other_files}))
     else:
         written = [out, *(path for path in also.values() if path is not None)]
         names = ", ".join(dict.fromkeys(drawn.names))
@@ -159,8 +159,8 @@ def _followed(args: argparse.Namespace) -> int:
         while True:
             drawn = _figure.drawn(args)
             opened = drawn.figure.records(drawn.record)
-            growing = [data for data in opened if not about(data).get("complete", True)]
-            sizes = [dict(data.sizes) for data in opened]
+            growing = [record for record in opened if not about(record).get("complete", True)]
+            sizes = [dict(record.sizes) for record in opened]
             filled = all(min(size.values(), default=0) for size in sizes)
             if sizes != seen and (not growing or filled):
                 if out is None:
@@ -192,7 +192,7 @@ def _stopped(growing: Sequence[xarray.Dataset], watches: dict[Path, WriterWatch]
     # start-up time: this brings JAX
     from deodar.recording.writer_lock import WriterWatch
 
-    paths = [Path(data.encoding["source"]) for data in growing]
+    paths = [Path(record.encoding["source"]) for record in growing]
     return [path for path in paths if watches.setdefault(path, WriterWatch(path)).ended()]
 
 
@@ -223,20 +223,20 @@ def _video(args: argparse.Namespace, drawn: _figure.DrawnFigure) -> Callable[[],
     from deodar.figures import path
     from deodar.recording.repeat import world_of
 
-    data = drawn.figure.records(drawn.record)[0]
+    record = drawn.figure.records(drawn.record)[0]
     if len(drawn.names) != 1:
         raise RecordError(
             f"a video shows one variable, not {len(drawn.names)}",
             where="--gif",
             fix="Name the one that holds x and y, for example pose.output",
         )
-    world = world_of(data)
+    world = world_of(record)
     if world is None:
         raise RecordError(
             "the record was made without a world, so there is no arena to draw the path in",
             where="--gif",
             fix="Leave out --gif",
         )
-    view = drawn.figure.panels[0].view(data)
+    view = drawn.figure.panels[0].view(record)
     stride = max(1, -(-len(view.times) // path.MOST_FRAMES))
     return lambda: path.animate_path(view, args.gif, world, stride=stride, force=args.force)

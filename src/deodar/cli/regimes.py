@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
     _files.claim(target, args.force)
     sigma = args.sigma[0] if args.sigma is not None and len(args.sigma) == 1 else args.sigma
     with Console(stderr=True).status("compiling") as status:
-        found = regimes(
+        measured = regimes(
             model,
             args.element,
             sigma=sigma,
@@ -87,25 +87,25 @@ def run(args: argparse.Namespace) -> int:
             on=Resources(progress=status.update),
         )
         status.update("folds")
-        folds = confirmed(found)
-    _files.save_figure(regimes_figure(found), target, args.force)
+        folds = confirmed(measured)
+    _files.save_figure(regimes_figure(measured), target, args.force)
     if args.json:
         computed = {name: fold.data() for name, fold in folds.items()}
-        print(codec.text(found.data() | {"folds": computed, "figure": str(target)}))
+        print(codec.text(measured.data() | {"folds": computed, "figure": str(target)}))
     else:
-        print(_table(found))
+        print(_table(measured))
         print(_folds(folds))
         print(f"\nFigure: {target}")
     return 0
 
 
-def _table(found: Regimes) -> str:
+def _table(measured: Regimes) -> str:
     """Return the measurements in words, one per line."""
     # start-up time: this brings JAX
     from deodar.analysis import regime_words
 
-    rows = [f"  {label:26}{text}" for label, text in regime_words.rows(found)]
-    return "\n".join([*regime_words.heading(found), "", *rows])
+    rows = [f"  {label:26}{text}" for label, text in regime_words.rows(measured)]
+    return "\n".join([*regime_words.heading(measured), "", *rows])
 
 
 def _folds(folds: Mapping[str, Confirmation]) -> str:
@@ -114,9 +114,9 @@ def _folds(folds: Mapping[str, Confirmation]) -> str:
         return f"  {'computed as folds':26}none: no threshold is an instability"
     parts: list[str] = []
     for name, fold in folds.items():
-        said = f"not found ({fold.why})" if fold.value is None else f"{fold.value:.6g}"
+        threshold = f"not found ({fold.why})" if fold.value is None else f"{fold.value:.6g}"
         outside = fold.value is not None and not fold.inside
-        parts.append(f"{NAMES[name]} {said}{', OUTSIDE the interval above' if outside else ''}")
+        parts.append(f"{NAMES[name]} {threshold}{', OUTSIDE the interval above' if outside else ''}")
     return f"  {'computed as folds':26}{'; '.join(parts)}"
 
 

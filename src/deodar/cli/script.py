@@ -31,13 +31,13 @@ def run(args: argparse.Namespace) -> int:
 
     if args.out is not None and args.out.exists() and args.out.samefile(args.file):
         raise OutputError("is the document itself", where=str(args.out), fix="Choose another name: --out")
-    made = load(args.file).to_script(_free(args.file.stem, args.out or Path("script.py")))
+    script = load(args.file).to_script(_free(args.file.stem, args.out or Path("script.py")))
     if args.out is not None:
-        output.write(output.claim(args.out, args.force), made.encode())
+        output.write(output.claim(args.out, args.force), script.encode())
     if args.json:
-        print(codec.text({"out": None if args.out is None else str(args.out), "script": made}))
+        print(codec.text({"out": None if args.out is None else str(args.out), "script": script}))
     elif args.out is None:
-        print(made, end="")
+        print(script, end="")
     else:
         print(f"Wrote {_options.shown(args.out)}. Type: python {_options.shown(args.out)}")
     return 0

@@ -62,56 +62,58 @@ def run(args: argparse.Namespace) -> int:
         content = args.requirements.read_bytes()
     except OSError as error:
         raise DocumentError(error.strerror or "cannot be read", where=str(args.requirements)) from None
-    wanted = tuning_file(codec.read(content), str(args.requirements))
-    options: dict[str, Any] = dict(wanted.options)
+    tuning = tuning_file(codec.read(content), str(args.requirements))
+    options: dict[str, Any] = dict(tuning.options)
     options |= {k: v for k in ("field", "seed", "budget") if (v := getattr(args, k)) is not None}
     if args.out is not None:
         output.claim(args.out, args.force)
     hidden = args.no_progress or args.json or not sys.stderr.isatty()
     console = Console(stderr=True, quiet=hidden)
     with console.status("compiling") as status:
-        found = tune(
+        tuned = tune(
             model,
-            wanted.parameters,
-            wanted.requirements,
-            bounds=wanted.bounds,
+            tuning.parameters,
+            tuning.requirements,
+            bounds=tuning.bounds,
             on=Resources(
-                progress=lambda what, n, margin: status.update(f"{what}: {n} candidates, margin {margin:.2g}")
+                progress=lambda stage, n, margin: status.update(
+                    f"{stage}: {n} candidates, margin {margin:.2g}"
+                )
             ),
             **options,
         )
     if args.out is not None:
-        notes = "\n\n".join(text for text in (found.model.document.notes, found.note) if text)
-        found.model.describe(notes=notes)
-        save(found.model, args.out, args.force)
+        notes = "\n\n".join(text for text in (tuned.model.document.notes, tuned.note) if text)
+        tuned.model.describe(notes=notes)
+        save(tuned.model, args.out, args.force)
     if args.json:
-        print(codec.text(found.data() | {"document": str(args.out) if args.out is not None else None}))
+        print(codec.text(tuned.data() | {"document": str(args.out) if args.out is not None else None}))
     else:
-        print(_table(found))
+        print(_table(tuned))
         if args.out is not None:
             print(f"\nDocument: {args.out}")
-    return 0 if found.met else 1
+    return 0 if tuned.met else 1
 
 
-def _table(found: Tuned) -> str:
+def _table(tuned: Tuned) -> str:
     """Return what was found in plain words."""
-    strength, n = found.about["strength"], found.candidates
-    state = "meets all requirements" if found.met else "does not meet all requirements"
+    strength, n = tuned.about["strength"], tuned.candidates
+    state = "meets all requirements" if tuned.met else "does not meet all requirements"
     lines = [
-        f"{found.field} {state}" + (", interrupted" if found.interrupted else ""),
+        f"{tuned.field} {state}" + (", interrupted" if tuned.interrupted else ""),
         f"Measured alone, without noise, with inputs of {strength:g}; {n} candidates.",
         "",
     ]
-    for name, margin in found.margins.items():
-        value = f"   at {found.reached[name]:.6g}" if name in found.reached else ""
-        value += " (exact)" if name in found.exact else ""
-        lines.append(f"  {'met    ' if margin >= 0 else 'NOT MET'}  {margin:6.2f}  {name}{value}")
+    for name, margin in tuned.margins.items():
+        reached = f"   at {tuned.reached[name]:.6g}" if name in tuned.reached else ""
+        reached += " (exact)" if name in tuned.exact else ""
+        lines.append(f"  {'met    ' if margin >= 0 else 'NOT MET'}  {margin:6.2f}  {name}{reached}")
     lines += ["", f"  {'parameter':32} {'before':>10} {'found':>10}   may move alone by"]
-    for path, value in found.values.items():
-        down, up = found.tolerated_alone.get(path, (0.0, 0.0))
-        alone = f"   -{down:.1%} to +{up:.1%}" if found.size else ""
-        lines.append(f"  {path:32} {found.before[path]:10.5g} {value:10.5g}{alone}")
-    if found.size:
-        lines.append(f"\nAll at once may move by {found.tolerated:.1%} ({found.size.points} random points).")
-    lines += [f"\n{sentence[0].upper()}{sentence[1:]}." for sentence in found.reasons]
+    for path, after in tuned.values.items():
+        down, up = tuned.tolerated_alone.get(path, (0.0, 0.0))
+        alone = f"   -{down:.1%} to +{up:.1%}" if tuned.size else ""
+        lines.append(f"  {path:32} {tuned.before[path]:10.5g} {after:10.5g}{alone}")
+    if tuned.size:
+        lines.append(f"\nAll at once may move by {tuned.tolerated:.1%} ({tuned.size.points} random points).")
+    lines += [f"\n{sentence[0].upper()}{sentence[1:]}." for sentence in tuned.reasons]
     return "\n".join(lines)
