@@ -61,6 +61,8 @@ def report(rows: Mapping[str, Row], quick: bool) -> Report:
     from deodar_papers._report import Report
     from deodar_papers.serial_order import robustness, tables, targets
 
-    found = targets.by_condition(rows, quick)
-    said = targets.claims(found, quick)
-    return Report(said, robustness.draw(found), tables.write(found), tables.numbers(found))
+    by_condition = targets.by_condition(rows, quick)
+    claims = targets.claims(by_condition, quick)
+    return Report(
+        claims, robustness.draw(by_condition), tables.write(by_condition), tables.numbers(by_condition)
+    )

@@ -80,10 +80,10 @@ def random_arena(
         colours: all colours there are; distractors have those that the sequence does not have.
     """
     rng = np.random.default_rng(tuple(seed))
-    wanted = sorted(set(sequence))
-    others = [c for c in colours if c not in wanted]
-    letters = wanted + [others[k % len(others)] for k in range(DISTRACTORS if others else 0)]
-    letters += [wanted[int(rng.integers(len(wanted)))] for _ in range(duplicates)]
+    needed = sorted(set(sequence))
+    others = [c for c in colours if c not in needed]
+    letters = needed + [others[k % len(others)] for k in range(DISTRACTORS if others else 0)]
+    letters += [needed[int(rng.integers(len(needed)))] for _ in range(duplicates)]
     side = WIDE if duplicates > 1 or len(colours) > len("RYGBV") else SIDE
     while (places := _places(rng, len(letters), side)) is None:
         pass
@@ -103,15 +103,15 @@ def ring() -> SearchArena:
 
 def _places(rng: np.random.Generator, count: int, side: float) -> list[tuple[float, float]] | None:
     """Draw places for blocks one by one; None: one of them found no place."""
-    found: list[tuple[float, float]] = []
+    places: list[tuple[float, float]] = []
     for _ in range(count):
         for _ in range(300):
             x, y = rng.uniform(FROM_WALL - side / 2, side / 2 - FROM_WALL, 2).tolist()
-            free = all(max(abs(x - a), abs(y - b)) > APART for a, b in found)
+            free = all(max(abs(x - a), abs(y - b)) > APART for a, b in places)
             inside = abs(x) + abs(y) <= side - CUT - math.sqrt(2) * FROM_WALL
             if free and inside and math.hypot(x, y) > FROM_START:
-                found.append((x, y))
+                places.append((x, y))
                 break
         else:
             return None
-    return found
+    return places

@@ -42,8 +42,8 @@ def random_pairs(repeats: bool) -> tuple[tuple[str, str], ...]:
     out: list[tuple[str, str]] = []
     while len(out) < 50:
         first, second = ("".join(rng.choice(list(FIVE), int(rng.integers(3, 6)))) for _ in range(2))
-        again = any(a == b for s in (first, second) for a, b in itertools.pairwise(s))
-        if all(a != b for a, b in zip(first, second, strict=False)) and (repeats or not again):
+        repeating = any(a == b for s in (first, second) for a, b in itertools.pairwise(s))
+        if all(a != b for a, b in zip(first, second, strict=False)) and (repeats or not repeating):
             out.append((first, second))
     return tuple(out)
 
@@ -55,10 +55,10 @@ def rgb(letter: str) -> tuple[float, float, float]:
 
 def hue_of(letter: str) -> float:
     """Return the sample of hue of a colour."""
-    known = {**FIVE, **TEN}
-    if letter not in known:
+    hues = {**FIVE, **TEN}
+    if letter not in hues:
         raise ParameterError(f"there is no colour {letter!r}", fix=f"Colours are {', '.join(FIVE)}")
-    return known[letter]
+    return hues[letter]
 
 
 def letter_at(hue: float, among: Sequence[str] = tuple(FIVE)) -> str:
@@ -66,11 +66,11 @@ def letter_at(hue: float, among: Sequence[str] = tuple(FIVE)) -> str:
     return min(among, key=lambda letter: away(hue, hue_of(letter)))
 
 
-def offset(one: float, other: float) -> float:
+def offset(hue: float, reference: float) -> float:
     """Return how far a hue lies from another one on their circle, with its sign, in samples."""
-    return (one - other + HUES / 2) % HUES - HUES / 2
+    return (hue - reference + HUES / 2) % HUES - HUES / 2
 
 
-def away(one: float, other: float) -> float:
+def away(hue: float, reference: float) -> float:
     """Return the distance of two hues on their circle, in samples."""
-    return abs(offset(one, other))
+    return abs(offset(hue, reference))

@@ -144,9 +144,9 @@ class CuedCondition(SearchCondition):
         return {**super().settings(), "pairs": [list(pair) for pair in self.pairs]}
 
 
-def mixed(begun: str, other: str, position: int) -> str:
+def mixed(begun: str, cued: str, position: int) -> str:
     """Return what is produced if the cue of another sequence is given at a position: the order continues."""
-    return begun[: position - 1] + other[position - 1 :]
+    return begun[: position - 1] + cued[position - 1 :]
 
 
 def conditions(quick: bool) -> dict[str, SearchCondition]:
@@ -154,7 +154,7 @@ def conditions(quick: bool) -> dict[str, SearchCondition]:
     twenty = random_sequences()
     every = (*PAPER, *twenty)
     clear = tuple(s for s in every if s != CLUTTERED)
-    found = [
+    listed = [
         SearchCondition("ring", RING, 4 if quick else 20, "ring", limit=RING_LIMIT),
         SearchCondition("learning", clear, 23 if quick else 13 * 23, "none", LONGEST),
         SearchCondition("clutter", (CLUTTERED,), 4 if quick else 13, "none", LONGEST, clutter=CLUTTER),
@@ -170,12 +170,12 @@ def conditions(quick: bool) -> dict[str, SearchCondition]:
         CuedCondition("cued-changed", (), 4 if quick else 50, pairs=random_pairs(False), changed=True),
     ]
     if not quick:
-        like = found[0]
+        simplest = listed[0]
         for parameter in PARAMETERS:
             for sign, factor in STEPS.items():
                 name = f"vary/{parameter}/{sign}"
-                found.append(replace(like, name=name, varied=parameter, factor=factor))
-    return {c.name: c for c in found}
+                listed.append(replace(simplest, name=name, varied=parameter, factor=factor))
+    return {c.name: c for c in listed}
 
 
 def changing(sequences: Sequence[str]) -> tuple[str, ...]:

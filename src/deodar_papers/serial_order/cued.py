@@ -59,10 +59,10 @@ def cues(runs: Sequence[CuedRun]) -> list[Action]:
         Set([produced if run.cue == 1 else NEVER for run in runs], "cue", 1.0),
     ]
     for position in sorted({run.position for run in runs} - {0}):
-        for other in (1, 2):
-            times = [AFTER if (run.position, run.cue) == (position, 3 - other) else NEVER for run in runs]
+        for cue in (1, 2):
+            times = [AFTER if (run.position, run.cue) == (position, 3 - cue) else NEVER for run in runs]
             if min(times) < NEVER:
-                out.append(Set(times, "cue", float(other), when=f"looks for {position}"))
+                out.append(Set(times, "cue", float(cue), when=f"looks for {position}"))
     return out
 
 
@@ -74,8 +74,8 @@ def cued_row(run: CuedRun, trial: Trial, produced: float) -> Row:
     if run.position:
         at = trial.events[f"looks for {run.position}"]
         position = None if at is None else _position(trial, at + AFTER)
-        begun, other = run.pair[run.cue - 1], run.pair[2 - run.cue]
-        run = replace(run, sequence=mixed(begun, other, run.position if position is None else position))
+        begun, cued = run.pair[run.cue - 1], run.pair[2 - run.cue]
+        run = replace(run, sequence=mixed(begun, cued, run.position if position is None else position))
         out["changed"] = position
     return {**found(run, trial, produced), **out}
 

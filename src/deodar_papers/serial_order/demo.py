@@ -47,48 +47,48 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     from deodar_papers.serial_order import narrative
     from deodar_papers.serial_order.views import camera_views
 
-    def shown(share: float, producing: bool) -> None:
+    def show_share(share: float, producing: bool) -> None:
         show("looking for the colours" if producing else "being taught", share)
 
     if args.figures:
-        return _figures(args.seed, shown)
+        return _figures(args.seed, show_share)
     if args.experiments:
         return _experiments()
     sequence = narrative.SEQUENCE if args.sequence is None else args.sequence
-    result = narrative.run(sequence, args.seed, shown)
+    search = narrative.run(sequence, args.seed, show_share)
 
     def fill(folder: Path) -> None:
-        save_figure(sequence_figure(result), folder / "serial-order.png")
-        shown = list(animation_samples(result))
-        times, poses = result.record["time"].values[shown], result.record[narrative.POSE].values[shown]
-        views = camera_views(result.taught, result.begins, times, poses, args.seed)
-        save_sequence_animation(result, views, result.taught.arena.side, folder / "serial-order.gif")
-        files.save_record(result.small, folder / "serial-order.zarr")
+        save_figure(sequence_figure(search), folder / "serial-order.png")
+        samples = list(animation_samples(search))
+        times, poses = search.record["time"].values[samples], search.record[narrative.POSE].values[samples]
+        views = camera_views(search.taught, search.begins, times, poses, args.seed)
+        save_sequence_animation(search, views, search.taught.arena.side, folder / "serial-order.gif")
+        files.save_record(search.small, folder / "serial-order.zarr")
 
     return Demonstration(
-        claims=narrative.claims(result),
-        settings={"sequence": result.sequence},
+        claims=narrative.claims(search),
+        settings={"sequence": search.sequence},
         written="serial-order.png, serial-order.gif, the record (serial-order.zarr)",
-        sentence=narrative.sentence(result),
+        sentence=narrative.sentence(search),
         fill=fill,
     )
 
 
-def _figures(seed: int, shown: Callable[[float, bool], None]) -> Demonstration:
+def _figures(seed: int, show_share: Callable[[float, bool], None]) -> Demonstration:
     """Make the runs of the paper's other figures."""
     # start-up time: these bring JAX
     from deodar.figures._files import save_figure
     from deodar_papers.serial_order import figures
 
-    result = figures.run(seed, shown)
-    drawn = result.draw()
+    paper_figures = figures.run(seed, show_share)
+    drawn = paper_figures.draw()
 
     def fill(folder: Path) -> None:
         for name, figure in drawn.items():
             save_figure(figure, folder / f"{name}.png")
 
     return Demonstration(
-        claims=figures.claims(result),
+        claims=figures.claims(paper_figures),
         settings={"figures": True},
         written=", ".join(f"{name}.png" for name in drawn),
         sentence=f"Drew {len(drawn)} figures of the paper from runs of deodar.",
@@ -104,18 +104,18 @@ def _experiments() -> Demonstration:
     from deodar_papers.serial_order import experiments
 
     with tempfile.TemporaryDirectory() as folder:
-        found = {path.name: Experiment.load(path).check() for path in experiments.write(Path(folder))}
+        problems = {path.name: Experiment.load(path).check() for path in experiments.write(Path(folder))}
 
     def fill(folder: Path) -> None:
         experiments.write(folder)
 
     return Demonstration(
         claims=[
-            Claim(f"{name} can be run: problems", len(problems), 0, not problems, origin="ours")
-            for name, problems in found.items()
+            Claim(f"{name} can be run: problems", len(listed), 0, not listed, origin="ours")
+            for name, listed in problems.items()
         ],
         settings={"experiments": True},
-        written=f"{', '.join(found)}, each with its model and its arena",
-        sentence=f"Wrote {len(found)} experiments. Run one: deodar experiment {next(iter(found))}",
+        written=f"{', '.join(problems)}, each with its model and its arena",
+        sentence=f"Wrote {len(problems)} experiments. Run one: deodar experiment {next(iter(problems))}",
         fill=fill,
     )

@@ -141,5 +141,5 @@ def _layout(arena: SearchArena) -> JsonObject:
 def _settings() -> str:
     """Return the settings of the world, as on the command line."""
     noise = {name: getattr(NOISE, name) for name in ("hue_noise", "outliers", "slip", "infrared_noise")}
-    given = {"unit": "mm", "vehicle": "khepera", "period": PERIOD, "camera_every": FRAMES, **noise}
-    return "".join(f", {name}={value}" for name, value in given.items())
+    settings = {"unit": "mm", "vehicle": "khepera", "period": PERIOD, "camera_every": FRAMES, **noise}
+    return "".join(f", {name}={value}" for name, value in settings.items())

@@ -78,12 +78,12 @@ def transition(seed: int = 0) -> OrdinalTransition:
     run = TaughtRun(SEQUENCE, lesson, taught, ring())
     count = len(SEQUENCE) + 1
     paths = {
-        what: [f"item {k}.{what}.activation" for k in range(1, count + 1)] for what in ("node", "memory")
+        kind: [f"item {k}.{kind}.activation" for k in range(1, count + 1)] for kind in ("node", "memory")
     }
     settings = Settings(limit=RING_LIMIT)
     [(trial, begins)] = run_many([run], settings, seed, [*paths["memory"], "satisfied.output"])
     v, t = trial.values, trial.times
-    nodes, memories = (np.stack([v[path] for path in paths[what]], axis=1) for what in ("node", "memory"))
+    nodes, memories = (np.stack([v[path] for path in paths[kind]], axis=1) for kind in ("node", "memory"))
     satisfied = v["satisfied.output"]
     # the node is active from the start of production on, and then switched off
     active = (nodes[:, ITEM - 1] > 0) & (t > begins + CHANGED)
@@ -100,10 +100,10 @@ def transition(seed: int = 0) -> OrdinalTransition:
         OrdinalMoment(title, float(t[k]), inputs(nodes[k], memories[k], float(satisfied[k])))
         for title, k in at.items()
     ]
-    shown = (t >= t[on] - BEFORE) & (t <= t[on] + AFTER)
+    in_window = (t >= t[on] - BEFORE) & (t <= t[on] + AFTER)
     return OrdinalTransition(
-        t[shown],
-        nodes[shown],
+        t[in_window],
+        nodes[in_window],
         ITEM,
         float(t[on]),
         float(t[released]),
@@ -118,15 +118,15 @@ def inputs(nodes: np.ndarray, memories: np.ndarray, satisfied: float) -> list[fl
     """Return the input of each ordinal node (eq. 4): from other nodes, both memories, and the condition of
     satisfaction.
     """
-    active, kept = (nodes > 0).astype(float), (memories > 0).astype(float)
-    before = np.concatenate([[0.0], kept[:-1]])
+    active, remembered = (nodes > 0).astype(float), (memories > 0).astype(float)
+    before = np.concatenate([[0.0], remembered[:-1]])
     received = (
         STRENGTHS["c1 other nodes"] * (active.sum() - active)
         + STRENGTHS["c2 next"] * before
-        + STRENGTHS["c3 own memory"] * kept
+        + STRENGTHS["c3 own memory"] * remembered
         + OFF * satisfied
     )
-    return [float(value) for value in received]
+    return [float(number) for number in received]
 
 
 def perception(seed: int = 0) -> ColourPerception:
@@ -196,22 +196,22 @@ def run(seed: int = 0, done: Callable[[float, bool], None] = lambda *_: None) ->
     return PaperFigures(transition(seed), perception(seed), demonstrations(seed, done))
 
 
-def claims(result: PaperFigures) -> list[Claim]:
+def claims(figures: PaperFigures) -> list[Claim]:
     """Return the claims on what the figures show, computed from their runs."""
-    t, p = result.transition, result.perception
+    t, p = figures.transition, figures.perception
     stable = [[len(t.attractors(m.inputs[k])) for k in (t.item - 1, t.item)] for m in t.moments]
     # with inhibition by the condition of satisfaction nothing but off is stable; then only on, of the next
-    wanted = [[2, 2], [1, 1], [2, 1]]
+    expected = [[2, 2], [1, 1], [2, 1]]
     peak = np.unravel_index(int(p.activation.argmax()), p.activation.shape)
     hue = float(peak[1]) * HUES / p.activation.shape[1]
     above = np.flatnonzero((p.activation > 0).any(axis=0)) * HUES / p.activation.shape[1]
-    near = bool(len(above)) and max(away(float(h), hue_of(WANTED)) for h in above) <= ALIKE
+    within = bool(len(above)) and max(away(float(h), hue_of(WANTED)) for h in above) <= ALIKE
     out = [
         Claim(
             f"figure 3: stable states of nodes {t.item} and {t.item + 1} at the three moments",
             stable,
-            wanted,
-            stable == wanted,
+            expected,
+            stable == expected,
             source=f"{SOURCE}, figure 3",
             origin="ours",
         ),
@@ -219,12 +219,12 @@ def claims(result: PaperFigures) -> list[Claim]:
             f"figure 8: the colour-space field has a peak at the wanted hue alone ({hue_of(WANTED):g})",
             hue if len(above) else None,
             f"within {ALIKE:g}",
-            near,
+            within,
             source=f"{SOURCE}, figure 8",
             origin="ours",
         ),
     ]
-    for r in result.demonstrations:
+    for r in figures.demonstrations:
         out.append(
             Claim(
                 f"figure 12: {r.sequence} is learned and produced: colours found",

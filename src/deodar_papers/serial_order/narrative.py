@@ -192,7 +192,7 @@ def _weights(trial: Trial, begins: float, item: int) -> np.ndarray:
 def _record(run: TaughtRun, trial: Trial) -> xarray.Dataset:
     v, hue, column = trial.values, hue_axis(), column_axis()
     nodes = [f"item {k}.node.activation" for k in range(1, len(run.sequence) + 2)]
-    data = {
+    variables = {
         **{name: (("time",), v[name]) for name in nodes},
         **{f"{name}.activation": (("time", "hue"), v[f"{name}.activation"]) for name in FIELDS},
         PROJECTION: (("time", "column"), v[PROJECTION]),
@@ -203,13 +203,13 @@ def _record(run: TaughtRun, trial: Trial) -> xarray.Dataset:
         "hue": ("hue", hue.points, {"periodic": 1, "lower": hue.lower, "upper": hue.upper}),
         "column": ("column", column.points, {"periodic": 0, "lower": column.lower, "upper": column.upper}),
     }
-    return xarray.Dataset(data, coords, {"title": f"the sequence {run.sequence}, taught and produced"})
+    return xarray.Dataset(variables, coords, {"title": f"the sequence {run.sequence}, taught and produced"})
 
 
-def claims(result: SearchRun) -> list[Claim]:
+def claims(search: SearchRun) -> list[Claim]:
     """Return the claims on a run, computed from it."""
-    r = result
-    near = bool(r.distances) and max(r.distances) <= FAR
+    r = search
+    within = bool(r.distances) and max(r.distances) <= FAR
     took = np.diff([r.begins, *r.found]) / 1000
     ours: dict[str, Any] = {"source": SOURCE, "origin": "ours"}
     return [
@@ -231,7 +231,7 @@ def claims(result: SearchRun) -> list[Claim]:
             "a block of the wanted colour is in the middle of the picture when it is found: distances, mm",
             [round(d, 1) if np.isfinite(d) else None for d in r.distances],
             f"<= {FAR:g}",
-            near,
+            within,
             **ours,
         ),
         Claim(
@@ -245,14 +245,14 @@ def claims(result: SearchRun) -> list[Claim]:
     ]
 
 
-def sentence(result: SearchRun) -> str:
+def sentence(search: SearchRun) -> str:
     """Return the outcome in one line of plain words."""
-    r = result
-    said = [
+    r = search
+    found_after = [
         f"{letter} after {(at - r.begins) / 1000:.1f} s"
         for letter, at in zip(r.produced, r.found, strict=True)
     ]
-    text = f"Taught {r.sequence}; found {', '.join(said) or 'nothing'}"
+    text = f"Taught {r.sequence}; found {', '.join(found_after) or 'nothing'}"
     missing = len(r.sequence) - len(r.produced)
     took = (float(r.record["time"][-1]) - r.begins) / 1000
     why = f": {r.reason}" if r.reason else ""

@@ -48,26 +48,26 @@ def require_possible(runs: Sequence[SearchTask], single: bool = True) -> None:
     for number, run in enumerate(runs):
         where = f"run {number}" if len(runs) > 1 else ""
         if single and len(run.lesson) != len(run.sequence):
-            what = (
+            fault = (
                 f"the lesson shows {len(run.lesson)} colours, and the sequence {run.sequence} has"
                 f" {len(run.sequence)}"
             )
             fix = "Show each colour of the sequence once: the node of a missing one learns the next colour,"
-            problems.append(Problem(where, what, f"{fix} and no node learns one too many"))
+            problems.append(Problem(where, fault, f"{fix} and no node learns one too many"))
         late = [shown.letter for shown in run.lesson if shown.ends > run.taught]
         if late:
-            what = (
+            fault = (
                 f"the lesson still shows {', '.join(late)} when production begins, after {run.taught:g} ms;"
                 " nothing is learned while a sequence is produced"
             )
-            problems.append(Problem(where, what, "End the lesson later, or show these colours before"))
+            problems.append(Problem(where, fault, "End the lesson later, or show these colours before"))
         missing = [letter for letter in dict.fromkeys(run.sequence) if letter not in _letters(run)]
         if missing:
-            what = (
+            fault = (
                 f"the arena has no block of the colour {', '.join(missing)}, which the sequence"
                 f" {run.sequence} wants, so its production would never finish"
             )
-            problems.append(Problem(where, what, "Add a block of this colour to the arena"))
+            problems.append(Problem(where, fault, "Add a block of this colour to the arena"))
     if problems:
         raise ParameterError(problems)
 
@@ -93,11 +93,11 @@ def reason(run: SearchTask, trial: Trial, produced: float) -> str:
     if item > total:
         return f"all {total} nodes of the sequence have been active"
     hues = v["hue of action.output"][late & nodes[:, item - 1]]
-    known = hues[hues >= 0]
-    if not len(known):
+    recalled_hues = hues[hues >= 0]
+    if not len(recalled_hues):
         return f"item {item} of {total} has learned no colour"
     letters = sorted({*_letters(run), *run.sequence})
-    letter = letter_at(float(known[-1]), letters)
+    letter = letter_at(float(recalled_hues[-1]), letters)
     absent = "" if letter in _letters(run) else ", of which the arena has no block"
     return f"still looking for {letter} (item {item} of {total}){absent}"
 

@@ -67,15 +67,17 @@ def counted(rows: Sequence[Row]) -> VariedRuns | None:
     )
 
 
-def ranked(found: RowsOfConditions) -> list[VariedParameter]:
+def ranked(by_condition: RowsOfConditions) -> list[VariedParameter]:
     """Return all parameters that were varied, first those that break first.
 
     A parameter is before another one if fewer runs of its worse change are complete; then, if fewer runs of
     both changes are; then, if the duration of an action departs more from that without a change.
     """
-    base = unvaried(found)
+    base = unvaried(by_condition)
     every = [
-        VariedParameter(name, *(counted(found.get(f"vary/{name}/{sign}", [])) for sign in ("-20", "+20")))
+        VariedParameter(
+            name, *(counted(by_condition.get(f"vary/{name}/{sign}", [])) for sign in ("-20", "+20"))
+        )
         for name in PARAMETERS
     ]
 
@@ -89,15 +91,15 @@ def ranked(found: RowsOfConditions) -> list[VariedParameter]:
     return sorted((p for p in every if p.both), key=key)
 
 
-def unvaried(found: RowsOfConditions) -> float | None:
+def unvaried(by_condition: RowsOfConditions) -> float | None:
     """Return the median duration of an action on the ring without a change, s."""
-    runs = counted(found["ring"])
+    runs = counted(by_condition["ring"])
     return None if runs is None else runs.action
 
 
-def table(found: RowsOfConditions) -> str:
+def table(by_condition: RowsOfConditions) -> str:
     """Return one line for each parameter that was varied, and one for the ring without a change."""
-    parameters = ranked(found)
+    parameters = ranked(by_condition)
     if not parameters:
         return NOT_RUN
     lines = [
@@ -107,7 +109,7 @@ def table(found: RowsOfConditions) -> str:
     for parameter in parameters:
         cells = [*_cells(parameter.lower), *_cells(parameter.higher)]
         lines.append(f"| {parameter.name} | {' | '.join(cells)} |")
-    same = counted(found["ring"])
+    same = counted(by_condition["ring"])
     if same is not None:
         lines.append(f"| none | {' | '.join([*_cells(same), '', '', ''])} |")
     return "\n".join(lines) + "\n"
@@ -120,9 +122,9 @@ def _cells(runs: VariedRuns | None) -> tuple[str, str, str]:
     return f"{runs.complete} of {runs.runs}", str(runs.wrong), action
 
 
-def first(found: RowsOfConditions) -> str:
+def first(by_condition: RowsOfConditions) -> str:
     """Return in words which parameters have runs that were not complete, the first ones to break first."""
-    parameters = ranked(found)
+    parameters = ranked(by_condition)
     if not parameters:
         return NOT_RUN
     broken = [p for p in parameters if any(runs.complete < runs.runs for runs in p.both)]
@@ -142,18 +144,18 @@ def _lost(parameter: VariedParameter) -> list[str]:
     ]
 
 
-def picture(found: RowsOfConditions) -> str:
+def picture(by_condition: RowsOfConditions) -> str:
     """Return the picture of the manual as Markdown; nothing without runs."""
     words = "Complete runs and duration of an action with each parameter of table B.1 changed by 20 %"
-    return f"![{words}](pictures/{PICTURE}.png)\n" if ranked(found) else NOT_RUN
+    return f"![{words}](pictures/{PICTURE}.png)\n" if ranked(by_condition) else NOT_RUN
 
 
-def draw(found: RowsOfConditions) -> dict[str, Figure]:
+def draw(by_condition: RowsOfConditions) -> dict[str, Figure]:
     """Draw the figure, if there are runs."""
     # matplotlib is imported where something is drawn
     from deodar_papers.figures.variations import variations_figure
 
-    parameters = ranked(found)
+    parameters = ranked(by_condition)
     if not parameters:
         return {}
-    return {FIGURE: variations_figure(parameters, unvaried(found), "-20 %", "+20 %")}
+    return {FIGURE: variations_figure(parameters, unvaried(by_condition), "-20 %", "+20 %")}

@@ -212,10 +212,10 @@ def _unlearned(length: int, times: int) -> list[Event]:
 
     A node that has learned one is without its colour for a few milliseconds at most.
     """
-    wanted = [f"wants {k}" for k in range(1, length + 1)]
+    names = [f"wants {k}" for k in range(1, length + 1)]
     return [
-        *(Crosses(name, f"produced {k}.output", 0.5, ends=False) for k, name in enumerate(wanted, 1)),
-        AnyOf("wants a colour", wanted, ends=False),
+        *(Crosses(name, f"produced {k}.output", 0.5, ends=False) for k, name in enumerate(names, 1)),
+        AnyOf("wants a colour", names, ends=False),
         Crosses("no colour", "strongest action.output", 0.0, "below", ends=False),
         All("nothing learned", ["wants a colour", "no colour"], times=times),
     ]
@@ -370,7 +370,7 @@ def transitions(t: np.ndarray, nodes: np.ndarray, on: Mapping[str, np.ndarray]) 
             t[j] if follows else None,
             _first(t, on["action"], j) if follows else None,
         ]
-        out.append([None if value is None else round(float(value - t[i]), 3) for value in row])
+        out.append([None if moment is None else round(float(moment - t[i]), 3) for moment in row])
     return out
 
 
@@ -431,13 +431,13 @@ def _letter(hue: float | None, letters: Sequence[str]) -> str:
 def _peak(hues: np.ndarray, times: np.ndarray) -> float | None:
     """Return the hue of a peak that begins now; None if there is none soon."""
     soon = hues[times <= times[0] + SOON]
-    known = soon[soon != ABSENT]
-    return float(known[-1]) if len(known) else None
+    hues_of_peaks = soon[soon != ABSENT]
+    return float(hues_of_peaks[-1]) if len(hues_of_peaks) else None
 
 
 def _first(t: np.ndarray, true: np.ndarray, begin: int) -> float | None:
-    found = np.flatnonzero(true[begin:])
-    return float(t[begin + found[0]]) if len(found) else None
+    places = np.flatnonzero(true[begin:])
+    return float(t[begin + places[0]]) if len(places) else None
 
 
 def _last_off(t: np.ndarray, on: np.ndarray, begin: int, end: int) -> float | None:

@@ -44,14 +44,14 @@ CASCADE = ("satisfaction on", "node off", "action off", "satisfaction off", "nex
 SentenceValue = float | list[float] | str | None
 
 
-def claims(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
+def claims(by_condition: Mapping[str, Sequence[Row]]) -> list[Claim]:
     """Return all claims: those from runs, then those from parameters, each by section."""
-    return [*from_runs(found), *from_parameters()]
+    return [*from_runs(by_condition), *from_parameters()]
 
 
-def from_runs(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
+def from_runs(by_condition: Mapping[str, Sequence[Row]]) -> list[Claim]:
     """Return the sentences whose numbers come from rows."""
-    return [*_learned(found), *_transitions(found), *_searches(found)]
+    return [*_learned(by_condition), *_transitions(by_condition), *_searches(by_condition)]
 
 
 def from_parameters() -> list[Claim]:
@@ -59,11 +59,12 @@ def from_parameters() -> list[Claim]:
     return [*_nodes(), *_satisfaction(), *_colour_space(), *_table()]
 
 
-def runs_table(found: Mapping[str, Sequence[Row]]) -> str:
+def runs_table(by_condition: Mapping[str, Sequence[Row]]) -> str:
     """Return the sentences whose numbers come from rows, as Markdown."""
     lines = ["| section | sentence, and the paper's number | deodar | n |", "|---|---|---|---|"]
     return (
-        "\n".join([*lines, *(f"| {' | '.join(_cells(c))} | {c.n or ''} |" for c in from_runs(found))]) + "\n"
+        "\n".join([*lines, *(f"| {' | '.join(_cells(c))} | {c.n or ''} |" for c in from_runs(by_condition))])
+        + "\n"
     )
 
 
@@ -72,8 +73,8 @@ def parameters_table() -> str:
     differ have a table of their own.
     """
     lines = ["| section | sentence, and the paper's number | deodar |", "|---|---|---|"]
-    said = [c for c in from_parameters() if ", printed " not in c.name]
-    return "\n".join([*lines, *(f"| {' | '.join(_cells(c))} |" for c in said)]) + "\n"
+    listed = [c for c in from_parameters() if ", printed " not in c.name]
+    return "\n".join([*lines, *(f"| {' | '.join(_cells(c))} |" for c in listed)]) + "\n"
 
 
 def _cells(claim: Claim) -> tuple[str, str, str]:
@@ -92,26 +93,26 @@ def _shown(value: object) -> str:
 def _number(section: str, text: str, value: SentenceValue, n: int = 0) -> Claim:
     """Return a number without a target; n is 0 for a number of the model."""
     where = "table B.1" if section == "B" else f"section {section}"
-    shown = round(value, 4) if isinstance(value, float) else value
+    printed = round(value, 4) if isinstance(value, float) else value
     return Claim(
-        f"{section}: {text}", shown, "none", None, "reported", f"{SOURCE}, {where}", n, origin="none"
+        f"{section}: {text}", printed, "none", None, "reported", f"{SOURCE}, {where}", n, origin="none"
     )
 
 
 def _share(section: str, text: str, true: Sequence[bool]) -> Claim:
     """Return the share of cases in which a sentence is true."""
     hits, n = sum(true), len(true)
-    value = round(hits / n, 4) if n else None
+    share = round(hits / n, 4) if n else None
     interval = rounded(statistics.wilson(hits, n)) if n else None
     where = f"{SOURCE}, section {section}"
-    return Claim(f"{section}: {text}", value, "none", None, "reported", where, n, interval, origin="none")
+    return Claim(f"{section}: {text}", share, "none", None, "reported", where, n, interval, origin="none")
 
 
 def _nodes() -> list[Claim]:
     s, node, memory = STRENGTHS, CHAIN_RESTING["node"], CHAIN_RESTING["memory"]
     on = node + s["c0 self-excitation"]
-    kept = memory + s["c4 self-excitation of memory"]
-    own = on + s["c3 own memory"]
+    memory_on = memory + s["c4 self-excitation of memory"]
+    supported = on + s["c3 own memory"]
     return [
         _number(
             "4.1",
@@ -128,24 +129,24 @@ def _nodes() -> list[Claim]:
             "the memory node gives the next node its advantage: its off state (none above 0)",
             node + s["c2 next"],
         ),
-        _number("4.1", "its own memory alone does not switch a node off: its on state (above 0)", own),
+        _number("4.1", "its own memory alone does not switch a node off: its on state (above 0)", supported),
         _number(
             "4.1",
             "inhibition by the condition of satisfaction does: samples of its field that suffice",
-            float(np.floor(own / -OFF) + 1),
+            float(np.floor(supported / -OFF) + 1),
         ),
-        _number("4.1", "a memory node stays on without its node: its on state (above 0)", kept),
+        _number("4.1", "a memory node stays on without its node: its on state (above 0)", memory_on),
         _number(
             "4.1",
             "and when the sequence has advanced: its on state when the next node is on (above 0; with the"
             " printed values below 0, too)",
-            kept + s["c5 other nodes to memory"],
+            memory_on + s["c5 other nodes to memory"],
         ),
     ]
 
 
-def _learned(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
-    rows = found["learning"]
+def _learned(by_condition: Mapping[str, Sequence[Row]]) -> list[Claim]:
+    rows = by_condition["learning"]
     shapes = np.asarray([shape for r in rows for shape in r["weights"]], float).reshape(-1, 3)
 
     def median(k: int) -> float | None:
@@ -175,8 +176,8 @@ def _learned(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
     ]
 
 
-def _transitions(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
-    rows = [t for r in found["arena"] for t in r["transitions"]]
+def _transitions(by_condition: Mapping[str, Sequence[Row]]) -> list[Claim]:
+    rows = [t for r in by_condition["arena"] for t in r["transitions"]]
     # from the node's off; the third entry is the colour-space field, which is not part of the cascade
     times = [[t[0], 0.0, t[1], t[3], t[4], t[5]] for t in rows]
     out: list[Claim] = []
@@ -193,31 +194,31 @@ def _transitions(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
 
 
 def _satisfaction() -> list[Claim]:
-    rest = CHAIN_RESTING["satisfaction"]
+    resting = CHAIN_RESTING["satisfaction"]
     values: list[tuple[str, str, float]] = [
         (
             "4.3",
             "the action field alone leaves the field of the condition of satisfaction below threshold:"
             " activation (below 0)",
-            rest + PREDICT,
+            resting + PREDICT,
         ),
-        ("4.3", "sensory input alone does, too: activation (below 0)", rest + LARGE),
-        ("4.3", "both together lift it above threshold: activation (above 0)", rest + PREDICT + LARGE),
+        ("4.3", "sensory input alone does, too: activation (below 0)", resting + LARGE),
+        ("4.3", "both together lift it above threshold: activation (above 0)", resting + PREDICT + LARGE),
         (
             "4.3",
             "its peak is self-stabilized: activation at the edge of a peak with the action field alone"
             " (above 0)",
-            rest + PREDICT + _hysteresis(),
+            resting + PREDICT + _hysteresis(),
         ),
         (
             "5.1",
             "a sufficiently large blob of the wanted hue satisfies: share of the central picture",
-            -(rest + PREDICT) / LARGE,
+            -(resting + PREDICT) / LARGE,
         ),
         (
             "5.1",
             "a blob of another hue does not: activation with the whole centre in its hue (below 0)",
-            rest + LARGE,
+            resting + LARGE,
         ),
         ("5.1", "a central portion of the picture is input: share of its columns", PATCH),
     ]
@@ -276,8 +277,8 @@ def _attraction(width: float) -> float:
     return float(np.asarray(axis.points)[inside].sum())
 
 
-def _searches(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
-    rows = found["arena"]
+def _searches(by_condition: Mapping[str, Sequence[Row]]) -> list[Claim]:
+    rows = by_condition["arena"]
     far = [d for r in rows for d in r["distances"] if np.isfinite(d)]
     durations = [d for r in rows for d in r["actions"]]
     ratio = max(durations) / min(durations) if durations else None

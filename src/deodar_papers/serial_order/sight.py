@@ -20,7 +20,7 @@ def distance(arena: SearchArena, letter: str, pose: np.ndarray) -> float:
     """Return the distance, mm, of the nearest block of a colour of which a part is in the middle of the
     picture; infinite without one.
     """
-    x, y, heading = (float(value) for value in pose)
+    x, y, heading = (float(coordinate) for coordinate in pose)
     widest = math.tan(_camera().horizontal / 2) * PATCH
     best = math.inf
     for block in arena.blocks:
@@ -28,10 +28,10 @@ def distance(arena: SearchArena, letter: str, pose: np.ndarray) -> float:
             continue
         corners = _corners(block) - [x, y]
         cos, sin = math.cos(heading), math.sin(heading)
-        ahead, left = corners @ [cos, sin], corners @ [-sin, cos]
+        ahead, across = corners @ [cos, sin], corners @ [-sin, cos]
         if (ahead <= 0).any():
             continue
-        slopes = left / ahead
+        slopes = across / ahead
         if slopes.min() <= widest and slopes.max() >= -widest:
             gap = np.maximum(np.abs(np.asarray([x, y]) - block.center) - BLOCK / 2, 0.0)
             best = min(best, float(np.hypot(*gap)))
@@ -59,17 +59,17 @@ def chosen(arena: SearchArena, letter: str, pose: np.ndarray, columns: np.ndarra
         pose: x, y (mm) and heading (rad) of the vehicle.
         columns: output of the colour-space field over the columns, its largest over hue.
     """
-    x, y, heading = (float(value) for value in pose)
-    wanted = [block for block in arena.blocks if block.letter == letter]
-    found: set[int] = set()
+    x, y, heading = (float(coordinate) for coordinate in pose)
+    blocks = [block for block in arena.blocks if block.letter == letter]
+    numbers: set[int] = set()
     for first, last in regions(columns):
         # -1 at the left edge of the picture, 1 at the right one
         middle = (first + last + 1) / len(columns) - 1
         direction = heading - math.atan(middle * math.tan(_camera().horizontal / 2))
-        away = [_away(block, (x, y), direction) for block in wanted]
-        if away:
-            found.add(min(range(len(away)), key=lambda k: away[k]))
-    return len(found)
+        distances = [_away(block, (x, y), direction) for block in blocks]
+        if distances:
+            numbers.add(min(range(len(distances)), key=lambda k: distances[k]))
+    return len(numbers)
 
 
 def _away(block: Block, place: Sequence[float], direction: float) -> tuple[float, float]:

@@ -32,48 +32,48 @@ OUTCOMES = {
 """What differs in the conditions of which the manual states how many runs are complete and wrong."""
 
 
-def write(found: RowsOfConditions) -> dict[str, str]:
+def write(by_condition: RowsOfConditions) -> dict[str, str]:
     """Return tables in Markdown by file name."""
     return {
-        "conditions": conditions(found),
-        "transitions": transitions(found),
-        "parameters": robustness.table(found),
-        "sentences-runs": sentences.runs_table(found),
+        "conditions": conditions(by_condition),
+        "transitions": transitions(by_condition),
+        "parameters": robustness.table(by_condition),
+        "sentences-runs": sentences.runs_table(by_condition),
         "sentences-parameters": sentences.parameters_table(),
     }
 
 
-def numbers(found: RowsOfConditions) -> dict[str, str]:
+def numbers(by_condition: RowsOfConditions) -> dict[str, str]:
     """Return the results that the manual states, by name."""
-    out = write(found)
+    out = write(by_condition)
     for name in ("learning", "clutter"):
-        rows = found[name]
+        rows = by_condition[name]
         out[f"learned:{name}"] = f"{sum(r['right'] for r in rows)} of {len(rows)}" if rows else NOT_RUN
-    for name, rows in found.items():
+    for name, rows in by_condition.items():
         if "/" in name or name in ("learning", "clutter"):
             continue
         for outcome in ("complete", "wrong", "unfinished"):
             hits = sum(r["outcome"] == outcome for r in rows)
             out[f"{outcome}:{name}"] = f"{hits} of {len(rows)}" if rows else NOT_RUN
-    durations = [d for r in found["arena"] for d in r["actions"]]
-    for what, function in (("shortest", min), ("median", np.median), ("longest", max)):
-        out[what] = f"{float(function(durations)):.2f}" if durations else NOT_RUN
-    out["outcomes"] = outcomes(found)
-    out["without-runs"] = without_runs(found)
-    out["reasons"] = reasons(found)
+    durations = [d for r in by_condition["arena"] for d in r["actions"]]
+    for statistic, function in (("shortest", min), ("median", np.median), ("longest", max)):
+        out[statistic] = f"{float(function(durations)):.2f}" if durations else NOT_RUN
+    out["outcomes"] = outcomes(by_condition)
+    out["without-runs"] = without_runs(by_condition)
+    out["reasons"] = reasons(by_condition)
     out["table-b1"] = changed()
-    out["parameters-picture"] = robustness.picture(found)
-    out["parameters-first"] = robustness.first(found)
+    out["parameters-picture"] = robustness.picture(by_condition)
+    out["parameters-first"] = robustness.first(by_condition)
     return out
 
 
-def conditions(found: RowsOfConditions) -> str:
+def conditions(by_condition: RowsOfConditions) -> str:
     """Return one line for each condition in which something is produced."""
     lines = [
         "| condition | runs | complete | unfinished | wrong | median time, s | longest, s | touching |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    for name, rows in found.items():
+    for name, rows in by_condition.items():
         if name.startswith("vary/") or name in ("learning", "clutter") or not rows:
             continue
         counts = [sum(r["outcome"] == o for r in rows) for o in ("complete", "unfinished", "wrong")]
@@ -85,30 +85,30 @@ def conditions(found: RowsOfConditions) -> str:
     return "\n".join(lines) + "\n"
 
 
-def outcomes(found: RowsOfConditions) -> str:
+def outcomes(by_condition: RowsOfConditions) -> str:
     """Return a list: each condition of `OUTCOMES` that has runs, and repeated colours."""
     lines: list[str] = []
     for name, words in OUTCOMES.items():
-        rows = found[name]
+        rows = by_condition[name]
         complete, wrong = (sum(r["outcome"] == o for r in rows) for o in ("complete", "wrong"))
         if rows:
             lines.append(f"* With {words}: complete {complete} of {len(rows)}, wrong {wrong} of {len(rows)}.")
-    again = {
+    checks = {
         "A repeated colour is found at once, within 1 s": [
-            duration <= AT_ONCE for row in found["repetition"] for duration in repeated(row)
+            duration <= AT_ONCE for row in by_condition["repetition"] for duration in repeated(row)
         ],
         "With `habituation=True` it is found by a second visit, after it left the middle of the picture": [
-            left for row in found["habituation"] for left in visits(row)
+            left for row in by_condition["habituation"] for left in visits(row)
         ],
     }
-    lines += [f"* {words}: {sum(true)} of {len(true)}." for words, true in again.items() if true]
+    lines += [f"* {words}: {sum(true)} of {len(true)}." for words, true in checks.items() if true]
     return "\n".join(lines) + "\n" if lines else NOT_RUN
 
 
-def reasons(found: RowsOfConditions) -> str:
+def reasons(by_condition: RowsOfConditions) -> str:
     """Return why productions were not completed, with their numbers."""
     counted: dict[tuple[str, str], int] = {}
-    for name, rows in found.items():
+    for name, rows in by_condition.items():
         for row in rows if not name.startswith("vary/") else ():
             if "reason" in row:
                 # the colour and the item are those of the run
@@ -122,9 +122,9 @@ def reasons(found: RowsOfConditions) -> str:
     return "\n".join(lines) + "\n"
 
 
-def without_runs(found: RowsOfConditions) -> str:
+def without_runs(by_condition: RowsOfConditions) -> str:
     """Return the names of the conditions without runs; varied parameters are counted."""
-    missing = [name for name, rows in found.items() if not rows]
+    missing = [name for name, rows in by_condition.items() if not rows]
     varied = sum(name.startswith("vary/") for name in missing)
     names = [f"`{name}`" for name in missing if not name.startswith("vary/")]
     parts = [*names, f"{varied} conditions with a varied parameter"] if varied else names
@@ -140,9 +140,9 @@ def changed() -> str:
     return "\n".join(lines) + "\n"
 
 
-def transitions(found: RowsOfConditions) -> str:
+def transitions(by_condition: RowsOfConditions) -> str:
     """Return the times of the instabilities of all transitions in arenas, from the ordinal node's off on."""
-    every = [t for r in found["arena"] for t in r["transitions"]]
+    every = [t for r in by_condition["arena"] for t in r["transitions"]]
     lines = ["| instability | median, ms | earliest | latest | transitions |", "|---|---|---|---|---|"]
     for k, name in enumerate(INSTABILITIES):
         times = [t[k] for t in every if t[k] is not None]
@@ -155,6 +155,6 @@ def transitions(found: RowsOfConditions) -> str:
                 str(len(times)),
             ]
             lines.append(f"| {' | '.join(cells)} |")
-    right = [step for r in found["arena"] for step in in_order(r)]
+    right = [step for r in by_condition["arena"] for step in in_order(r)]
     lines.append(f"| in the order of section 4.4 | {sum(right)} of {len(right)} | | | |")
     return "\n".join(lines) + "\n"

@@ -30,19 +30,25 @@ def by_condition(rows: Mapping[str, Row], quick: bool) -> dict[str, list[Row]]:
     out: dict[str, list[Row]] = {name: [] for name in conditions(quick)}
     for row in rows.values():
         out[row["condition"]].append(row)
-    return {name: sorted(found, key=lambda row: row["trial"]) for name, found in out.items()}
+    return {name: sorted(group, key=lambda row: row["trial"]) for name, group in out.items()}
 
 
-def claims(found: RowsOfConditions, quick: bool) -> list[Claim]:
+def claims(rows_by_condition: RowsOfConditions, quick: bool) -> list[Claim]:
     """Return all claims."""
-    return [*_required(found, quick), *_reported(found, quick), *sentences.claims(found)]
+    return [
+        *_required(rows_by_condition, quick),
+        *_reported(rows_by_condition, quick),
+        *sentences.claims(rows_by_condition),
+    ]
 
 
-def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
-    taught = [*found["learning"], *found["clutter"]]
-    withheld = [r for r in found["removed"] if len(r["actions"]) < 2 or r["actions"][1] > WITHHELD]
-    searched = [r for name, rows in found.items() if not _apart(name) for r in rows]
-    steps = [right for row in found["arena"] for right in in_order(row)]
+def _required(rows_by_condition: RowsOfConditions, quick: bool) -> list[Claim]:
+    taught = [*rows_by_condition["learning"], *rows_by_condition["clutter"]]
+    withheld = [
+        r for r in rows_by_condition["removed"] if len(r["actions"]) < 2 or r["actions"][1] > WITHHELD
+    ]
+    searched = [r for name, rows in rows_by_condition.items() if not _apart(name) for r in rows]
+    steps = [right for row in rows_by_condition["arena"] for right in in_order(row)]
 
     def share(
         name: str, rows: Sequence[Row], true: Callable[[Row], bool], least: float, source: str
@@ -54,14 +60,20 @@ def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
         _none(
             "production in arenas without an error of order, a skip, a repetition, or a condition of"
             " satisfaction on a wrong or distant block",
-            [r["outcome"] == "wrong" for r in found["arena"]],
+            [r["outcome"] == "wrong" for r in rows_by_condition["arena"]],
             f"{SOURCE}, section 6.2",
         ),
-        share("production complete within 600 s", found["arena"], _complete, 0.95, f"{SOURCE}, section 6.2"),
+        share(
+            "production complete within 600 s",
+            rows_by_condition["arena"],
+            _complete,
+            0.95,
+            f"{SOURCE}, section 6.2",
+        ),
         required_share(
             "all transitions in the order of section 4.4", steps, 1.0, f"{SOURCE}, section 4.4", quick
         ),
-        share("production on the ring, without search", found["ring"], _complete, 1.0, NONE),
+        share("production on the ring, without search", rows_by_condition["ring"], _complete, 1.0, NONE),
         share(
             f"a block is taken away for {BACK:g} s: the vehicle looks for it until it is back, and completes"
             " the sequence",
@@ -72,34 +84,36 @@ def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
         ),
         _none(
             "three duplicates of wanted blocks: no error of order",
-            [r["outcome"] == "wrong" for r in found["duplicates"]],
+            [r["outcome"] == "wrong" for r in rows_by_condition["duplicates"]],
             f"{SOURCE}, section 6.2",
         ),
         _none(
             "three duplicates of wanted blocks: one is chosen, and none is found while a peak in the"
             " colour-space field lies on another",
-            [n != 1 for r in found["duplicates"] for n in r["chosen"]],
+            [n != 1 for r in rows_by_condition["duplicates"] for n in r["chosen"]],
             f"{SOURCE}, section 5.2",
         ),
         _none("no error of order in any arena", [r["outcome"] == "wrong" for r in searched], SOURCE),
     ]
 
 
-def _reported(found: RowsOfConditions, quick: bool) -> list[Claim]:
-    durations = np.asarray([d for r in found["arena"] for d in r["actions"]])
+def _reported(rows_by_condition: RowsOfConditions, quick: bool) -> list[Claim]:
+    durations = np.asarray([d for r in rows_by_condition["arena"] for d in r["actions"]])
     out: list[Claim] = []
     for name, function in (("shortest", np.min), ("median", np.median), ("longest", np.max)):
-        value = round(float(function(durations)), 2) if len(durations) else None
-        out.append(_value(f"{name} action, s", value, len(durations), f"{SOURCE}, section 6.3"))
-    again = [d for r in found["repetition"] for d in repeated(r)]
+        duration = round(float(function(durations)), 2) if len(durations) else None
+        out.append(_value(f"{name} action, s", duration, len(durations), f"{SOURCE}, section 6.3"))
+    repetitions = [d for r in rows_by_condition["repetition"] for d in repeated(r)]
     out.append(
-        _share_only("a repeated colour is found within 1 s", [d <= AT_ONCE for d in again], "section 6.4")
+        _share_only(
+            "a repeated colour is found within 1 s", [d <= AT_ONCE for d in repetitions], "section 6.4"
+        )
     )
     out.append(
         _share_only(
             "with habituation a repeated colour is found by a second visit (its block left the middle of the"
             " picture before)",
-            [left for r in found["habituation"] for left in visits(r)],
+            [left for r in rows_by_condition["habituation"] for left in visits(r)],
             "section 6.4",
         )
     )
@@ -111,7 +125,7 @@ def _reported(found: RowsOfConditions, quick: bool) -> list[Claim]:
         ("cued", "production complete, two sequences taught and one of them cued"),
         ("cued-changed", "production complete, the cue changed at the second or third item"),
     ):
-        rows = [r for r in found[name] if name != "carried" or _was_carried(r)]
+        rows = [r for r in rows_by_condition[name] if name != "carried" or _was_carried(r)]
         out.append(_share_only(text, [_complete(r) for r in rows], "", NONE))
         out.append(_share_only(f"{text}: wrong", [r["outcome"] == "wrong" for r in rows], "", NONE))
     return out
