@@ -50,9 +50,9 @@ class Output:
     snapshots: float | None = None
 
     @classmethod
-    def of(cls, output: Output | str | Path) -> Output:
+    def of(cls, given: Output | str | Path) -> Output:
         """Return an output by its path, or the output itself."""
-        return cls(output) if isinstance(output, (str, Path)) else instance_of(Output, output, "out")
+        return cls(given) if isinstance(given, (str, Path)) else instance_of(Output, given, "out")
 
 
 class RunOutput:

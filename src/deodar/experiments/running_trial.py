@@ -107,9 +107,9 @@ class RunningTrial:
         """
         self._copies.restart(self.row, keep_learned)
 
-    def later(self, steps: int, action: Callable[[], object]) -> None:
-        """Call `action` in `steps` steps from now; 0: before the next step."""
-        self._call(self.tick + steps, action)
+    def later(self, steps: int, what: Callable[[], object]) -> None:
+        """Call `what` in `steps` steps from now; 0: before the next step."""
+        self._call(self.tick + steps, what)
 
     # ------------------------------------------------------------------------------------------- the schedule
 
