@@ -49,7 +49,7 @@ def obstacle(isolated: Isolated) -> str:
 
 def discretisation(
     isolated: Isolated,
-    found: Mapping[str, Transition],
+    transitions: Mapping[str, Transition],
     strength: float,
     accuracy: float = 0.01,
     limit: float = LIMIT,
@@ -60,7 +60,8 @@ def discretisation(
 
     Args:
         isolated: the field.
-        found: its thresholds, by `detection`, `reverse`, `forgetting` and `suppression`, all or some of them.
+        transitions: its thresholds, by `detection`, `reverse`, `forgetting` and `suppression`, all or some
+            of them.
         strength: localised input that creates the peak of a memory, relative to the detection threshold.
         accuracy: relative accuracy with which the thresholds were found.
         limit: longest settling, in time constants.
@@ -73,11 +74,17 @@ def discretisation(
         precision=session.precision,
         dt=session.dt,
     )
-    both = thresholds(fine, accuracy=accuracy, limit=limit)
-    there: dict[str, Transition | None] = {"detection": both.detection, "reverse": both.reverse}
-    if both.detection is not None:
-        made = strength * both.detection.after
+    fine_thresholds = thresholds(fine, accuracy=accuracy, limit=limit)
+    fine_transitions: dict[str, Transition | None] = {
+        "detection": fine_thresholds.detection,
+        "reverse": fine_thresholds.reverse,
+    }
+    if fine_thresholds.detection is not None:
+        fine_strength = strength * fine_thresholds.detection.after
         for name, measure in (("forgetting", forgetting), ("suppression", suppression)):
-            if name in found:
-                there[name] = measure(fine, made, accuracy, limit)
-    return {name: t.value - here.value if (t := there.get(name)) else None for name, here in found.items()}
+            if name in transitions:
+                fine_transitions[name] = measure(fine, fine_strength, accuracy, limit)
+    return {
+        name: t.value - coarse.value if (t := fine_transitions.get(name)) else None
+        for name, coarse in transitions.items()
+    }

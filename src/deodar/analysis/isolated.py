@@ -103,13 +103,13 @@ class Isolated:
         """The present peaks."""
         return peaks(self.activation(), self.axes, self.threshold)
 
-    def covers(self, found: Peaks) -> bool:
+    def covers(self, peaks_of_field: Peaks) -> bool:
         """Return whether a region fills the field: three quarters of it, as borders may be inactive.
 
         Such a region does not count as a peak.
         """
         whole = math.prod(a.range for a in self.axes)
-        return bool(self.axes) and any(p.size >= WHOLE * whole for p in found)
+        return bool(self.axes) and any(p.size >= WHOLE * whole for p in peaks_of_field)
 
     def snapshot(self) -> SessionSnapshot:
         """Return the whole state, including the inputs."""
@@ -166,11 +166,11 @@ def isolate(
     entry = find.element(doc, path)
     if not isinstance(entry.element, Field):
         fields = [e.path for e in doc.entries if isinstance(e.element, Field)]
-        near = did_you_mean(entry.path, fields) or "The model has no field"
+        suggestion = did_you_mean(entry.path, fields) or "The model has no field"
         raise AnalysisError(
             f"{type(entry.element).__name__} is not a Field; only fields and nodes can be measured",
             where=entry.path,
-            fix=near,
+            fix=suggestion,
         )
     field = dc.replace(entry.element, name="field", noise=0.0, noise_length=0.0)
     axes = tuple(field.axes)
@@ -186,10 +186,16 @@ def isolate(
         stimulus = GaussianStimulus(name, axes, center=center or 0.0, sigma=widths or 1.0, amplitude=0.0)
         small.connect(small.add(stimulus), target)
     small.connect(small.add(Boost("boost", axes, amplitude=0.0)), target)
-    kept = _keep(small, doc, entry, [find.element(doc, p) for p in inputs])
+    background = _keep(small, doc, entry, [find.element(doc, p) for p in inputs])
     step = dt if dt is not None else min(max(doc.step, field.tau / 100), field.tau / 10)
     return Isolated(
-        entry.path, field, Session(small, dt=step, precision=precision), center, widths, doc.time_unit, kept
+        entry.path,
+        field,
+        Session(small, dt=step, precision=precision),
+        center,
+        widths,
+        doc.time_unit,
+        background,
     )
 
 

@@ -124,8 +124,10 @@ def peaks(
     above = u - threshold
     labels = _regions(above > 0, found_axes)
     reach = [_reach(above, labels, d, a) for d, a in enumerate(found_axes)]
-    found = [_peak(above, threshold, labels, places, found_axes, reach) for places in _places(labels)]
-    return Peaks(tuple(sorted(found, key=lambda p: (-p.amplitude, p.position))), found_axes, float(threshold))
+    regions = [_peak(above, threshold, labels, places, found_axes, reach) for places in _places(labels)]
+    return Peaks(
+        tuple(sorted(regions, key=lambda p: (-p.amplitude, p.position))), found_axes, float(threshold)
+    )
 
 
 # ---------------------------------------------------------------------------------------------------- regions
@@ -147,8 +149,8 @@ def _regions(mask: np.ndarray, axes: Axes) -> np.ndarray:
     for d, axis in enumerate(axes):
         if axis.periodic:
             first, last = np.take(labels, 0, axis=d), np.take(labels, -1, axis=d)
-            both = (first > 0) & (last > 0)
-            for a, b in sorted(set(zip(first[both].tolist(), last[both].tolist(), strict=True))):
+            joined = (first > 0) & (last > 0)
+            for a, b in sorted(set(zip(first[joined].tolist(), last[joined].tolist(), strict=True))):
                 low, high = sorted((find(a), find(b)))
                 root[high] = low
     return np.array([find(i) for i in range(count + 1)])[labels]
@@ -218,9 +220,9 @@ def _centre(axis: Axis, points: np.ndarray, weights: np.ndarray, top: float) -> 
     mean = np.average(np.exp(1j * turn * (points - axis.lower)), weights=weights)
     # a region over the whole period has no defined middle
     middle = axis.lower + float(np.angle(mean)) / turn if abs(mean) > 1e-9 else top
-    away = points - middle
-    away = away - axis.range * np.round(away / axis.range)
-    centre = middle + float(np.average(away, weights=weights)) if abs(mean) > 1e-9 else top
+    offset = points - middle
+    offset = offset - axis.range * np.round(offset / axis.range)
+    centre = middle + float(np.average(offset, weights=weights)) if abs(mean) > 1e-9 else top
     wrapped = (centre - axis.lower) % axis.range
     return axis.lower + (0.0 if axis.range - wrapped < 1e-9 * axis.range else wrapped)
 
@@ -248,15 +250,15 @@ def _variable(variable: Any) -> tuple[np.ndarray, Axes]:
         raise AnalysisError(
             "an array alone does not say what its axes are", fix="Give them: peaks(activation, [x])"
         )
-    left = [str(d) for d in variable.dims if not _is_axis(variable, d)]
-    many = [d for d in left if variable.sizes[d] != 1]
+    singles = [str(d) for d in variable.dims if not _is_axis(variable, d)]
+    many = [d for d in singles if variable.sizes[d] != 1]
     if many:
         fix = ", ".join(f"{d}=-1" for d in many)
         raise AnalysisError(
             f"{variable.name} still has the dimension{'s' if len(many) > 1 else ''} {', '.join(many)}",
             fix=f"Choose one: .isel({fix})",
         )
-    variable = variable.isel(dict.fromkeys(left, 0))
+    variable = variable.isel(dict.fromkeys(singles, 0))
     return np.asarray(variable.values, np.float64), tuple(_axis(variable, d) for d in variable.dims)
 
 
@@ -266,10 +268,15 @@ def _is_axis(variable: Any, dim: Any) -> bool:
 
 def _axis(variable: Any, dim: Any) -> Axis:
     coordinate = variable.coords[dim]
-    about, points = coordinate.attrs, np.asarray(coordinate.values, float)
-    unit = str(about.get("units", ""))
+    attributes, points = coordinate.attrs, np.asarray(coordinate.values, float)
+    unit = str(attributes.get("units", ""))
     axis = Axis(
-        str(dim), float(about["lower"]), float(about["upper"]), len(points), bool(about["periodic"]), unit
+        str(dim),
+        float(attributes["lower"]),
+        float(attributes["upper"]),
+        len(points),
+        bool(attributes["periodic"]),
+        unit,
     )
     if np.allclose(axis.points, points, rtol=0, atol=1e-6 * axis.range):
         return axis

@@ -82,8 +82,10 @@ def phase(node: Field, input: float = 0.0, span: tuple[float, float] | None = No
     if not low < high:
         raise AnalysisError(f"the span goes from {low:g} to {high:g}; the first has to be lower")
     threshold = float(getattr(node.sigmoid, "threshold", 0.0))
-    near = np.geomspace(1e-9, max(high - low, 1e-6), 400)
-    grid = np.unique(np.concatenate([np.linspace(low, high, COARSE), threshold - near, threshold + near]))
+    distances = np.geomspace(1e-9, max(high - low, 1e-6), 400)
+    grid = np.unique(
+        np.concatenate([np.linspace(low, high, COARSE), threshold - distances, threshold + distances])
+    )
     grid = grid[(grid >= low) & (grid <= high)]
     u = np.linspace(low, high, COARSE)
     return Phase(float(input), u, rate(u), _fixed_points(rate, grid))
@@ -113,19 +115,19 @@ def _range(rate: Callable[[np.ndarray], np.ndarray], node: Field, s: float) -> t
     middle, reach = node.resting_level + s, 1.0 + abs(node.resting_level)
     ends: list[float] = []
     for side in (-1, 1):
-        away = reach
+        distance = reach
         for _ in range(MOST_DOUBLINGS):
-            outside = np.linspace(middle + side * away, middle + side * 4 * away, 200)
+            outside = np.linspace(middle + side * distance, middle + side * 4 * distance, 200)
             if np.all(side * rate(outside) < 0):
                 break
-            away *= 2
+            distance *= 2
         else:
             raise AnalysisError(
                 "the activation grows without bound: the output function's slope times the self-excitation"
                 " exceeds 1",
                 where=node.name,
             )
-        ends.append(middle + side * away)
+        ends.append(middle + side * distance)
     roots = [p.u for p in _fixed_points(rate, np.linspace(ends[0], ends[1], COARSE))]
     margin = max(0.25 * (max(roots) - min(roots)), 0.1 * reach) if roots else reach
     threshold = float(getattr(node.sigmoid, "threshold", 0.0))
@@ -136,15 +138,15 @@ def _fixed_points(rate: Callable[[np.ndarray], np.ndarray], grid: np.ndarray) ->
     from scipy import optimize  # start-up time
 
     values = rate(grid)
-    found: list[FixedPoint] = []
+    points: list[FixedPoint] = []
     for i in np.flatnonzero(values == 0.0):  # the rate is exactly 0 here: the neighbours give the direction
         if 0 < i < len(grid) - 1 and values[i - 1] * values[i + 1] < 0:
-            found.append(FixedPoint(float(grid[i]), bool(values[i - 1] > 0)))
+            points.append(FixedPoint(float(grid[i]), bool(values[i - 1] > 0)))
     for i in np.flatnonzero(values[:-1] * values[1:] < 0):
         a, b = float(grid[i]), float(grid[i + 1])
         u = float(optimize.brentq(lambda v: float(rate(v)), a, b, xtol=1e-12, rtol=1e-14))  # pyright: ignore[reportArgumentType]
         # at a jump the rate is not near zero on either side
         gap = np.abs(rate(np.array([u - 1e-9, u + 1e-9]))).min()
         at_jump = bool(gap > 1e-3 * np.abs(values[[i, i + 1]]).max() and gap > 1e-6 * np.abs(values).max())
-        found.append(FixedPoint(u, bool(values[i] > 0), at_jump))
-    return tuple(sorted(found, key=lambda p: p.u))
+        points.append(FixedPoint(u, bool(values[i] > 0), at_jump))
+    return tuple(sorted(points, key=lambda p: p.u))

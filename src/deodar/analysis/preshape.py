@@ -48,18 +48,22 @@ def boosted(isolated: Isolated, preshape: float, accuracy: float = 0.01, limit: 
     """
     isolated.reset(input=preshape)
     isolated.settle(limit=limit)
-    found = ascend(isolated, "boost", accuracy, limit)
-    if found is None:
+    transition = ascend(isolated, "boost", accuracy, limit)
+    if transition is None:
         return Boosted(preshape, None, None, False)
-    isolated.restore(found.state)
-    made = isolated.peaks()
+    isolated.restore(transition.state)
+    peaks = isolated.peaks()
     return Boosted(
-        preshape, found.value, made, len(made) == 1 and not isolated.covers(made) and _there(isolated, made)
+        preshape,
+        transition.value,
+        peaks,
+        len(peaks) == 1 and not isolated.covers(peaks) and _at_input(isolated, peaks),
     )
 
 
-def _there(isolated: Isolated, made: Peaks) -> bool:
+def _at_input(isolated: Isolated, peaks: Peaks) -> bool:
     """Return whether the peak is at the position of the input, to within its width."""
     return all(
-        abs(p - c) <= 2 * s for p, c, s in zip(made[0].position, isolated.center, isolated.sigma, strict=True)
+        abs(p - c) <= 2 * s
+        for p, c, s in zip(peaks[0].position, isolated.center, isolated.sigma, strict=True)
     )

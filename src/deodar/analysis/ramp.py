@@ -73,11 +73,11 @@ def ramp(
 
 def _branch(isolated: Isolated, values: np.ndarray, by: InputKind, limit: float) -> Branch:
     count, activation, width, settled = [], [], [], []
-    for value in values:
-        isolated.put(**{by: value})
+    for strength in values:
+        isolated.put(**{by: strength})
         settled.append(bool(isolated.settle(limit=limit)))
-        found = isolated.peaks()
-        count.append(len(found))
+        peaks = isolated.peaks()
+        count.append(len(peaks))
         activation.append(float(isolated.activation().max()))
-        width.append(found[0].width[0] if found and isolated.axes else np.nan)
+        width.append(peaks[0].width[0] if peaks and isolated.axes else np.nan)
     return Branch(np.array(count), np.array(activation), np.array(width), np.array(settled))

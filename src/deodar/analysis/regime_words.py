@@ -11,9 +11,9 @@ from deodar.analysis.regimes import NOT_ASKED, Regimes
 WordRows = Iterator[tuple[str, str]]
 
 
-def heading(found: Regimes) -> list[str]:
+def heading(measured: Regimes) -> list[str]:
     """Return what was measured, and with which input: lines of text."""
-    isolated = found.isolated
+    isolated = measured.isolated
     field = isolated.field
     axes = ", ".join(str(a) for a in isolated.axes)
     lines = [
@@ -36,89 +36,96 @@ def heading(found: Regimes) -> list[str]:
     return lines
 
 
-def rows(found: Regimes) -> list[tuple[str, str]]:
+def rows(measured: Regimes) -> list[tuple[str, str]]:
     """Return the measurements: a name each, and its value in words."""
     return [
-        ("regime", "; ".join(found.words)),
-        *_detection(found),
-        *_memory(found),
-        *_selection(found),
-        *_notes(found),
+        ("regime", "; ".join(measured.words)),
+        *_detection(measured),
+        *_memory(measured),
+        *_selection(measured),
+        *_notes(measured),
     ]
 
 
-def _lit(found: Regimes) -> str:
-    return "peak" if found.isolated.axes else "activation above threshold"
+def _lit(measured: Regimes) -> str:
+    return "peak" if measured.isolated.axes else "activation above threshold"
 
 
-def _detection(found: Regimes) -> WordRows:
-    up, down = found.thresholds.detection, found.thresholds.reverse
+def _detection(measured: Regimes) -> WordRows:
+    up, down = measured.thresholds.detection, measured.thresholds.reverse
     if up is not None:
         kind = (
             "the activation jumps: an instability"
             if up.jump
             else "the activation grows gradually: no instability"
         )
-        yield "detection threshold", f"{_bracket(found, 'detection')}  ({kind})"
-        low = "0" if found.isolated.axes else f"-{found.thresholds.searched:g}"
-        stays = f"none: the {_lit(found)} stays down to an input of {low}"
-        yield "reverse detection", _bracket(found, "reverse") if down is not None else stays
-        both = found.bistable
-        yield "bistable range", f"{both[0]:.4g} to {both[1]:.4g}" if both and both[0] < both[1] else "none"
-    if found.peak is not None:
-        yield "just above detection", _peak(found, found.peak)
+        yield "detection threshold", f"{_bracket(measured, 'detection')}  ({kind})"
+        low = "0" if measured.isolated.axes else f"-{measured.thresholds.searched:g}"
+        stays = f"none: the {_lit(measured)} stays down to an input of {low}"
+        yield "reverse detection", _bracket(measured, "reverse") if down is not None else stays
+        bistable = measured.bistable
+        yield (
+            "bistable range",
+            f"{bistable[0]:.4g} to {bistable[1]:.4g}" if bistable and bistable[0] < bistable[1] else "none",
+        )
+    if measured.peak is not None:
+        yield "just above detection", _peak(measured, measured.peak)
 
 
-def _memory(found: Regimes) -> WordRows:
-    if found.memory is not None:
-        left = found.memory.left
-        kept = f"{_count(len(left))} left: {_peak(found, left[0])}" if left else f"no {_lit(found)} is left"
-        yield "input taken away", kept
-    if found.forgetting is not None:
+def _memory(measured: Regimes) -> WordRows:
+    if measured.memory is not None:
+        peaks_left = measured.memory.left
+        remains = (
+            f"{_count(len(peaks_left))} left: {_peak(measured, peaks_left[0])}"
+            if peaks_left
+            else f"no {_lit(measured)} is left"
+        )
+        yield "input taken away", remains
+    if measured.forgetting is not None:
         stays = (
             "is erased by a homogeneous input below"
-            if found.self_sustained
+            if measured.self_sustained
             else "would stay with a homogeneous input above"
         )
-        yield "memory", f"a peak {stays} {_bracket(found, 'forgetting')}"
-        if found.suppression is not None:
-            yield "", f"or by a localised input below {_bracket(found, 'suppression')}"
-    if found.boosts:
-        yield "boost on a pre-shape", "; ".join(_boosted(b) for b in found.boosts)
+        yield "memory", f"a peak {stays} {_bracket(measured, 'forgetting')}"
+        if measured.suppression is not None:
+            yield "", f"or by a localised input below {_bracket(measured, 'suppression')}"
+    if measured.boosts:
+        yield "boost on a pre-shape", "; ".join(_boosted(b) for b in measured.boosts)
 
 
-def _selection(found: Regimes) -> WordRows:
-    s = found.selection
+def _selection(measured: Regimes) -> WordRows:
+    s = measured.selection
     if s is None:
         return
     stronger = (
         "" if s.right is None else " (at the stronger one)" if s.right else " (not at the stronger one)"
     )
     apart = "at no distance do both stay"
-    if found.separation:
-        apart = f"both stay from a distance of {_distance(found)} on"
+    if measured.separation:
+        apart = f"both stay from a distance of {_distance(measured)} on"
     yield "two equal inputs", f"{_count(len(s.equal))}; {apart}"
     yield "two inputs, one stronger", _count(len(s.different)) + stronger
 
 
-def _notes(found: Regimes) -> WordRows:
-    if found.transitions and found.coarse_alone not in ("", NOT_ASKED) and found.isolated.axes:
-        yield "discretisation error", f"not measured: {found.coarse_alone}"
-    swept = found.ramp
+def _notes(measured: Regimes) -> WordRows:
+    if measured.transitions and measured.coarse_alone not in ("", NOT_ASKED) and measured.isolated.axes:
+        yield "discretisation error", f"not measured: {measured.coarse_alone}"
+    swept = measured.ramp
     if not (swept.up.settled.all() and swept.down.settled.all()):
         yield "note", "the field did not settle at some inputs; their values are where it stood at the limit"
 
 
-def _bracket(found: Regimes, name: str) -> str:
+def _bracket(measured: Regimes, name: str) -> str:
     """Return a threshold, half of its interval, and its shift on a grid twice as fine if that exceeds half
     the interval.
     """
-    t = found.transitions[name]
+    t = measured.transitions[name]
     half = (t.interval[1] - t.interval[0]) / 2
     text = f"{t.value:.4g} ± {half:.1g}"
-    if found.discretisation is None:
+    if measured.discretisation is None:
         return text
-    moved = found.discretisation[name]
+    moved = measured.discretisation[name]
     if moved is None:
         return text + ", none on a grid twice as fine"
     return text + (
@@ -128,8 +135,8 @@ def _bracket(found: Regimes, name: str) -> str:
     )
 
 
-def _peak(found: Regimes, peak: Peak) -> str:
-    axes = found.isolated.axes
+def _peak(measured: Regimes, peak: Peak) -> str:
+    axes = measured.isolated.axes
     widths = [f"{w:.3g}{_unit(a.unit)}" for a, w in zip(axes, peak.width, strict=True)]
     return (
         f"width {' x '.join(widths)}, amplitude {peak.amplitude:.3g}"
@@ -145,9 +152,9 @@ def _boosted(b: Boosted) -> str:
     return share + f"{b.boost:.4g}" + ("" if b.localised else " (not one peak there)")
 
 
-def _distance(found: Regimes) -> str:
-    share = found.separation or 0.0
-    return ", ".join(f"{share * a.range:.3g}{_unit(a.unit)}" for a in found.isolated.axes)
+def _distance(measured: Regimes) -> str:
+    share = measured.separation or 0.0
+    return ", ".join(f"{share * a.range:.3g}{_unit(a.unit)}" for a in measured.isolated.axes)
 
 
 def _count(number: int) -> str:

@@ -255,7 +255,7 @@ def regimes(
     tell("resting state")
     isolated.reset()
     isolated.settle(limit=limit)
-    rest = isolated.activation()
+    resting = isolated.activation()
     tell("thresholds")
     found = thresholds(isolated, accuracy=accuracy, limit=limit)
     above, driven, memory, forgets, suppressed, selection, apart = None, None, None, None, None, None, None
@@ -290,7 +290,7 @@ def regimes(
     return Regimes(
         isolated,
         found,
-        rest,
+        resting,
         above,
         driven,
         memory,
@@ -306,16 +306,16 @@ def regimes(
     )
 
 
-def _span(isolated: Isolated, found: Thresholds) -> np.ndarray:
+def _span(isolated: Isolated, crossed: Thresholds) -> np.ndarray:
     """Return inputs for a ramp that contains both thresholds."""
-    if found.detection is None:
+    if crossed.detection is None:
         return np.linspace(0.0, 2 * isolated.scale, STEPS)
-    high = found.detection.value
-    low = min(0.0, found.reverse.value) if found.reverse else 0.0
+    high = crossed.detection.value
+    low = min(0.0, crossed.reverse.value) if crossed.reverse else 0.0
     low -= 0.15 * (high - low) if low < 0 else 0.0
     top = high + 0.3 * (high - low)
     values = np.linspace(low, top, STEPS)
-    marks = [t for f in (found.detection, found.reverse) if f for t in (f.before, f.after)]
+    marks = [t for f in (crossed.detection, crossed.reverse) if f for t in (f.before, f.after)]
     return np.unique([*values, *marks]) if math.isfinite(top) else values
 
 

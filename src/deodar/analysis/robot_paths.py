@@ -35,15 +35,15 @@ def path_until(path: ArrayLike, goal: Sequence[float] | np.ndarray, radius: floa
         radius: radius of the disc, above 0.
     """
     line = points(path)
-    away = line - np.asarray(goal, float)[:2]
-    inside = np.flatnonzero(np.linalg.norm(away, axis=1) <= radius)
+    offsets = line - np.asarray(goal, float)[:2]
+    inside = np.flatnonzero(np.linalg.norm(offsets, axis=1) <= radius)
     if not len(inside):
         return None
     k = int(inside[0])
     if k == 0:
         return line[:1]
     # the last segment crosses the circle at |a + s (b - a)|^2 = radius^2: take the smaller root
-    a, step = away[k - 1], away[k] - away[k - 1]
+    a, step = offsets[k - 1], offsets[k] - offsets[k - 1]
     square, across = float(step @ step), float(a @ step)
     share = (-across - np.sqrt(max(across**2 - square * (float(a @ a) - radius**2), 0.0))) / square
     return np.concatenate([line[:k], [line[k - 1] + np.clip(share, 0.0, 1.0) * (line[k] - line[k - 1])]])

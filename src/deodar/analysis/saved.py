@@ -48,8 +48,8 @@ def opened(path: str | Path, kind: str, words: str) -> tuple[xarray.Dataset, Map
     from deodar.recording.files import load_record
     from deodar.recording.provenance import KEY
 
-    data = load_record(path)
-    about = codec.parse(data.attrs[KEY])
-    if kind not in about:
+    record = load_record(path)
+    provenance = codec.parse(record.attrs[KEY])
+    if kind not in provenance:
         raise RecordError(f"is a record without {words}", where=str(path))
-    return data, about
+    return record, provenance

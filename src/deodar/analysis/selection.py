@@ -140,12 +140,14 @@ def _equal(isolated: Isolated, amplitude: float, limit: float) -> Peaks:
 
 def places(isolated: Isolated, distance: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return two samples at equal distances on both sides of the middle."""
-    away = [max(1, round(distance * a.samples / 2)) for a in isolated.axes]
+    steps = [max(1, round(distance * a.samples / 2)) for a in isolated.axes]
     middle = [a.samples // 2 for a in isolated.axes]
-    first = tuple(float(a.points[max(0, m - k)]) for a, m, k in zip(isolated.axes, middle, away, strict=True))
+    first = tuple(
+        float(a.points[max(0, m - k)]) for a, m, k in zip(isolated.axes, middle, steps, strict=True)
+    )
     second = tuple(
         float(a.points[min(a.samples - 1, m + k)])
-        for a, m, k in zip(isolated.axes, middle, away, strict=True)
+        for a, m, k in zip(isolated.axes, middle, steps, strict=True)
     )
     return first, second
 

@@ -64,12 +64,12 @@ def settle(session: Session, tolerance: float = 1e-3, limit: float = LIMIT) -> S
     while passed < limit:
         session.step(steps)
         passed += steps * session.dt / longest
-        now = [session.read(f"{path}.activation") for path, _ in fields]
+        after = [session.read(f"{path}.activation") for path, _ in fields]
         moved = [
             float(np.max(np.abs(b - a))) * tau / (steps * session.dt)
-            for a, b, (_, tau) in zip(before, now, fields, strict=True)
+            for a, b, (_, tau) in zip(before, after, fields, strict=True)
         ]
-        before, change = now, max(moved)
+        before, change = after, max(moved)
         if change <= tolerance:
             return Settled(True, passed, change)
     return Settled(False, passed, change)

@@ -41,7 +41,7 @@ class SettlingCopies:
         self.dynamics = Dynamics(model, doc, precision, drives=drives, width=copies, plain=False)
         self.count = copies
         self.rebuilt = any(self.dynamics.rebuilt)
-        self._axes = [0 if own else None for own in self.dynamics.rebuilt]
+        self._axes = [0 if differs else None for differs in self.dynamics.rebuilt]
 
     @property
     def dtype(self) -> np.dtype[np.floating]:
@@ -50,12 +50,15 @@ class SettlingCopies:
 
     def constants(self, parameters: Array) -> list[Constants]:
         """Return the constants for parameters (copies, parameters)."""
-        return jax.vmap(lambda own: self.dynamics.constants(_named(own)), out_axes=self._axes)(parameters)
+        return jax.vmap(
+            lambda row: self.dynamics.constants(_named(row)),
+            out_axes=self._axes,
+        )(parameters)
 
     def start(self, parameters: Array) -> ProgramState:
         """Return the states at the start of a run, copies first."""
         d = self.dynamics
-        return jax.vmap(lambda own: d.init(_named(own)))(parameters)
+        return jax.vmap(lambda row: d.init(_named(row)))(parameters)
 
     def run(
         self, parameters: Array, constants: list[Constants], state: ProgramState, steps: int
@@ -71,9 +74,9 @@ class SettlingCopies:
         d = self.dynamics
 
         def one(
-            own: Array, constants: list[Constants], state: ProgramState
+            row: Array, constants: list[Constants], state: ProgramState
         ) -> tuple[ProgramState, ProgramState]:
-            prepared, key = d.prepare(_named(own), constants), d.key()
+            prepared, key = d.prepare(_named(row), constants), d.key()
 
             def step(state: ProgramState) -> ProgramState:
                 return d.step(prepared, state, {}, 0, key)

@@ -52,8 +52,8 @@ class Grid:
         # start-up time: scipy.ndimage is only needed here
         from scipy.ndimage import label
 
-        found: Any = label(self.free, np.ones((3, 3)))
-        return np.asarray(found[0])
+        labelled: Any = label(self.free, np.ones((3, 3)))
+        return np.asarray(labelled[0])
 
 
 def arena_grid(boxes: npt.ArrayLike, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:
@@ -114,15 +114,15 @@ def shortest_path(
         if closed[at]:
             continue
         closed[at] = True
-        here = cost[at]
+        cost_here = cost[at]
         for move, weight in moves:
             to = at + move
-            if free[to] and not closed[to] and here + weight < cost[to]:
-                cost[to] = here + weight
+            if free[to] and not closed[to] and cost_here + weight < cost[to]:
+                cost[to] = cost_here + weight
                 before[to] = at
                 di, dj = abs(to // width - aim_i), abs(to % width - aim_j)
                 ahead = di + (diagonal - 1) * dj if di > dj else dj + (diagonal - 1) * di
-                heapq.heappush(waiting, (here + weight + ahead, to))
+                heapq.heappush(waiting, (cost_here + weight + ahead, to))
     if not math.isfinite(cost[end]):
         return None
     line = [end]

@@ -98,8 +98,8 @@ def difference_interval(first: npt.ArrayLike, second: npt.ArrayLike) -> Interval
         return None
     from scipy import stats  # start-up time: this takes a third of a second
 
-    result: Any = stats.ttest_ind(a, b, equal_var=False)
-    low, high = result.confidence_interval(LEVEL)
+    test: Any = stats.ttest_ind(a, b, equal_var=False)
+    low, high = test.confidence_interval(LEVEL)
     return float(low), float(high)
 
 
@@ -121,13 +121,13 @@ def anova(groups: Sequence[npt.ArrayLike]) -> tuple[float, float] | None:
     """Return F and p of a one-way analysis of variance; None without two groups of at least two values, or if
     all values are equal.
     """
-    found = [np.asarray(g, float) for g in groups if np.size(g) >= 2]
-    if len(found) < 2 or not any(g.std() > 0 for g in found):
+    samples = [np.asarray(g, float) for g in groups if np.size(g) >= 2]
+    if len(samples) < 2 or not any(g.std() > 0 for g in samples):
         return None
     from scipy import stats  # start-up time: this takes a third of a second
 
-    result: Any = stats.f_oneway(*found)
-    return float(result.statistic), float(result.pvalue)
+    test: Any = stats.f_oneway(*samples)
+    return float(test.statistic), float(test.pvalue)
 
 
 def decided(

@@ -144,16 +144,16 @@ def ascend(
     None if no peak appears.
     """
     fine = tolerance(isolated, accuracy)
-    low, high, rest = 0.0, isolated.scale, isolated.snapshot()
+    low, high, snapshot = 0.0, isolated.scale, isolated.snapshot()
     searched = isolated.scale * 2.0**MOST_DOUBLINGS
     while True:
-        isolated.restore(rest)
+        isolated.restore(snapshot)
         isolated.put(**{by: high})
         isolated.settle(fine, limit)
         if isolated.peaks():
-            bracket = Bracket(by, low, high, rest)
+            bracket = Bracket(by, low, high, snapshot)
             return bisect(isolated, bracket, lambda: bool(isolated.peaks()), accuracy, limit)
-        low, rest = high, isolated.snapshot()
+        low, snapshot = high, isolated.snapshot()
         if high >= searched:
             return None
         high *= 2
@@ -182,18 +182,18 @@ def descend(
         sudden: whether the input falls from `start` to each value at once, instead of slowly.
     """
     fine = tolerance(isolated, accuracy)
-    held, state, reach = start, isolated.snapshot(), isolated.scale / 2
+    lowest, state, reach = start, isolated.snapshot(), isolated.scale / 2
     while True:
-        trial = max(floor, held - reach)
+        trial = max(floor, lowest - reach)
         isolated.restore(state)
         isolated.put(**{by: trial})
         isolated.settle(fine, limit)
         if not isolated.peaks():
-            bracket = Bracket(by, held, trial, state, sudden)
+            bracket = Bracket(by, lowest, trial, state, sudden)
             return bisect(isolated, bracket, lambda: not isolated.peaks(), accuracy, limit)
         if trial <= floor:
             return None
-        held, state, reach = trial, state if sudden else isolated.snapshot(), reach * 2
+        lowest, state, reach = trial, state if sudden else isolated.snapshot(), reach * 2
 
 
 @dataclass(frozen=True)

@@ -65,8 +65,8 @@ def outlives(isolated: Isolated, amplitude: float, boost: float = 0.0, limit: fl
         )
     isolated.put(input=0.0)
     settled = isolated.settle(limit=limit)
-    left = isolated.peaks()
-    return Memory(bool(left), driven, left, isolated.activation(), bool(settled))
+    peaks_left = isolated.peaks()
+    return Memory(bool(peaks_left), driven, peaks_left, isolated.activation(), bool(settled))
 
 
 def suppression(
@@ -85,10 +85,10 @@ def suppression(
         accuracy: width of the final bracket relative to the value.
         limit: longest settling, in time constants.
     """
-    kept = outlives(isolated, amplitude, limit=limit)
-    if not kept.outlives or isolated.covers(kept.left):
+    memory = outlives(isolated, amplitude, limit=limit)
+    if not memory.outlives or isolated.covers(memory.left):
         return None
-    peak = min(kept.left, key=lambda found: math.dist(found.position, isolated.center))
+    peak = min(memory.left, key=lambda found_peak: math.dist(found_peak.position, isolated.center))
     center = (peak.position[0] + BESIDE * isolated.sigma[0], *peak.position[1:])
     isolated.session.set("input.center", center)
     try:
@@ -120,8 +120,8 @@ def forgetting(
         isolated.settle(limit=limit)
         if isolated.peaks():
             return None  # active without input: not distinguishable from a memory
-        kept = outlives(isolated, amplitude, float(boost), limit)
-        if kept.outlives and not isolated.covers(kept.left):
+        memory = outlives(isolated, amplitude, float(boost), limit)
+        if memory.outlives and not isolated.covers(memory.left):
             return descend(
                 isolated, "boost", float(boost), float(boost) - 1024 * isolated.scale, accuracy, limit
             )

@@ -90,15 +90,20 @@ class Bifurcation:
         """
         if self.kind != "fold":
             raise AnalysisError(f"a {self.kind} has no sensitivity", fix="Ask a fold")
-        own = self.line.right_hand_side
-        paths = [path for path in live_numbers(own) if path != own.parameters[self.line.index]]
+        equations = self.line.right_hand_side
+        paths = [path for path in live_numbers(equations) if path != equations.parameters[self.line.index]]
         wide = RightHandSide(
-            own.model, own.doc, [own.parameters[self.line.index], *paths], own.at, own.held, own.even
+            equations.model,
+            equations.doc,
+            [equations.parameters[self.line.index], *paths],
+            equations.at,
+            equations.held,
+            equations.even,
         )
         values = wide.values.copy()
         values[0] = self.value
-        left = _left(self.line, self.state, self.value)
-        slopes = wide.gradient(self.state, values, left)
+        null_vector = _left_null_vector(self.line, self.state, self.value)
+        slopes = wide.gradient(self.state, values, null_vector)
         return {path: float(-slopes[k + 1] / slopes[0]) for k, path in enumerate(paths)}
 
     def data(self) -> JsonObject:
@@ -119,13 +124,13 @@ class Bifurcation:
 
 def live_numbers(of: RightHandSide) -> list[str]:
     """Return the paths of all numbers on which the steady states of a model may depend."""
-    held: set[Leaf] = {(link[0], link[1]) for known in of.doc.parameters for link in known.links}
-    found = [known.name for known in of.doc.parameters if known.links]
+    linked: set[Leaf] = {(link[0], link[1]) for known in of.doc.parameters for link in known.links}
+    paths = [known.name for known in of.doc.parameters if known.links]
     for entry in of.doc.entries:
         for leaf, _, parameter in leaves(entry.element):
-            if parameter.form != "array" and (entry.id, leaf) not in held and _counts(leaf):
-                found.append(f"{entry.path}.{leaf}")
-    return found
+            if parameter.form != "array" and (entry.id, leaf) not in linked and _counts(leaf):
+                paths.append(f"{entry.path}.{leaf}")
+    return paths
 
 
 def _counts(leaf: str) -> bool:
@@ -133,11 +138,11 @@ def _counts(leaf: str) -> bool:
     return leaf not in ("tau", "noise", "noise_length")
 
 
-def _left(line: ParameterLine, x: np.ndarray, value: float) -> np.ndarray:
+def _left_null_vector(line: ParameterLine, x: np.ndarray, value: float) -> np.ndarray:
     """Return the left null vector of the derivative in the state."""
-    own, parameters = line.right_hand_side, line.all_parameters(line.point(x, value))
-    if own.size <= DENSE:
-        return np.linalg.svd(own.linear(x, parameters)[1])[0][:, -1]
-    tau = own.time_constants
-    rates, vectors = leading(own.size, lambda w: own.back(x, parameters, w / tau))
+    equations, parameters = line.right_hand_side, line.all_parameters(line.point(x, value))
+    if equations.size <= DENSE:
+        return np.linalg.svd(equations.linear(x, parameters)[1])[0][:, -1]
+    tau = equations.time_constants
+    rates, vectors = leading(equations.size, lambda w: equations.back(x, parameters, w / tau))
     return np.real(vectors[:, np.argmin(np.abs(rates))]) / tau

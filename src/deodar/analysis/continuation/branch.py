@@ -80,10 +80,10 @@ class SteadyBranch(SavedAnalysis):
         if at.kind != "branch point":
             raise AnalysisError(f"no branch leaves a {at.kind}", fix="Give one of the branch points")
         limits = span or (float(self.values.min()), float(self.values.max()))
-        found = [branch(self.parameter, walked) for walked in switching.switched(at, limits, points)]
-        if not found:
+        branches = [branch(self.parameter, walked) for walked in switching.switched(at, limits, points)]
+        if not branches:
             raise AnalysisError(f"no other branch was found at {at!r}")
-        return found
+        return branches
 
     def dataset(self) -> xarray.Dataset:
         """Return the branch as a Dataset, with the document, its arguments and the versions that made it."""
@@ -91,8 +91,12 @@ class SteadyBranch(SavedAnalysis):
         from deodar.analysis.continuation import branch_file
 
         numbers = {"value": self.values, "rate": self.rates, "growing": self.growing}
-        about = {"parameter": self.parameter, "ended": list(self.ended), "not_refined": self.not_refined}
-        return branch_file.dataset(self.line, numbers, self.states, self.bifurcations, about)
+        description = {
+            "parameter": self.parameter,
+            "ended": list(self.ended),
+            "not_refined": self.not_refined,
+        }
+        return branch_file.dataset(self.line, numbers, self.states, self.bifurcations, description)
 
     @classmethod
     def load(cls, path: str | Path) -> SteadyBranch:
@@ -126,8 +130,9 @@ class SteadyBranch(SavedAnalysis):
 
     def __repr__(self) -> str:
         low, high = self.values.min(), self.values.max()
-        found = "".join(f"\n  {b!r}" for b in self.bifurcations)
-        return f"<{len(self.values)} steady states over {self.parameter} from {low:.4g} to {high:.4g}{found}>"
+        bifurcations = "".join(f"\n  {b!r}" for b in self.bifurcations)
+        span = f"from {low:.4g} to {high:.4g}"
+        return f"<{len(self.values)} steady states over {self.parameter} {span}{bifurcations}>"
 
 
 def branch(parameter: str, walked: tuple[ParameterLine, Walk], begin: str = "start") -> SteadyBranch:
@@ -135,18 +140,18 @@ def branch(parameter: str, walked: tuple[ParameterLine, Walk], begin: str = "sta
     line, walk = walked
     rates = np.array([float(p.rates.real.max(initial=-np.inf)) for p in walk.points])
     modes = np.array([growing(line, p) for p in walk.points])
-    found: list[Bifurcation] = []
+    bifurcations: list[Bifurcation] = []
     for b in with_step_values(line, walk):
         # a state that is unstable on both sides is never seen
         seen = min(modes[b.index], modes[b.index + 1]) == 0
-        found.append(named(b, walk.points) if seen else b)
+        bifurcations.append(named(b, walk.points) if seen else b)
     return SteadyBranch(
         parameter,
         np.array([line.value(p.z) for p in walk.points]),
         np.array([line.state(p.z) for p in walk.points]),
         rates,
         modes,
-        tuple(found),
+        tuple(bifurcations),
         (begin, walk.ended),
         line,
     )

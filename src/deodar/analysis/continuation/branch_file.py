@@ -32,8 +32,8 @@ def dataset(
     line: ParameterLine,
     numbers: Mapping[str, np.ndarray],
     states: np.ndarray,
-    found: Sequence[Bifurcation],
-    about: Mapping[str, Any],
+    bifurcations: Sequence[Bifurcation],
+    description: Mapping[str, Any],
 ) -> xarray.Dataset:
     """Return a branch as a Dataset.
 
@@ -44,32 +44,39 @@ def dataset(
         line: the model along its parameter.
         numbers: `value`, `rate` and `growing` of each state.
         states: the states, one row each.
-        found: the bifurcations.
-        about: what else the branch states, as plain data: `parameter`, `ended`, `not_refined`.
+        bifurcations: the bifurcations.
+        description: what else the branch states, as plain data: `parameter`, `ended`, `not_refined`.
     """
-    own = line.right_hand_side
+    equations = line.right_hand_side
     taken: dict[str, Axis | None] = {STATE: None, BIFURCATION: None}
     variables: dict[str, Any] = {
         "rate": (STATE, numbers["rate"], {"long_name": "largest growth rate"}),
         "growing": (STATE, numbers["growing"].astype(np.int64), {"long_name": "growing modes"}),
     }
-    dims = {f"{p.path}.{p.name}": _dims(p.path, p.name, p.shape, p.axes, taken) for p in own.parts}
+    dims = {f"{p.path}.{p.name}": _dims(p.path, p.name, p.shape, p.axes, taken) for p in equations.parts}
     for prefix, lead, rows in (
         ("", STATE, states),
-        ("bifurcation:", BIFURCATION, [b.state for b in found]),
-        ("mode:", BIFURCATION, [b.vector for b in found]),
+        ("bifurcation:", BIFURCATION, [b.state for b in bifurcations]),
+        ("mode:", BIFURCATION, [b.vector for b in bifurcations]),
     ):
-        for path, arrays in _by_path(own, rows).items():
+        for path, arrays in _by_path(equations, rows).items():
             variables[prefix + path] = ((lead, *dims[path]), arrays)
     coordinates: dict[str, Any] = {
         dim: (dim, axis.points, {"units": axis.unit} if axis.unit else {})
         for dim, axis in taken.items()
         if axis is not None
     }
-    coordinates["value"] = (STATE, numbers["value"], {"long_name": about["parameter"]})
-    coordinates[BIFURCATION] = (BIFURCATION, [b.value for b in found], {"long_name": about["parameter"]})
-    kept: JsonObject = {**about, "bifurcations": [_scalars(b) for b in found]}
-    attributes = {KEY: codec.line({**line_file.made(line), KIND: kept}), "title": own.doc.name}
+    coordinates["value"] = (STATE, numbers["value"], {"long_name": description["parameter"]})
+    coordinates[BIFURCATION] = (
+        BIFURCATION,
+        [b.value for b in bifurcations],
+        {"long_name": description["parameter"]},
+    )
+    description_of_branch: JsonObject = {**description, "bifurcations": [_scalars(b) for b in bifurcations]}
+    attributes = {
+        KEY: codec.line({**line_file.made(line), KIND: description_of_branch}),
+        "title": equations.doc.name,
+    }
     return xarray.Dataset(variables, coordinates, attributes)
 
 
@@ -79,25 +86,25 @@ def fields(path: str | Path) -> dict[str, Any]:
     Raises:
         RecordError: the file does not exist, is damaged, or is another record.
     """
-    data, made = opened(path, KIND, "a branch of steady states")
-    line, about = line_file.line_of(made), made[KIND]
+    record, provenance = opened(path, KIND, "a branch of steady states")
+    line, description = line_file.line_of(provenance), provenance[KIND]
     assert line is not None
-    own = line.right_hand_side
-    states, places, modes = (_rows(own, data, prefix) for prefix in ("", "bifurcation:", "mode:"))
-    found = [
+    equations = line.right_hand_side
+    states, places, modes = (_rows(equations, record, prefix) for prefix in ("", "bifurcation:", "mode:"))
+    bifurcations = [
         Bifurcation(state=x, vector=v, line=line, **b)
-        for b, x, v in zip(about["bifurcations"], places, modes, strict=True)
+        for b, x, v in zip(description["bifurcations"], places, modes, strict=True)
     ]
     return {
-        "parameter": about["parameter"],
-        "values": data["value"].values,
+        "parameter": description["parameter"],
+        "values": record["value"].values,
         "states": states,
-        "rates": data["rate"].values,
-        "growing": data["growing"].values,
-        "bifurcations": tuple(found),
-        "ended": (about["ended"][0], about["ended"][1]),
+        "rates": record["rate"].values,
+        "growing": record["growing"].values,
+        "bifurcations": tuple(bifurcations),
+        "ended": (description["ended"][0], description["ended"][1]),
         "line": line,
-        "not_refined": about["not_refined"],
+        "not_refined": description["not_refined"],
     }
 
 
@@ -115,21 +122,21 @@ def _dims(
     return tuple(out)
 
 
-def _by_path(own: RightHandSide, rows: Sequence[np.ndarray] | np.ndarray) -> Mapping[str, np.ndarray]:
+def _by_path(equations: RightHandSide, rows: Sequence[np.ndarray] | np.ndarray) -> Mapping[str, np.ndarray]:
     """Return states by path, states first."""
-    states = [own.state(x) for x in rows]
+    states = [equations.state(x) for x in rows]
     return {
         f"{p.path}.{p.name}": np.array([s[f"{p.path}.{p.name}"] for s in states]).reshape(-1, *p.shape)
-        for p in own.parts
+        for p in equations.parts
     }
 
 
-def _rows(own: RightHandSide, data: xarray.Dataset, prefix: str) -> np.ndarray:
+def _rows(equations: RightHandSide, record: xarray.Dataset, prefix: str) -> np.ndarray:
     """Return states by path as rows."""
-    arrays = {(path := f"{p.path}.{p.name}"): data[prefix + path].values for p in own.parts}
-    number = len(data["value"] if not prefix else data[BIFURCATION])
-    return np.array([own.vector({k: a[n] for k, a in arrays.items()}) for n in range(number)]).reshape(
-        number, own.size
+    arrays = {(path := f"{p.path}.{p.name}"): record[prefix + path].values for p in equations.parts}
+    number = len(record["value"] if not prefix else record[BIFURCATION])
+    return np.array([equations.vector({k: a[n] for k, a in arrays.items()}) for n in range(number)]).reshape(
+        number, equations.size
     )
 
 

@@ -39,40 +39,40 @@ class Confirmation:
         return {"fold": self.value, "inside": self.inside, "why": self.why or None}
 
 
-def confirmed(found: Regimes) -> dict[str, Confirmation]:
+def confirmed(measured: Regimes) -> dict[str, Confirmation]:
     """Compute the thresholds of a field as folds, and compare them with the intervals of the bisection.
 
     Detection and reverse detection are folds over the localised input, forgetting one over the homogeneous
     input, with the peak that the localised input has made.
 
     Args:
-        found: the measured regime of a field.
+        measured: the measured regime of a field.
     """
-    up = found.thresholds.detection
+    up = measured.thresholds.detection
     if up is None or not up.jump:
         return {}
-    model = Model(document=found.isolated.session.document, trusted=True)
+    model = Model(document=measured.isolated.session.document, trusted=True)
     for name in ("input", "second", "boost"):
         model.set(f"{name}.amplitude", 0.0)
-    here = {name: t for name, t in found.transitions.items() if name in NAMES}
-    first = min(0.0, 1.5 * here["reverse"].value) if "reverse" in here else 0.0
+    transitions = {name: t for name, t in measured.transitions.items() if name in NAMES}
+    first = min(0.0, 1.5 * transitions["reverse"].value) if "reverse" in transitions else 0.0
     over_input = _Ramp("input.amplitude", (first, 1.5 * up.after), {})
-    out = _compared(model, over_input, here, ("detection", "reverse"))
-    if "forgetting" in here and not _central(found):
+    out = _compared(model, over_input, transitions, ("detection", "reverse"))
+    if "forgetting" in transitions and not _central(measured):
         why = "the input is not in the middle of each axis"
         out["forgetting"] = Confirmation(None, False, why)
-    elif "forgetting" in here:
-        value, reach = here["forgetting"].value, REACH * found.isolated.scale
+    elif "forgetting" in transitions:
+        boost, reach = transitions["forgetting"].value, REACH * measured.isolated.scale
         over_boost = _Ramp(
-            "boost.amplitude", (value + reach, value - reach), {"input.amplitude": STRONG * up.after}
+            "boost.amplitude", (boost + reach, boost - reach), {"input.amplitude": STRONG * up.after}
         )
-        out |= _compared(model, over_boost, here, ("forgetting",))
+        out |= _compared(model, over_boost, transitions, ("forgetting",))
     return out
 
 
-def _central(found: Regimes) -> bool:
+def _central(measured: Regimes) -> bool:
     """Return whether the localised input is in the middle of each axis, about which states may be even."""
-    isolated = found.isolated
+    isolated = measured.isolated
     return all(
         abs(center - float(axis.points[[0, -1]].mean())) < 1e-6 * axis.range
         for center, axis in zip(isolated.center, isolated.axes, strict=True)
@@ -89,24 +89,24 @@ class _Ramp:
 
 
 def _compared(
-    model: Model, over: _Ramp, here: Mapping[str, Transition], names: tuple[str, ...]
+    model: Model, over: _Ramp, transitions: Mapping[str, Transition], names: tuple[str, ...]
 ) -> dict[str, Confirmation]:
     """Return the folds over one parameter that have these names."""
-    wanted = [name for name in names if name in here]
+    present = [name for name in names if name in transitions]
     # a peak that outlives its input may stand anywhere: it stays in the middle of each axis
     field: Any = model["field"].element
     even = [axis.name for axis in field.axes] if over.made else []
     try:
         branch = continuation(model, over.parameter, over.span, over.made, even=even, finer=False)
     except DeodarError as error:
-        return {name: Confirmation(None, False, error.problems[0].what) for name in wanted}
+        return {name: Confirmation(None, False, error.problems[0].what) for name in present}
     out: dict[str, Confirmation] = {}
-    for name in wanted:
-        low, high = here[name].interval
+    for name in present:
+        low, high = transitions[name].interval
         folds = [b.value for b in branch.bifurcations if b.instability == NAMES[name]]
         if not folds:
             out[name] = Confirmation(None, False, "the branch has no such fold")
             continue
-        nearest = min(folds, key=lambda value: abs(value - here[name].value))
+        nearest = min(folds, key=lambda value: abs(value - transitions[name].value))
         out[name] = Confirmation(nearest, low <= nearest <= high)
     return out

@@ -63,45 +63,47 @@ def continuation(
         continuation). Laing (2014), J. Math. Neurosci. 4:13 (of neural fields).
     """
     ends = _span(span)
-    made = dict(induced_by or {})
-    if parameter in made:
+    start_values = dict(induced_by or {})
+    if parameter in start_values:
         raise ParameterError(
             "is the parameter of the span", where=parameter, fix="Leave it out of induced_by"
         )
 
     def follow(of: Model) -> SteadyBranch:
-        return _followed(right_hand_side(of, [parameter, *made], at, hold, even), parameter, ends, made)
+        return _followed(
+            right_hand_side(of, [parameter, *start_values], at, hold, even), parameter, ends, start_values
+        )
 
-    found = follow(model)
+    steady = follow(model)
     if not finer:
-        return found
+        return steady
 
     def fine(of: Model) -> tuple[Sequence[Bifurcation], bool]:
-        there = follow(of)
-        return there.bifurcations, there.ended[1] in ("span", "closed")
+        fine_branch = follow(of)
+        return fine_branch.bifurcations, fine_branch.ended[1] in ("span", "closed")
 
-    checks, why = checked(model, found.bifurcations, abs(ends[1] - ends[0]), fine)
-    return dc.replace(found, bifurcations=checks, not_refined=why)
+    checks, why = checked(model, steady.bifurcations, abs(ends[1] - ends[0]), fine)
+    return dc.replace(steady, bifurcations=checks, not_refined=why)
 
 
 def _followed(
-    own: RightHandSide, parameter: str, ends: tuple[float, float], made: Mapping[str, float]
+    equations: RightHandSide, parameter: str, ends: tuple[float, float], start_values: Mapping[str, float]
 ) -> SteadyBranch:
     """Return the branch that begins where the model settles at the first value."""
     first, last = ends
     length = abs(last - first) / 10
-    values = own.values.copy()
+    values = equations.values.copy()
     values[0] = first
-    line = ParameterLine(own, 0, values, length)
-    x = own.start
-    if made:
+    line = ParameterLine(equations, 0, values, length)
+    x = equations.start
+    if start_values:
         strong = values.copy()
-        strong[1:] = list(made.values())
-        x = own.settle(x, strong, SETTLING)
-    x = own.settle(x, values, SETTLING)
+        strong[1:] = list(start_values.values())
+        x = equations.settle(x, strong, SETTLING)
+    x = equations.settle(x, values, SETTLING)
     start = begun(line, x, first, math.copysign(1.0, last - first))
     if start is None:
-        raise AnalysisError(*_unsettled(own, x, values, parameter, first))
+        raise AnalysisError(*_unsettled(equations, x, values, parameter, first))
     _require_effect(line, start, parameter, last)
     low, high = sorted((first, last))
     return branch(parameter, (line, walk(line, start, (low, high), MOST)))
@@ -109,13 +111,16 @@ def _followed(
 
 def _require_effect(line: ParameterLine, start: WalkPoint, parameter: str, last: float) -> None:
     """Raise an error if the parameter changes nothing in the first state."""
-    own, x, here = line.right_hand_side, line.state(start.z), line.all_parameters(start.z)
-    there, unit = here.copy(), np.zeros(here.size)
-    there[line.index], unit[line.index] = last, 1.0
-    if own.along(x, here, np.zeros(x.size), unit).any() or (own.rates(x, there) != own.rates(x, here)).any():
+    equations, x, parameters = line.right_hand_side, line.state(start.z), line.all_parameters(start.z)
+    parameters_at_end, unit = parameters.copy(), np.zeros(parameters.size)
+    parameters_at_end[line.index], unit[line.index] = last, 1.0
+    if (
+        equations.along(x, parameters, np.zeros(x.size), unit).any()
+        or (equations.rates(x, parameters_at_end) != equations.rates(x, parameters)).any()
+    ):
         return
     raise AnalysisError(
-        f"changes nothing in the steady state, at time {own.at:g}",
+        f"changes nothing in the steady state, at time {equations.at:g}",
         where=parameter,
         fix="If it belongs to a stimulus with windows, name a time inside of them: at=200, or --at 200",
     )
@@ -132,12 +137,12 @@ def _span(span: tuple[float, float]) -> tuple[float, float]:
 
 
 def _unsettled(
-    own: RightHandSide, x: np.ndarray, values: np.ndarray, parameter: str, first: float
+    equations: RightHandSide, x: np.ndarray, values: np.ndarray, parameter: str, first: float
 ) -> tuple[str]:
     """Return a message that says where the model still moves."""
     if not np.isfinite(x).all():
         return (f"the model does not stay finite at {parameter} = {first:g}",)
-    state = own.state(np.abs(own.rates(x, values)))
+    state = equations.state(np.abs(equations.rates(x, values)))
     fastest = max(state, key=lambda name: float(np.abs(state[name]).max(initial=0.0)))
     return (
         f"the model has no steady state near the one it reaches at {parameter} = {first:g}: {fastest} still"

@@ -24,15 +24,15 @@ class FoldPlane(LocusPlane):
 
     def linear(self, z: np.ndarray) -> LocusEquations:
         """Return the equations at a point; the borders are its null vectors, right and left."""
-        own, x, p = self.right_hand_side, self.state(z), self.parameters(z)
-        rates, jacobian, by = own.linear(x, p)
+        equations, x, p = self.right_hand_side, self.state(z), self.parameters(z)
+        rates, jacobian, by = equations.linear(x, p)
         n = x.size
         bordered = np.zeros((n + 1, n + 1))
         right, left = self.borders
         bordered[:n, :n], bordered[:n, n], bordered[n, :n] = jacobian, left, right
         unit = np.append(np.zeros(n), 1.0)
         v, w = solved(bordered, unit), solved(bordered.T, unit)
-        by_state, by_parameter = own.curvature(x, p, v[:n], w[:n])
+        by_state, by_parameter = equations.curvature(x, p, v[:n], w[:n])
         top = np.column_stack([jacobian / self.weight, by[:, self.columns] * self.lengths])
         bottom = np.append(-by_state / self.weight, -by_parameter[self.columns] * self.lengths)
         borders = v[:n] / np.linalg.norm(v[:n]), w[:n] / np.linalg.norm(w[:n])
@@ -47,21 +47,21 @@ class FoldPlane(LocusPlane):
             before: float | None = None
             self._seen = self._null(walked[0])
             for k, z in enumerate(walked):
-                now = test(z)
-                if before is not None and before * now < 0:
+                after = test(z)
+                if before is not None and before * after < 0:
                     place = self.between(walked[k - 1], z, test)
                     if place is not None:
                         first, second = self.values(place)
                         out.append((k, LocusPoint(kind, (float(first), float(second)))))
-                before = now
+                before = after
         return [point for _, point in sorted(out, key=lambda pair: pair[0])]
 
     def beyond(self, z: np.ndarray) -> np.ndarray:
         """Return the direction in the plane in which both states of a fold vanish, in lengths."""
-        own, x, p = self.right_hand_side, self.state(z), self.parameters(z)
+        equations, x, p = self.right_hand_side, self.state(z), self.parameters(z)
         v, w = self._null(z)
-        bend = float(own.curvature(x, p, v, w)[0] @ v)
-        slopes = own.gradient(x, p, w)[self.columns] * self.lengths
+        bend = float(equations.curvature(x, p, v, w)[0] @ v)
+        slopes = equations.gradient(x, p, w)[self.columns] * self.lengths
         return slopes * _sign(bend) / (np.linalg.norm(slopes) or 1.0)
 
     def _vectors(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -34,9 +34,9 @@ class HopfPlane(LocusPlane):
 
     def linear(self, z: np.ndarray) -> LocusEquations:
         """Return the equations at a point; the borders span its null spaces, right and left."""
-        own, x, p, unit = self.right_hand_side, self.state(z), self.parameters(z), self._unit
-        rates, jacobian, by = own.linear(x, p)
-        scale = unit / own.time_constants
+        equations, x, p, unit = self.right_hand_side, self.state(z), self.parameters(z), self._unit
+        rates, jacobian, by = equations.linear(x, p)
+        scale = unit / equations.time_constants
         a, n = jacobian * scale[:, None], x.size
         bordered = np.zeros((n + 2, n + 2))
         bordered[:n, :n] = a @ a + self._square(z) * np.eye(n)
@@ -51,7 +51,8 @@ class HopfPlane(LocusPlane):
                 # w d(A^2) v = w dA (A v) + (w A) dA v
                 pairs = ((a @ to, scale * back), (to, scale * (back @ a)))
                 by_state, by_parameter = (
-                    sum(parts) for parts in zip(*(own.curvature(x, p, *pair) for pair in pairs), strict=True)
+                    sum(parts)
+                    for parts in zip(*(equations.curvature(x, p, *pair) for pair in pairs), strict=True)
                 )
                 parameters = np.asarray(by_parameter)[self.columns] * self.lengths
                 rows.append(-np.concatenate([by_state / self.weight, [back @ to], parameters]))
@@ -96,6 +97,6 @@ class HopfPlane(LocusPlane):
 
     def _matrix(self, z: np.ndarray) -> np.ndarray:
         """Return A."""
-        own = self.right_hand_side
-        jacobian = own.linear(self.state(z), self.parameters(z))[1]
-        return jacobian * (self._unit / own.time_constants)[:, None]
+        equations = self.right_hand_side
+        jacobian = equations.linear(self.state(z), self.parameters(z))[1]
+        return jacobian * (self._unit / equations.time_constants)[:, None]

@@ -114,8 +114,8 @@ class _Dense:
 
     def rates(self) -> GrowthRates:
         matrix = self.jacobian / self.line.right_hand_side.time_constants[:, None]
-        found: GrowthRates = np.linalg.eigvals(matrix).astype(np.complex128)
-        return _without_shifts(found, self.line, self.x, lambda v: matrix @ v)
+        eigenvalues: GrowthRates = np.linalg.eigvals(matrix).astype(np.complex128)
+        return _without_shifts(eigenvalues, self.line, self.x, lambda v: matrix @ v)
 
     def mode(self, rate: complex) -> np.ndarray:
         rates, modes = np.linalg.eig(self.jacobian / self.line.right_hand_side.time_constants[:, None])
@@ -131,11 +131,11 @@ class _Krylov:
     def __init__(self, line: ParameterLine, z: np.ndarray) -> None:
         self.line, self._x, self._p = line, line.state(z), line.all_parameters(z)
         self.residual = line.right_hand_side.rates(self._x, self._p)
-        self._one = np.zeros(self._p.size)
-        self._one[line.index] = 1.0
+        self._unit = np.zeros(self._p.size)
+        self._unit[line.index] = 1.0
 
     def _along(self, dx: np.ndarray, dp: float) -> np.ndarray:
-        return self.line.right_hand_side.along(self._x, self._p, dx, dp * self._one)
+        return self.line.right_hand_side.along(self._x, self._p, dx, dp * self._unit)
 
     def solve(self, row: np.ndarray, right: np.ndarray, accuracy: float) -> np.ndarray:
         line, n = self.line, self._x.size
@@ -146,7 +146,7 @@ class _Krylov:
         # a step in the state has the size of the residual
         scale = np.append(np.full(n, line.weight), 1.0)
         search: Any = sparse.gmres
-        found, _ = search(
+        step, _ = search(
             _operator(n + 1, product),
             right,
             rtol=accuracy,
@@ -155,12 +155,12 @@ class _Krylov:
             maxiter=5,
             M=_operator(n + 1, lambda d: d * scale),
         )
-        return found
+        return step
 
     def rates(self) -> GrowthRates:
         tau = self.line.right_hand_side.time_constants
-        found = self._leading()[0]
-        return _without_shifts(found, self.line, self._x, lambda v: self._along(v, 0.0) / tau)
+        growth_rates = self._leading()[0]
+        return _without_shifts(growth_rates, self.line, self._x, lambda v: self._along(v, 0.0) / tau)
 
     def mode(self, rate: complex) -> np.ndarray:
         rates, modes = self._leading()
@@ -173,13 +173,13 @@ class _Krylov:
 
 
 def _without_shifts(
-    found: GrowthRates, line: ParameterLine, x: np.ndarray, product: Callable[[np.ndarray], np.ndarray]
+    growth_rates: GrowthRates, line: ParameterLine, x: np.ndarray, product: Callable[[np.ndarray], np.ndarray]
 ) -> GrowthRates:
     """Return growth rates, the largest real parts first; of a peak that may stand anywhere, its shift has 0.
 
     A shift of the state is such a mode, if the product of the matrix and the shift is small.
     """
-    rates = found.copy()
+    rates = growth_rates.copy()
     for shift in line.right_hand_side.shifts(x):
         change = product(shift)
         if float(np.linalg.norm(change)) * line.slowest < FREE:

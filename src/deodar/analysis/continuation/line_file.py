@@ -20,25 +20,29 @@ def made(line: ParameterLine | None) -> JsonObject:
     made_by: JsonObject = {"made_by": provenance.made_by(devices.find(), PRECISION)}
     if line is None:
         return made_by
-    own = line.right_hand_side
-    by = own.doc.by_id()
-    about: JsonObject = {
-        "parameters": list(own.parameters),
+    equations = line.right_hand_side
+    by = equations.doc.by_id()
+    description: JsonObject = {
+        "parameters": list(equations.parameters),
         "values": line.parameters.tolist(),
         "index": line.index,
         "length": line.length,
-        "at": own.at,
-        "hold": sorted(by[ident].path for ident in own.held),
-        "even": list(own.even),
+        "at": equations.at,
+        "hold": sorted(by[ident].path for ident in equations.held),
+        "even": list(equations.even),
     }
-    return {**provenance.stored(own.doc), "line": about, **made_by}
+    return {**provenance.stored(equations.doc), "line": description, **made_by}
 
 
 def line_of(about: Mapping[str, Any]) -> ParameterLine | None:
     """Return the line of a provenance; None if it has none."""
-    own = about.get("line")
-    if own is None:
+    description = about.get("line")
+    if description is None:
         return None
     model = Model(document=provenance.document(about))
-    found = right_hand_side(model, own["parameters"], own["at"], own["hold"], own["even"])
-    return ParameterLine(found, own["index"], np.array(own["values"], float), own["length"])
+    equations = right_hand_side(
+        model, description["parameters"], description["at"], description["hold"], description["even"]
+    )
+    return ParameterLine(
+        equations, description["index"], np.array(description["values"], float), description["length"]
+    )

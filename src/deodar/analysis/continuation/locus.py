@@ -48,8 +48,8 @@ class Locus(SavedAnalysis):
     frequencies: np.ndarray = field(default_factory=lambda: np.zeros(0), repr=False)
 
     def __repr__(self) -> str:
-        found = "".join(f"\n  {p.kind} {p.values[0]:.6g}, {p.values[1]:.6g}" for p in self.points)
-        return f"<{self.of} over {' and '.join(self.parameters)}, {len(self.values)} points{found}>"
+        points = "".join(f"\n  {p.kind} {p.values[0]:.6g}, {p.values[1]:.6g}" for p in self.points)
+        return f"<{self.of} over {' and '.join(self.parameters)}, {len(self.values)} points{points}>"
 
     def over(self, first: str, second: str) -> Locus:
         """Return the same line with its parameters in this order.
@@ -106,8 +106,8 @@ class Locus(SavedAnalysis):
                     f"a change of {path} is relative to {size:g}; expected a number above 0",
                     fix="Give the changes that count as 1: unit=(1, 1)",
                 )
-        distance, found = nearest(self.values / scale, place / scale)
-        return distance, found * scale
+        distance, nearest_point = nearest(self.values / scale, place / scale)
+        return distance, nearest_point * scale
 
     def dataset(self) -> xarray.Dataset:
         """Return the locus as a Dataset, with the document, its arguments and the versions that made it."""
@@ -204,11 +204,11 @@ def _interval(span: tuple[float, float]) -> tuple[float, float]:
     return low, high
 
 
-def _pair(name: str, given: Sequence[float]) -> np.ndarray:
+def _pair(name: str, pair: Sequence[float]) -> np.ndarray:
     try:
-        numbers = np.asarray(given, float)
+        numbers = np.asarray(pair, float)
     except (TypeError, ValueError):
         numbers = np.zeros(0)
     if numbers.shape != (2,) or not np.isfinite(numbers).all():
-        raise ParameterError(f"{name} is {show(given)}; expected two numbers, one for each parameter")
+        raise ParameterError(f"{name} is {show(pair)}; expected two numbers, one for each parameter")
     return numbers

@@ -27,7 +27,7 @@ def dataset(line: ParameterLine | None, data: JsonObject) -> xarray.Dataset:
         line: the model along a parameter; None: unknown.
         data: the locus as plain data.
     """
-    about = {key: value for key, value in data.items() if key not in ("values", "frequencies")}
+    description = {key: value for key, value in data.items() if key not in ("values", "frequencies")}
     values = np.array(data["values"], float).reshape(-1, 2)
     names: Any = data["parameters"]
     variables: dict[str, Any] = {
@@ -35,7 +35,7 @@ def dataset(line: ParameterLine | None, data: JsonObject) -> xarray.Dataset:
     }
     if frequencies := np.array(data["frequencies"], float).tolist():
         variables["frequency"] = ("point", frequencies, {"long_name": "angular frequency"})
-    return xarray.Dataset(variables, attrs={KEY: codec.line({**line_file.made(line), KIND: about})})
+    return xarray.Dataset(variables, attrs={KEY: codec.line({**line_file.made(line), KIND: description})})
 
 
 def fields(path: str | Path) -> dict[str, Any]:
@@ -44,16 +44,16 @@ def fields(path: str | Path) -> dict[str, Any]:
     Raises:
         RecordError: the file does not exist, is damaged, or is another record.
     """
-    data, made = opened(path, KIND, "a locus")
-    about = made[KIND]
-    values = np.column_stack([data["first"].values, data["second"].values])
-    points = tuple(LocusPoint(p["kind"], (p["values"][0], p["values"][1])) for p in about["points"])
-    first, second = about["parameters"]
+    record, provenance = opened(path, KIND, "a locus")
+    description = provenance[KIND]
+    values = np.column_stack([record["first"].values, record["second"].values])
+    points = tuple(LocusPoint(p["kind"], (p["values"][0], p["values"][1])) for p in description["points"])
+    first, second = description["parameters"]
     return {
-        "of": about["of"],
+        "of": description["of"],
         "parameters": (first, second),
         "values": values,
         "points": points,
-        "line": line_file.line_of(made),
-        "frequencies": data["frequency"].values if "frequency" in data else np.zeros(0),
+        "line": line_file.line_of(provenance),
+        "frequencies": record["frequency"].values if "frequency" in record else np.zeros(0),
     }

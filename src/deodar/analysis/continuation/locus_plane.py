@@ -64,15 +64,17 @@ class LocusPlane(ABC):
     """
 
     def __init__(self, of: Bifurcation, parameter: str, box: np.ndarray) -> None:
-        line, own = of.line, of.line.right_hand_side
+        line, equations = of.line, of.line.right_hand_side
         self.box, self.weight = box, line.weight
         values = line.parameters
-        if parameter not in own.parameters:
-            wide = (*own.parameters, parameter)
-            own = RightHandSide(own.model, own.doc, wide, own.at, own.held, own.even)
-            values = np.append(values, own.values[-1])
-        self.right_hand_side: RightHandSide = own
-        self.columns = [line.index, own.parameters.index(parameter)]
+        if parameter not in equations.parameters:
+            wide = (*equations.parameters, parameter)
+            equations = RightHandSide(
+                equations.model, equations.doc, wide, equations.at, equations.held, equations.even
+            )
+            values = np.append(values, equations.values[-1])
+        self.right_hand_side: RightHandSide = equations
+        self.columns = [line.index, equations.parameters.index(parameter)]
         self.first = float(values[self.columns[1]])
         self._values = values
         self.lengths = np.array([line.length, abs(box[1, 1] - box[1, 0]) / 10])
@@ -126,19 +128,19 @@ class LocusPlane(ABC):
         borders = self.borders
         while len(points) < MOST:
             guess = points[-1] + size * ahead
-            kept = self.borders
-            found = self.corrected(guess, ahead)
-            new = self._direction(found[1], ahead) if found is not None else ahead
-            if found is None or new @ ahead < 0.9 or np.linalg.norm(found[0] - guess) > 0.3 * size:
-                self.borders = kept
+            borders_before = self.borders
+            correction = self.corrected(guess, ahead)
+            new = self._direction(correction[1], ahead) if correction is not None else ahead
+            if correction is None or new @ ahead < 0.9 or np.linalg.norm(correction[0] - guess) > 0.3 * size:
+                self.borders = borders_before
                 size /= 2
                 if size < SHORTEST:
                     break
                 continue
-            if self.left(found[0]):
-                points += self.ended(points[-1], found[0])
+            if self.left(correction[0]):
+                points += self.ended(points[-1], correction[0])
                 break
-            points.append(found[0])
+            points.append(correction[0])
             ahead, size = new, min(1.5 * size, LONGEST)
         self.borders = borders
         return points
@@ -166,11 +168,11 @@ class LocusPlane(ABC):
         reached: dict[float, np.ndarray] = {}
 
         def at(share: float) -> float:
-            found = self.corrected(before + share * chord, row)
-            if found is None:
+            correction = self.corrected(before + share * chord, row)
+            if correction is None:
                 raise ValueError
-            reached[share] = found[0]
-            return test(found[0])
+            reached[share] = correction[0]
+            return test(correction[0])
 
         try:
             return reached.get(zero(at))
@@ -178,5 +180,5 @@ class LocusPlane(ABC):
             return None
 
     def _direction(self, rows: np.ndarray, before: np.ndarray) -> np.ndarray:
-        found = solved(np.vstack([rows, before]), np.append(np.zeros(len(rows)), 1.0))
-        return found / np.linalg.norm(found)
+        direction = solved(np.vstack([rows, before]), np.append(np.zeros(len(rows)), 1.0))
+        return direction / np.linalg.norm(direction)

@@ -29,7 +29,7 @@ AHEAD = 6
 """Points on the unstable side of a branch point among which the one that is left fastest is taken."""
 
 
-def named(found: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
+def named(bifurcation: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
     """Return a bifurcation with its name, where a stable state loses its stability in it.
 
     From the bifurcation the model runs at a value just beyond it: if peaks appear, it is a detection; if a
@@ -37,23 +37,26 @@ def named(found: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
     loses its stability at a branch point and fewer peaks are left, it is a selection.
 
     Args:
-        found: the bifurcation.
+        bifurcation: the bifurcation.
         points: the points of its branch.
     """
-    if found.kind == "Hopf":
-        return found
-    line = found.line
-    before, after = points[found.index], points[found.index + 1]
-    mode = found.vector / np.abs(found.vector).max()
-    if found.kind == "fold":
+    if bifurcation.kind == "Hopf":
+        return bifurcation
+    line = bifurcation.line
+    before, after = points[bifurcation.index], points[bifurcation.index + 1]
+    mode = bifurcation.vector / np.abs(bifurcation.vector).max()
+    if bifurcation.kind == "fold":
         # both points lie on the side where the states exist
         values = [line.value(before.z), line.value(after.z)]
-        value = found.value + BEYOND * line.length * float(np.sign(found.value - np.mean(values)))
-        parameters = line.all_parameters(line.point(found.state, value))
-        states = [line.right_hand_side.settle(found.state, parameters, PASSAGE)]
+        value = bifurcation.value + BEYOND * line.length * float(np.sign(bifurcation.value - np.mean(values)))
+        parameters = line.all_parameters(line.point(bifurcation.state, value))
+        states = [line.right_hand_side.settle(bifurcation.state, parameters, PASSAGE)]
     else:
-        first = max(0, found.index + 1 - AHEAD)
-        behind, ahead = points[first : found.index + 1], points[found.index + 1 : found.index + 1 + AHEAD]
+        first = max(0, bifurcation.index + 1 - AHEAD)
+        behind, ahead = (
+            points[first : bifurcation.index + 1],
+            points[bifurcation.index + 1 : bifurcation.index + 1 + AHEAD],
+        )
         side = behind if float(before.rates.real.max()) > float(after.rates.real.max()) else ahead
         unstable = max(side, key=lambda point: float(point.rates.real.max()))
         parameters = line.all_parameters(unstable.z)
@@ -62,34 +65,34 @@ def named(found: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
         states = [
             line.right_hand_side.settle(x + sign * MOVED * mode, parameters, longest + 50) for sign in (1, -1)
         ]
-    for path, axes, threshold in _fields(found):
-        counts = [_count(found, x, path, axes, threshold) for x in (found.state, *states)]
-        here, beyond = counts[0], min(counts[1:])
-        if beyond == here:
+    for path, axes, threshold in _fields(bifurcation):
+        counts = [_count(bifurcation, x, path, axes, threshold) for x in (bifurcation.state, *states)]
+        peaks_here, beyond = counts[0], min(counts[1:])
+        if beyond == peaks_here:
             continue
-        if found.kind == "branch point":
-            name = "selection" if 1 <= beyond < here else ""
-        elif beyond > here:
+        if bifurcation.kind == "branch point":
+            name = "selection" if 1 <= beyond < peaks_here else ""
+        elif beyond > peaks_here:
             name = "detection"
         else:
-            shape = line.right_hand_side.read(f"{path}.input", found.state, parameters)
+            shape = line.right_hand_side.read(f"{path}.input", bifurcation.state, parameters)
             local = bool(axes) and np.ptp(shape) > 1e-6 * max(1.0, float(np.abs(shape).max()))
             name = "reverse detection" if local or not axes else "forgetting"
         if name:
-            return dc.replace(found, instability=name, where=path)
-    return found
+            return dc.replace(bifurcation, instability=name, where=path)
+    return bifurcation
 
 
-def _fields(found: Bifurcation) -> list[tuple[str, Axes, float]]:
+def _fields(bifurcation: Bifurcation) -> list[tuple[str, Axes, float]]:
     """Return path, axes and threshold of the fields of the model that are not held."""
-    own = found.line.right_hand_side
+    equations = bifurcation.line.right_hand_side
     return [
         (e.path, tuple(e.element.axes), float(getattr(e.element.sigmoid, "threshold", 0.0)))
-        for e in own.doc.entries
-        if isinstance(e.element, Field) and e.id not in own.held
+        for e in equations.doc.entries
+        if isinstance(e.element, Field) and e.id not in equations.held
     ]
 
 
-def _count(found: Bifurcation, x: np.ndarray, path: str, axes: Axes, threshold: float) -> int:
-    activation = found.line.right_hand_side.state(x)[f"{path}.activation"]
+def _count(bifurcation: Bifurcation, x: np.ndarray, path: str, axes: Axes, threshold: float) -> int:
+    activation = bifurcation.line.right_hand_side.state(x)[f"{path}.activation"]
     return len(peaks(activation, axes, threshold))

@@ -36,26 +36,26 @@ def refined(model: Model) -> Model | str:
     except DeodarError as error:
         problem = error.problems[0]
         return f"{problem.where} {problem.what}" if problem.where else problem.what
-    largest = max(math.prod(a.samples for a in found) for found in _all_axes(doc))
+    largest = max(math.prod(a.samples for a in axes_of_element) for axes_of_element in _all_axes(doc))
     if largest > MOST:
         return f"the grid twice as fine has {largest} samples in one element, more than {MOST}"
     return Model(document=doc, trusted=model.trusted)
 
 
 def compared(
-    found: Sequence[Bifurcation], fine: Sequence[Bifurcation], length: float, whole: bool
+    coarse: Sequence[Bifurcation], fine: Sequence[Bifurcation], length: float, whole: bool
 ) -> tuple[Bifurcation, ...]:
     """Return bifurcations with their values on a finer grid: the nearest of the same kind there, each once.
 
     Args:
-        found: the bifurcations.
+        coarse: the bifurcations.
         fine: those of the finer grid.
         length: length of the span.
         whole: whether the finer branch is complete, so that what it lacks is not there.
     """
     pairs = sorted(
         (abs(a.value - b.value) + (0 if a.instability == b.instability else length), k, n)
-        for k, a in enumerate(found)
+        for k, a in enumerate(coarse)
         for n, b in enumerate(fine)
         if a.kind == b.kind and abs(a.value - b.value) <= NEAR * length
     )
@@ -67,14 +67,14 @@ def compared(
         dc.replace(b, fine_value=fine[matched[k]].value, by_grid=False)
         if k in matched
         else dc.replace(b, by_grid=True if whole else None)
-        for k, b in enumerate(found)
+        for k, b in enumerate(coarse)
     )
 
 
 def _axes(doc: Document) -> list[Axis]:
     """Return the axes of a document with more than one sample, each once."""
-    found = {axis: None for axes in _all_axes(doc) for axis in axes if axis.samples > 1}
-    return list(found)
+    unique = {axis: None for axes in _all_axes(doc) for axis in axes if axis.samples > 1}
+    return list(unique)
 
 
 def _all_axes(doc: Document) -> list[tuple[Axis, ...]]:
@@ -86,16 +86,16 @@ FollowBranch = Callable[[Model], tuple[Sequence[Bifurcation], bool]]
 
 
 def checked(
-    model: Model, found: Sequence[Bifurcation], length: float, follow: FollowBranch
+    model: Model, coarse: Sequence[Bifurcation], length: float, follow: FollowBranch
 ) -> tuple[tuple[Bifurcation, ...], str]:
     """Return bifurcations with their values on a finer grid, and why there are none."""
-    if not found:
+    if not coarse:
         return (), ""
     fine = refined(model)
     if isinstance(fine, str):
-        return tuple(found), fine
+        return tuple(coarse), fine
     try:
-        there, whole = follow(fine)
+        fine_bifurcations, whole = follow(fine)
     except DeodarError as error:
-        return tuple(found), f"on the grid twice as fine: {error.problems[0].what}"
-    return compared(found, there, length, whole), ""
+        return tuple(coarse), f"on the grid twice as fine: {error.problems[0].what}"
+    return compared(coarse, fine_bifurcations, length, whole), ""

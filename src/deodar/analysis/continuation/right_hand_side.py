@@ -116,23 +116,27 @@ class RightHandSide:
     def _parts(self) -> tuple[tuple[StatePart, ...], np.ndarray, np.ndarray]:
         """Return the parts that are not held, the indices of their numbers, and tau of every number."""
         plan, groups = self._dynamics.executable.plan, self._start["groups"]
-        found: list[StatePart] = []
+        parts: list[StatePart] = []
         first, tau = 0, np.ones(self._full.size)
         by = self.doc.by_id()
         for g, state in enumerate(groups):
             for name, rows in sorted(state.items()):
                 array = np.asarray(rows)
                 for row, node in enumerate(plan.groups[g].nodes):
-                    own = float(getattr(node.element, "tau", 1.0) if _has_tau(node.element) else 1.0)
+                    time_constant = float(
+                        getattr(node.element, "tau", 1.0) if _has_tau(node.element) else 1.0
+                    )
                     size = int(array[row].size)
-                    tau[first : first + size] = own
+                    tau[first : first + size] = time_constant
                     if node.id in by and node.id not in self.held:
                         axes = node.outs.get(name, ())
                         axes = axes if shape(axes) == array[row].shape else ()
-                        found.append(StatePart(by[node.id].path, name, first, array[row].shape, axes, own))
+                        parts.append(
+                            StatePart(by[node.id].path, name, first, array[row].shape, axes, time_constant)
+                        )
                     first += size
-        free = [np.arange(part.first, part.first + part.size) for part in found]
-        return tuple(found), np.concatenate(free) if free else np.arange(0), tau
+        free = [np.arange(part.first, part.first + part.size) for part in parts]
+        return tuple(parts), np.concatenate(free) if free else np.arange(0), tau
 
     @property
     def size(self) -> int:
@@ -152,11 +156,11 @@ class RightHandSide:
     def state(self, x: np.ndarray) -> dict[str, np.ndarray]:
         """Return the arrays of a state by element and name, such as `u.activation`."""
         numbers, at = self.full(x), 0
-        found: dict[str, np.ndarray] = {}
+        arrays: dict[str, np.ndarray] = {}
         for part in self.parts:
-            found[f"{part.path}.{part.name}"] = numbers[at : at + part.size].reshape(part.shape)
+            arrays[f"{part.path}.{part.name}"] = numbers[at : at + part.size].reshape(part.shape)
             at += part.size
-        return found
+        return arrays
 
     def vector(self, state: Mapping[str, np.ndarray]) -> np.ndarray:
         """Return x for arrays by element and name, as `state` returns them."""
@@ -173,15 +177,15 @@ class RightHandSide:
         """
         state = self.state(x)
         names = {axis.name: None for part in self.parts for axis in part.axes if axis.samples > 2}
-        found: list[np.ndarray] = []
+        directions: list[np.ndarray] = []
         for name in names:
             if name in self.even:
                 continue
             by = {f"{part.path}.{part.name}": part.axes for part in self.parts}
             vector = self.vector({key: _slope(state[key], axes, name) for key, axes in by.items()})
             if (size := float(np.linalg.norm(vector))) > 0:
-                found.append(vector / size)
-        return found
+                directions.append(vector / size)
+        return directions
 
     # ------------------------------------------------------------------------------------------- functions
 
@@ -213,13 +217,13 @@ class RightHandSide:
 
         def run(x: Array, p: Array, steps: Array, least: Array) -> Array:
             def going(carry: tuple[Array, Array, Array]) -> Array:
-                left, _, rates = carry
-                return (left > 0) & (jnp.max(jnp.abs(rates), initial=0.0) > least)
+                steps_left, _, rates = carry
+                return (steps_left > 0) & (jnp.max(jnp.abs(rates), initial=0.0) > least)
 
             def step(carry: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-                left, x, rates = carry
+                steps_left, x, rates = carry
                 x = x + self.dt * rates / jnp.asarray(self.time_constants)
-                return left - 1, x, f(x, p)
+                return steps_left - 1, x, f(x, p)
 
             return jax.lax.while_loop(going, step, (steps, x, f(x, p)))[1]
 
@@ -284,9 +288,9 @@ class RightHandSide:
     def read(self, path: str, x: np.ndarray, parameters: np.ndarray) -> np.ndarray:
         """Return the value of a port in a state, such as `u.output` or `u.input`."""
         entry, port = find.shown(self.doc, path)
-        known = self._readers.setdefault((entry.id, port), self._reader(path))
+        reader = self._readers.setdefault((entry.id, port), self._reader(path))
         with precision_context(PRECISION):
-            return np.asarray(known(jnp.asarray(x), jnp.asarray(parameters)))
+            return np.asarray(reader(jnp.asarray(x), jnp.asarray(parameters)))
 
     @cached_property
     def _readers(self) -> dict[tuple[str, str], Callable[[Array, Array], Array]]:
@@ -337,9 +341,9 @@ def right_hand_side(
                 where=path,
                 fix="Leave it out: steady states are those without noise",
             )
-    held = frozenset(find.element(doc, path).id for path in hold)
+    held_ids = frozenset(find.element(doc, path).id for path in hold)
     for entry in doc.entries:
-        if entry.id not in held and (why := _restless(entry)):
+        if entry.id not in held_ids and (why := _restless(entry)):
             raise AnalysisError(
                 why, where=entry.path, fix=f"Hold it as it is at the start: hold=[{entry.path!r}]"
             )
@@ -347,12 +351,12 @@ def right_hand_side(
             doc = edit.put(edit.unlink(doc, ident, leaf), ident, leaf, 0.0)
         if entry.every != 1:
             doc = edit.every(doc, entry.id, 1)
-    found = RightHandSide(model, doc, parameters, at, held, even)
-    names = {axis.name for part in found.parts for axis in part.axes}
+    equations = RightHandSide(model, doc, parameters, at, held_ids, even)
+    names = {axis.name for part in equations.parts for axis in part.axes}
     for name in even:
         if name not in names:
             raise AnalysisError(f"no state has an axis {name!r}", fix=did_you_mean(name, names))
-    return found
+    return equations
 
 
 def _restless(entry: Entry) -> str:

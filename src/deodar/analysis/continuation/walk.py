@@ -70,45 +70,45 @@ def walk(
     step: float = 0.1,
 ) -> Walk:
     """Follow a branch from a point until it leaves the span, closes, or has `most` points."""
-    found, size = Walk([start]), step
-    while len(found.points) < most:
-        now = found.points[-1]
-        ahead = _advanced(line, now, size)
-        if ahead is None or (abs(growing(line, ahead[0]) - growing(line, now)) > 2 and size > 1e-3):
+    walked, size = Walk([start]), step
+    while len(walked.points) < most:
+        last = walked.points[-1]
+        ahead = _advanced(line, last, size)
+        if ahead is None or (abs(growing(line, ahead[0]) - growing(line, last)) > 2 and size > 1e-3):
             size /= 2
             if size < SHORTEST:
-                found.ended = "lost"
-                return found
+                walked.ended = "lost"
+                return walked
             continue
         after, effort = ahead
-        found.bifurcations += _between(line, now, after, size, len(found.points) - 1)
-        found.points.append(after)
+        walked.bifurcations += _between(line, last, after, size, len(walked.points) - 1)
+        walked.points.append(after)
         if not span[0] <= line.value(after.z) <= span[1]:
-            found.points[-1] = _at_end(line, now, after, span)
-            found.bifurcations = [b for b in found.bifurcations if span[0] <= b.value <= span[1]]
-            found.ended = "span"
-            return found
-        if _closed(found.points, size):
-            found.ended = "closed"
-            return found
+            walked.points[-1] = _at_end(line, last, after, span)
+            walked.bifurcations = [b for b in walked.bifurcations if span[0] <= b.value <= span[1]]
+            walked.ended = "span"
+            return walked
+        if _closed(walked.points, size):
+            walked.ended = "closed"
+            return walked
         size = min(1.5 * size, LONGEST) if effort <= 3 else size / 1.5 if effort >= 6 else size
-    found.ended = "points"
-    return found
+    walked.ended = "points"
+    return walked
 
 
-def with_step_values(line: ParameterLine, found: Walk) -> list[Bifurcation]:
+def with_step_values(line: ParameterLine, walked: Walk) -> list[Bifurcation]:
     """Return the bifurcations; Hopf points with the nearest value at which Euler's step begins to oscillate.
 
     A mode with the growth rate r changes by 1 + dt r in a step, so that it grows if |1 + dt r| > 1.
     """
     dt = line.right_hand_side.dt
-    factors = [_turning(point, dt) for point in found.points]
+    factors = [_turning(point, dt) for point in walked.points]
     crossings = [k for k in range(len(factors) - 1) if factors[k] * factors[k + 1] < 0]
     out: list[Bifurcation] = []
-    for bifurcation in found.bifurcations:
+    for bifurcation in walked.bifurcations:
         if bifurcation.kind == "Hopf" and crossings:
             k = min(crossings, key=lambda k: abs(k - bifurcation.index))
-            value = _crossing(line, found.points[k], found.points[k + 1], dt)
+            value = _crossing(line, walked.points[k], walked.points[k + 1], dt)
             bifurcation = dc.replace(bifurcation, step_value=value)
         out.append(bifurcation)
     return out
@@ -127,11 +127,11 @@ def _crossing(line: ParameterLine, before: WalkPoint, after: WalkPoint, dt: floa
     reached: dict[float, np.ndarray] = {}
 
     def at(share: float) -> float:
-        found = corrected(line, before.z + share * chord, row)
-        if found is None:
+        correction = corrected(line, before.z + share * chord, row)
+        if correction is None:
             raise _Lost
-        reached[share] = found[0]
-        return _turning(WalkPoint(found[0], row, found[1].rates()), dt)
+        reached[share] = correction[0]
+        return _turning(WalkPoint(correction[0], row, correction[1].rates()), dt)
 
     try:
         return line.value(reached[zero(at)])
@@ -166,8 +166,8 @@ def tangent(at: Linearisation, before: np.ndarray) -> np.ndarray:
     """Return the unit direction of the branch that continues the one before."""
     right = np.zeros(before.size)
     right[-1] = 1.0
-    found = at.solve(before, right, 1e-8)
-    return found / np.linalg.norm(found)
+    direction = at.solve(before, right, 1e-8)
+    return direction / np.linalg.norm(direction)
 
 
 def corrected(
@@ -195,76 +195,76 @@ def growing(line: ParameterLine, point: WalkPoint) -> int:
     return int((point.rates.real * line.slowest > NEUTRAL).sum())
 
 
-def _advanced(line: ParameterLine, now: WalkPoint, size: float) -> tuple[WalkPoint, int] | None:
+def _advanced(line: ParameterLine, last: WalkPoint, size: float) -> tuple[WalkPoint, int] | None:
     """Return the next point of the branch, and how many Newton steps it took; None if it may be another
     branch.
     """
-    guess = now.z + size * now.direction
-    found = corrected(line, guess, now.direction)
-    if found is None:
+    guess = last.z + size * last.direction
+    correction = corrected(line, guess, last.direction)
+    if correction is None:
         return None
-    z, at, effort = found
+    z, at, effort = correction
     if np.linalg.norm(z - guess) > STRAY * size:
         return None
-    ahead = tangent(at, now.direction)
-    if ahead @ now.direction < TURN:
+    ahead = tangent(at, last.direction)
+    if ahead @ last.direction < TURN:
         return None
     return WalkPoint(z, ahead, at.rates()), effort
 
 
-def _at_end(line: ParameterLine, now: WalkPoint, after: WalkPoint, span: tuple[float, float]) -> WalkPoint:
+def _at_end(line: ParameterLine, inside: WalkPoint, after: WalkPoint, span: tuple[float, float]) -> WalkPoint:
     """Return the steady state at the end of the span, between a point inside and one outside."""
     end = min(max(line.value(after.z), span[0]), span[1]) / line.length
-    guess = now.z + (after.z - now.z) * (end - now.z[-1]) / (after.z[-1] - now.z[-1])
+    guess = inside.z + (after.z - inside.z) * (end - inside.z[-1]) / (after.z[-1] - inside.z[-1])
     row = np.zeros(guess.size)
     row[-1] = 1.0
-    found = corrected(line, guess, row)
-    if found is None:
+    correction = corrected(line, guess, row)
+    if correction is None:
         return after
-    z, at, _ = found
-    return WalkPoint(z, tangent(at, now.direction), at.rates())
+    z, at, _ = correction
+    return WalkPoint(z, tangent(at, inside.direction), at.rates())
 
 
 def _closed(points: list[WalkPoint], size: float) -> bool:
     """Return whether the branch has come back to its start."""
     first, last = points[0], points[-1]
-    near = float(np.linalg.norm(last.z - first.z)) < 0.75 * size
-    return len(points) > 6 and near and abs(float(last.direction @ first.direction)) > TURN
+    returned = float(np.linalg.norm(last.z - first.z)) < 0.75 * size
+    return len(points) > 6 and returned and abs(float(last.direction @ first.direction)) > TURN
 
 
 # ----------------------------------------------------------------------------------- what lies between points
 
 
 def _between(
-    line: ParameterLine, now: WalkPoint, after: WalkPoint, size: float, index: int
+    line: ParameterLine, before: WalkPoint, after: WalkPoint, size: float, index: int
 ) -> list[Bifurcation]:
     """Return the bifurcations between two points."""
-    found: list[Bifurcation] = []
-    turns = now.direction[-1] * after.direction[-1] < 0
+    bifurcations: list[Bifurcation] = []
+    turns = before.direction[-1] * after.direction[-1] < 0
     if turns:
-        found.append(_located(line, now, size, index, "fold", lambda ahead, _: ahead[-1]))
-    found += _crossings(line, now, after, size, index, turns)
-    return [b for b in found if b.kind == "fold" or abs(b.rate) * line.slowest < CROSSED]
+        bifurcations.append(_located(line, before, size, index, "fold", lambda ahead, _: ahead[-1]))
+    bifurcations += _crossings(line, before, after, size, index, turns)
+    return [b for b in bifurcations if b.kind == "fold" or abs(b.rate) * line.slowest < CROSSED]
 
 
 def _crossings(
-    line: ParameterLine, now: WalkPoint, after: WalkPoint, size: float, index: int, turns: bool
+    line: ParameterLine, before: WalkPoint, after: WalkPoint, size: float, index: int, turns: bool
 ) -> list[Bifurcation]:
     """Return the branch point or Hopf point between two points, besides a fold."""
-    few, many = sorted((growing(line, now), growing(line, after)))
-    left = many - few - (1 if turns else 0)
-    if left <= 0:
+    few, many = sorted((growing(line, before), growing(line, after)))
+    crossing_modes = many - few - (1 if turns else 0)
+    if crossing_modes <= 0:
         return []
-    more = after if growing(line, after) > growing(line, now) else now
-    crossing = more.rates[few:many]
+    unstable = after if growing(line, after) > growing(line, before) else before
+    crossing = unstable.rates[few:many]
     turning = np.abs(crossing.imag).max() > 1e-6 / line.slowest
-    if many - few >= 2 and (turning or left >= 2):
-        hopf = _located(line, now, size, index, "Hopf", lambda _, at: at.rates()[few + 1].real)
+    if many - few >= 2 and (turning or crossing_modes >= 2):
+        hopf = _located(line, before, size, index, "Hopf", lambda _, at: at.rates()[few + 1].real)
         # a pair that oscillates where it crosses may have become two real modes at the next point
         if turning or hopf.frequency > 1e-6 / line.slowest:
             return [hopf]
-    mode = few + (1 if turns and more is after else 0)
-    return [_located(line, now, size, index, "branch point", lambda _, at: at.rates()[mode].real)]
+    mode = few + (1 if turns and unstable is after else 0)
+    return [_located(line, before, size, index, "branch point", lambda _, at: at.rates()[mode].real)]
 
 
 class _Lost(Exception):
@@ -282,7 +282,7 @@ def zero(of: Callable[[float], float]) -> float:
 
 def _located(
     line: ParameterLine,
-    now: WalkPoint,
+    before: WalkPoint,
     size: float,
     index: int,
     kind: BifurcationKind,
@@ -295,18 +295,18 @@ def _located(
     seen: list[tuple[float, np.ndarray]] = []
 
     def at(share: float) -> float:
-        found = corrected(line, now.z + share * size * now.direction, now.direction)
-        if found is None:
+        correction = corrected(line, before.z + share * size * before.direction, before.direction)
+        if correction is None:
             raise _Lost
-        z, linear, _ = found
-        value = float(test(tangent(linear, now.direction), linear))
-        seen.append((abs(value), z))
-        return value
+        z, linear, _ = correction
+        tested = float(test(tangent(linear, before.direction), linear))
+        seen.append((abs(tested), z))
+        return tested
 
     # a failed search leaves the nearest point to the zero that was reached
     with contextlib.suppress(_Lost, ValueError):
         zero(at)
-    z = min(seen, key=lambda point: point[0])[1] if seen else now.z
+    z = min(seen, key=lambda point: point[0])[1] if seen else before.z
     linear = line.at(z)
     rates = linear.rates()
     nearest = complex(rates[np.argmin(np.abs(rates.real if kind == "Hopf" else rates))])

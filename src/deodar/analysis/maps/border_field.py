@@ -70,52 +70,54 @@ class BorderField:
         AnalysisError: the input is not in the middle, or the field has more states than are kept as matrices.
     """
 
-    def __init__(self, found: RegimeMap) -> None:
-        about, doc = found.about, found.document
+    def __init__(self, regime_map: RegimeMap) -> None:
+        settings, doc = regime_map.about, regime_map.document
         isolated = isolate(
             Model(document=doc),
-            about["field"],
-            sigma=about["sigma"] or None,
-            center=about["center"] or None,
-            dt=about["dt"],
-            inputs=about["inputs"],
+            settings["field"],
+            sigma=settings["sigma"] or None,
+            center=settings["center"] or None,
+            dt=settings["dt"],
+            inputs=settings["inputs"],
         )
         self.axes: Axes = isolated.axes
-        self.parameters = found.parameters
-        small = _small(isolated, doc, found.parameters)
-        self.right_hand_side = own = _even(small, [*found.parameters, INPUT], isolated)
-        if own.size > DENSE:
+        self.parameters = regime_map.parameters
+        small = _small(isolated, doc, regime_map.parameters)
+        self.right_hand_side = equations = _even(small, [*regime_map.parameters, INPUT], isolated)
+        if equations.size > DENSE:
             raise AnalysisError(
-                f"the field has {own.size} states, and a locus is followed with at most {DENSE}",
+                f"the field has {equations.size} states, and a locus is followed with at most {DENSE}",
                 where=isolated.path,
                 fix="Map the field on a coarser grid",
             )
         threshold = (find.element(small.document, "field").id, "sigmoid.threshold")
-        driven = [threshold in driven_alone(doc, small.document, isolated, path) for path in found.parameters]
+        driven = [
+            threshold in driven_alone(doc, small.document, isolated, path) for path in regime_map.parameters
+        ]
         self._threshold_of = driven.index(True) if any(driven) else None
         self._threshold = isolated.threshold
-        cells = [np.diff(values).max() / 2 for values in found.values]
-        self.box = np.array([(v[0] - c, v[-1] + c) for v, c in zip(found.values, cells, strict=True)])
+        cells = [np.diff(values).max() / 2 for values in regime_map.values]
+        self.box = np.array([(v[0] - c, v[-1] + c) for v, c in zip(regime_map.values, cells, strict=True)])
 
     def fold(self, of: FoldSearch, begin: np.ndarray, end: np.ndarray, axis: int) -> list[Locus]:
         """Return the lines of the fold between two points of the plane that differ in one parameter.
 
         They are the parts on which the fold is a border; none if there is no such fold.
         """
-        own = self.right_hand_side
+        equations = self.right_hand_side
         p = np.append(begin, of.strength)
-        x = own.start
+        x = equations.start
         if of.made:
-            x = own.settle(x, np.append(begin, of.made), SETTLING)
-        x = own.settle(x, p, SETTLING)
-        line = ParameterLine(own, axis, p, float(np.ptp(self.box[axis])) / 10)
+            x = equations.settle(x, np.append(begin, of.made), SETTLING)
+        x = equations.settle(x, p, SETTLING)
+        line = ParameterLine(equations, axis, p, float(np.ptp(self.box[axis])) / 10)
         start = begun(line, x, float(begin[axis]), float(np.sign(end[axis] - begin[axis])))
         if start is None or self._awake(line.state(start.z), begin) != of.awake:
             return []
         low, high = sorted((float(begin[axis]), float(end[axis])))
         for fold in walk(line, start, (low, high), STATES, step=0.02).bifurcations:
             if fold.kind == "fold":
-                plane = FoldPlane(fold, own.parameters[1 - axis], self.box[[axis, 1 - axis]])
+                plane = FoldPlane(fold, equations.parameters[1 - axis], self.box[[axis, 1 - axis]])
                 if self._ends(of, plane, plane.start(fold)):
                     return self._parts(of, plane, fold)
         return []
@@ -152,23 +154,23 @@ class BorderField:
         """Return the last point of a line that is a border, between one that is and one that is not."""
         for _ in range(HALVINGS):
             chord = outside - inside
-            found = plane.corrected(inside + chord / 2, chord / np.linalg.norm(chord))
-            if found is None:
+            correction = plane.corrected(inside + chord / 2, chord / np.linalg.norm(chord))
+            if correction is None:
                 break
-            if self._ends(of, plane, found[0]):
-                inside = found[0]
+            if self._ends(of, plane, correction[0]):
+                inside = correction[0]
             else:
-                outside = found[0]
+                outside = correction[0]
         return inside
 
     def _ends(self, of: FoldSearch, plane: FoldPlane, z: np.ndarray) -> bool:
         """Return whether a peak appears, or vanishes, beyond a fold."""
-        x, own = plane.state(z), self.right_hand_side
+        x, equations = plane.state(z), self.right_hand_side
         if self._awake(x, plane.parameters(z)) != of.awake:
             return False
         p = plane.parameters(z)
         p[plane.columns] += BEYOND * plane.beyond(z) * plane.lengths
-        return self._awake(own.settle(x, p, PASSAGE, least=1e-6), p) != of.awake
+        return self._awake(equations.settle(x, p, PASSAGE, least=1e-6), p) != of.awake
 
     def _awake(self, x: np.ndarray, parameters: np.ndarray) -> bool:
         """Return whether a state has a peak."""
@@ -187,11 +189,11 @@ def _small(isolated: Isolated, doc: Document, parameters: tuple[str, str]) -> Mo
     for name in ("second", "boost"):
         small.remove(name)
     middle = [float(axis.points[[0, -1]].mean()) for axis in isolated.axes]
-    for axis, center, given in zip(isolated.axes, middle, isolated.center, strict=True):
+    for axis, center, position in zip(isolated.axes, middle, isolated.center, strict=True):
         # on an even number of samples no sample is in the middle; a periodic axis has none
-        if not axis.periodic and abs(given - center) > 0.51 * axis.step:
+        if not axis.periodic and abs(position - center) > 0.51 * axis.step:
             raise AnalysisError(
-                f"the input of the map is at {given:g}, and the middle of {axis.name} is {center:g}",
+                f"the input of the map is at {position:g}, and the middle of {axis.name} is {center:g}",
                 where=isolated.path,
                 fix="Map the field with its input in the middle",
             )
@@ -200,8 +202,8 @@ def _small(isolated: Isolated, doc: Document, parameters: tuple[str, str]) -> Mo
     changed = small.document
     for path in parameters:
         leaves = driven_alone(doc, small.document, isolated, path)
-        own = find.element(small.document, "field")
-        if any(path == f"{own.path}.{leaf}" for ident, leaf in leaves if ident == own.id):
+        field = find.element(small.document, "field")
+        if any(path == f"{field.path}.{leaf}" for ident, leaf in leaves if ident == field.id):
             continue  # a field that is called so has the path already
         changed = edit.document_parameter(changed, path, float(np.ravel(find.value(doc, path))[0]))
         for ident, leaf in leaves:

@@ -96,58 +96,58 @@ def regime_loci(found: RegimeMap) -> list[Locus]:
     return [line for border in BORDERS for line in _lines(found, field, border)]
 
 
-def _lines(found: RegimeMap, field: BorderField, border: FoldBorder) -> list[Locus]:
+def _lines(regime_map: RegimeMap, field: BorderField, border: FoldBorder) -> list[Locus]:
     """Return the lines that are a border."""
-    strength = float(found.about["strength"])
+    strength = float(regime_map.about["strength"])
     search = FoldSearch(
         border.name,
         strength if border.with_input else 0.0,
         strength if border.awake else 0.0,
         border.awake,
     )
-    left = list(edges(found, border))
+    pending = list(edges(regime_map, border))
     out: list[Locus] = []
-    while left:
-        edge = left.pop(0)
-        begin, end = _ends(found, border, edge)
+    while pending:
+        edge = pending.pop(0)
+        begin, end = _ends(regime_map, border, edge)
         lines = field.fold(search, begin, end, edge.axis)
         out += lines
-        left = [e for e in left if all(cells_between(found, e, line) > 1 for line in lines)]
+        pending = [e for e in pending if all(cells_between(regime_map, e, line) > 1 for line in lines)]
     return out
 
 
-def edges(found: RegimeMap, border: FoldBorder) -> Iterator[CellEdge]:
+def edges(regime_map: RegimeMap, border: FoldBorder) -> Iterator[CellEdge]:
     """Return the edges between cells inside and outside of a border."""
-    inside, outside = (np.isin(found.labels, kinds) for kinds in (border.inside, border.outside))
+    inside, outside = (np.isin(regime_map.labels, kinds) for kinds in (border.inside, border.outside))
     for i, j in np.argwhere(inside):
         for axis, step in ((0, -1), (0, 1), (1, -1), (1, 1)):
             beside = [int(i), int(j)]
             beside[axis] += step
-            if 0 <= beside[axis] < found.labels.shape[axis] and outside[tuple(beside)]:
+            if 0 <= beside[axis] < regime_map.labels.shape[axis] and outside[tuple(beside)]:
                 yield CellEdge(axis, (int(i), int(j)), step)
 
 
-def cells_between(found: RegimeMap, edge: CellEdge, line: Locus) -> float:
+def cells_between(regime_map: RegimeMap, edge: CellEdge, line: Locus) -> float:
     """Return the distance of the middle of an edge to a line, in cells; the larger coordinate counts."""
-    cells = np.array([np.diff(values).mean() for values in found.values])
-    begin, end = (_place(found, edge, steps) for steps in (0, 1))
+    cells = np.array([np.diff(values).mean() for values in regime_map.values])
+    begin, end = (_place(regime_map, edge, steps) for steps in (0, 1))
     return nearest(line.values / cells, (begin + end) / 2 / cells)[0]
 
 
-def _ends(found: RegimeMap, border: FoldBorder, edge: CellEdge) -> tuple[np.ndarray, np.ndarray]:
+def _ends(regime_map: RegimeMap, border: FoldBorder, edge: CellEdge) -> tuple[np.ndarray, np.ndarray]:
     """Return the points between which a fold is sought, a cell more on each side.
 
     Beside a fold a run may count as settled before it has passed it.
     """
     behind = list(edge.cell)
     behind[edge.axis] -= edge.step
-    known = 0 <= behind[edge.axis] < found.labels.shape[edge.axis]
-    back = -1 if known and found.labels[tuple(behind)] in border.inside else 0
-    return _place(found, edge, back), _place(found, edge, 2)
+    in_map = 0 <= behind[edge.axis] < regime_map.labels.shape[edge.axis]
+    back = -1 if in_map and regime_map.labels[tuple(behind)] in border.inside else 0
+    return _place(regime_map, edge, back), _place(regime_map, edge, 2)
 
 
-def _place(found: RegimeMap, edge: CellEdge, steps: int) -> np.ndarray:
+def _place(regime_map: RegimeMap, edge: CellEdge, steps: int) -> np.ndarray:
     """Return the parameters of the cell that lies a number of steps across an edge, or at the map's end."""
     at = list(edge.cell)
-    at[edge.axis] = int(np.clip(at[edge.axis] + steps * edge.step, 0, found.labels.shape[edge.axis] - 1))
-    return np.array([values[k] for values, k in zip(found.values, at, strict=True)])
+    at[edge.axis] = int(np.clip(at[edge.axis] + steps * edge.step, 0, regime_map.labels.shape[edge.axis] - 1))
+    return np.array([values[k] for values, k in zip(regime_map.values, at, strict=True)])

@@ -36,19 +36,19 @@ def refined(shape: tuple[int, int], compute: Compute) -> tuple[np.ndarray, np.nd
         computed.reshape(-1)[cells] = True
 
     before = [np.arange(0)] * 2
-    for here in _levels(shape):
-        grid = np.ix_(*here)
+    for level in _levels(shape):
+        grid = np.ix_(*level)
         if not len(before[0]):
             add(np.nonzero(_mask(shape, grid)))
         else:
             # the nearest cell of the last grid that is not beyond
-            pairs = zip(before, here, strict=True)
+            pairs = zip(before, level, strict=True)
             place = [old[np.searchsorted(old, new, side="right") - 1] for old, new in pairs]
             labels[grid] = np.where(computed[grid], labels[grid], labels[np.ix_(*place)])
         while (todo := _differing(labels[grid]) & ~computed[grid]).any():
             rows, columns = np.nonzero(todo)
-            add((here[0][rows], here[1][columns]))
-        before = list(here)
+            add((level[0][rows], level[1][columns]))
+        before = list(level)
     return labels, computed
 
 
@@ -68,9 +68,9 @@ def _levels(shape: tuple[int, int]) -> Iterator[tuple[np.ndarray, np.ndarray]]:
 
 
 def _mask(shape: tuple[int, int], grid: tuple[np.ndarray, ...]) -> np.ndarray:
-    found = np.zeros(shape, bool)
-    found[grid] = True
-    return found
+    mask = np.zeros(shape, bool)
+    mask[grid] = True
+    return mask
 
 
 def _differing(labels: np.ndarray) -> np.ndarray:

@@ -57,7 +57,7 @@ class RegimeMap(SavedAnalysis):
         from deodar.recording import provenance
 
         isolated, doc = request.isolated, model.document
-        found: dict[str, Any] = {
+        settings: dict[str, Any] = {
             "field": isolated.path,
             "strength": request.strength,
             "sigma": list(isolated.sigma),
@@ -70,9 +70,11 @@ class RegimeMap(SavedAnalysis):
             "inputs": list(isolated.background),
         }
         made_by = provenance.made_by(devices.find(), request.precision)
-        made = {**provenance.stored(doc), "made_by": made_by}
+        stored_provenance = {**provenance.stored(doc), "made_by": made_by}
         first, second = (float(np.ravel(find.value(doc, path))[0]) for path in request.paths)
-        return cls(request.paths, request.values, labels, computed, (first, second), found, made)
+        return cls(
+            request.paths, request.values, labels, computed, (first, second), settings, stored_provenance
+        )
 
     @property
     def document(self) -> Document:
@@ -122,14 +124,14 @@ class RegimeMap(SavedAnalysis):
         meanings = " ".join(word.replace(" ", "_") for word in WORDS)
         flags = {"flag_values": list(range(len(WORDS))), "flag_meanings": meanings}
         name = {"long_name": f"regime of {self.about['field']}"}
-        made = {**self.provenance, KIND: {**self.about, "at": list(self.at), "words": list(WORDS)}}
+        description = {**self.provenance, KIND: {**self.about, "at": list(self.at), "words": list(WORDS)}}
         return xarray.Dataset(
             {
                 KIND: (self.parameters, self.labels, name | flags),
                 "computed": (self.parameters, self.computed),
             },
             dict(zip(self.parameters, self.values, strict=True)),
-            {KEY: codec.line(made)},
+            {KEY: codec.line(description)},
         )
 
     @classmethod
@@ -139,21 +141,21 @@ class RegimeMap(SavedAnalysis):
         Raises:
             RecordError: the file does not exist, is damaged, or is another record.
         """
-        data, found = opened(path, KIND, "a map of regimes")
-        made, about = dict(found), dict(found[KIND])
-        del made[KIND]
-        first, second = (str(name) for name in data[KIND].dims)
-        if about.pop("words") != list(WORDS):
+        record, stored_map = opened(path, KIND, "a map of regimes")
+        stored_provenance, settings = dict(stored_map), dict(stored_map[KIND])
+        del stored_provenance[KIND]
+        first, second = (str(name) for name in record[KIND].dims)
+        if settings.pop("words") != list(WORDS):
             raise RecordError("has labels of another version of deodar", where=str(path))
-        at = about.pop("at")
+        at = settings.pop("at")
         return cls(
             (first, second),
-            (data[first].values, data[second].values),
-            data[KIND].values,
-            data["computed"].values,
+            (record[first].values, record[second].values),
+            record[KIND].values,
+            record["computed"].values,
             (at[0], at[1]),
-            about,
-            made,
+            settings,
+            stored_provenance,
         )
 
     def __repr__(self) -> str:

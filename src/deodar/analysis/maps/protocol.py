@@ -112,14 +112,14 @@ class RegimeProtocol:
         """
         queue = np.zeros(self._cells, np.int32)
         queue[: len(cells)] = cells
-        own = self._call("begin", np.append(labels, 0).astype(np.uint8))
+        lanes = self._call("begin", np.append(labels, 0).astype(np.uint8))
         while True:
-            own = self._call("blocks", own, queue, np.int32(len(cells)))
-            going = int((np.asarray(own.cell) >= 0).sum())
-            done = int(own.taken) - going
+            lanes = self._call("blocks", lanes, queue, np.int32(len(cells)))
+            going = int((np.asarray(lanes.cell) >= 0).sum())
+            done = int(lanes.taken) - going
             progress(done)
             if done == len(cells):
-                return np.asarray(own.labels)[:-1]
+                return np.asarray(lanes.labels)[:-1]
 
     def _call(self, name: str, *args: Any) -> Any:
         with precision_context(self._request.precision), jax.default_matmul_precision("highest"):
@@ -151,12 +151,12 @@ class RegimeProtocol:
         """Return the lanes after `BLOCKS` blocks, or when all cells are done."""
 
         def going(carry: tuple[Array, Lanes]) -> Array:
-            number, own = carry
-            return (number < BLOCKS) & ((own.taken < total) | (own.cell >= 0).any())
+            number, lanes = carry
+            return (number < BLOCKS) & ((lanes.taken < total) | (lanes.cell >= 0).any())
 
         def block(carry: tuple[Array, Lanes]) -> tuple[Array, Lanes]:
-            number, own = carry
-            return number + 1, self._block(self._filled(own, queue, total))
+            number, lanes = carry
+            return number + 1, self._block(self._filled(lanes, queue, total))
 
         return jax.lax.while_loop(going, block, (jnp.int32(0), lanes))[1]
 
@@ -188,30 +188,30 @@ class RegimeProtocol:
         parameters = self._parameters(lanes.cell, lanes.stage)
         begin = self._activation(lanes.state)
         before, state = self.copies.run(parameters, lanes.constants, lanes.state, self._steps)
-        last, now = self._activation(before), self._activation(state)
-        settled, far = self._judged(begin, last, now)
+        last, activation = self._activation(before), self._activation(state)
+        settled, far = self._judged(begin, last, activation)
         settled &= lanes.blocks + 1 >= LEAST_BLOCKS
         late = ~settled & (lanes.blocks + 1 >= self._longest)
-        above = now - self._threshold(parameters)[:, None]
+        above = activation - self._threshold(parameters)[:, None]
         peaks = count(above if self.axes else above[:, 0], self.axes)
         covers = jnp.zeros_like(settled)
         if self.axes:
             covers = widest(above, self.axes[0]) >= WHOLE * self.axes[0].range
-        label, stage, kept = self._decided(lanes, peaks, covers, self._joined(above))
+        label, stage, outlasts = self._decided(lanes, peaks, covers, self._joined(above))
         label = jnp.where(settled, label, -1)
         label = jnp.where(late, RegimeLabel.RESTLESS, label)
         label = jnp.where(far, RegimeLabel.UNBOUNDED, label)
         active = lanes.cell >= 0
         done, next_stage = active & (label >= 0), settled & (label < 0)
         labels = lanes.labels.at[jnp.where(done, lanes.cell, self._cells)].set(label.astype(jnp.uint8))
-        again = next_stage & (stage == AHEAD)
+        restarts = next_stage & (stage == AHEAD)
         return lanes._replace(
             cell=jnp.where(done, -1, lanes.cell),
             stage=jnp.where(next_stage, stage, lanes.stage),
             blocks=jnp.where(next_stage, 0, lanes.blocks + 1),
-            kept=jnp.where(next_stage, kept, lanes.kept),
+            kept=jnp.where(next_stage, outlasts, lanes.kept),
             # an idle lane may hold values that are not finite
-            state=_where(again | done, self.copies.start(parameters), state),
+            state=_where(restarts | done, self.copies.start(parameters), state),
             labels=labels,
         )
 
@@ -229,27 +229,27 @@ class RegimeProtocol:
         peak outlived its input.
         """
         stage, some = lanes.stage, peaks > 0
-        kept = jnp.where(stage == NONE, some, lanes.kept)
+        outlasts = jnp.where(stage == NONE, some, lanes.kept)
         label = jnp.full(self._lanes, -1, jnp.int32)
         label = jnp.where((stage == REST) & some, RegimeLabel.ACTIVE, label)
         label = jnp.where((stage == ONE) & ~some, RegimeLabel.SILENT, label)
         label = jnp.where(((stage == ONE) | (stage == NONE)) & covers, RegimeLabel.UNBOUNDED, label)
-        alone = jnp.where(kept, RegimeLabel.SUSTAINED, RegimeLabel.DRIVEN)
+        alone = jnp.where(outlasts, RegimeLabel.SUSTAINED, RegimeLabel.DRIVEN)
         if not self.axes:
-            return jnp.where(stage == NONE, alone, label), stage + 1, kept
-        chosen = jnp.where(kept, RegimeLabel.SUSTAINED_SELECTIVE, RegimeLabel.SELECTIVE)
+            return jnp.where(stage == NONE, alone, label), stage + 1, outlasts
+        chosen = jnp.where(outlasts, RegimeLabel.SUSTAINED_SELECTIVE, RegimeLabel.SELECTIVE)
         # two peaks that have grown together are no selection
         won = (peaks == 1) & ~joined
-        return jnp.where(stage == EQUAL, jnp.where(won, chosen, alone), label), stage + 1, kept
+        return jnp.where(stage == EQUAL, jnp.where(won, chosen, alone), label), stage + 1, outlasts
 
-    def _judged(self, begin: Array, last: Array, now: Array) -> tuple[Array, Array]:
+    def _judged(self, begin: Array, last: Array, activation: Array) -> tuple[Array, Array]:
         """Return whether each lane has settled, over the block and in its last step, and whether its
         activation is far beyond what inputs and resting level explain.
         """
         tau, dt = self._request.isolated.field.tau, self.copies.dynamics.dt
-        slow = jnp.abs(now - begin).max(-1) * (tau / (self._steps * dt))
-        fast = jnp.abs(now - last).max(-1) * (tau / dt)
-        most = jnp.abs(now).max(-1)
+        slow = jnp.abs(activation - begin).max(-1) * (tau / (self._steps * dt))
+        fast = jnp.abs(activation - last).max(-1) * (tau / dt)
+        most = jnp.abs(activation).max(-1)
         far = ~(most < FAR * (self._request.isolated.scale + self._request.strength))
         return jnp.maximum(slow, fast) <= self._request.tolerance, far
 

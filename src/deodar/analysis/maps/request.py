@@ -81,7 +81,7 @@ class MapRequest:
     def threshold_of(self) -> int | None:
         """Which parameter is the threshold above which a peak exists; None if it is the same in all cells."""
         ident = find.element(self.model.document, "field").id
-        return next((k for k, own in enumerate(self.leaves) if (ident, "sigmoid.threshold") in own), None)
+        return next((k for k, leafs in enumerate(self.leaves) if (ident, "sigmoid.threshold") in leafs), None)
 
 
 def requested(
@@ -106,7 +106,7 @@ def requested(
             f"a map has two parameters, not {len(over)}",
             fix="Name both: {'u.resting_level': (-8, -2, 50), 'u.global_inhibition': (0, 1, 50)}",
         )
-    values = {name: _values(doc, name, given) for name, given in over.items()}
+    values = {name: _values(doc, name, wished) for name, wished in over.items()}
     isolated = isolate(model, path, **isolation)
     if len(isolated.axes) > 1:
         raise AnalysisError(
@@ -170,28 +170,30 @@ def positive(name: str, value: Any) -> float:
     return number
 
 
-def _values(doc: Document, path: str, given: Any) -> np.ndarray:
+def _values(doc: Document, path: str, wished: Any) -> np.ndarray:
     """Return the values of one parameter, in growing order: given as such, or as (low, high, n)."""
     driven(doc, path)
     try:
-        numbers = np.asarray(given, float)
+        numbers = np.asarray(wished, float)
     except (TypeError, ValueError):
         numbers = np.zeros((0, 0))
     if numbers.ndim != 1:
-        raise ParameterError(f"the values are {show(given)}; expected numbers, or (low, high, n)", where=path)
-    if isinstance(given, tuple) and len(numbers) == 3:
+        raise ParameterError(
+            f"the values are {show(wished)}; expected numbers, or (low, high, n)", where=path
+        )
+    if isinstance(wished, tuple) and len(numbers) == 3:
         low, high, n = (float(number) for number in numbers)
         if not float(n).is_integer() or n < 2:
             raise ParameterError(f"n is {n:g}; a map needs 2 or more values of each parameter", where=path)
         numbers = np.linspace(low, high, int(n))
     if not np.isfinite(numbers).all():
-        raise ParameterError(f"the values {show(given)} are not all finite numbers", where=path)
+        raise ParameterError(f"the values {show(wished)} are not all finite numbers", where=path)
     if len(numbers) < 2:
         raise ParameterError(
             f"has {len(numbers)} values; a map needs 2 or more of each parameter", where=path
         )
     if not (np.diff(numbers) > 0).all():
-        raise ParameterError(f"the values {show(given)} do not grow from each to the next", where=path)
+        raise ParameterError(f"the values {show(wished)} do not grow from each to the next", where=path)
     for number in (numbers[0], numbers[-1]):
         edit.change(doc, path, float(number))
     return numbers
@@ -217,23 +219,23 @@ def with_inputs(isolated: Isolated, trusted: bool) -> Model:
 def driven_alone(doc: Document, small: Document, isolated: Isolated, path: str) -> tuple[Leaf, ...]:
     """Return the numbers of the isolated field that a parameter of the model drives."""
     ids = {find.element(doc, isolated.path).id: find.element(small, "field").id}
-    for kept in isolated.background:
-        ids[find.element(doc, kept).id] = find.element(small, f"background.{kept}").id
+    for path_of_input in isolated.background:
+        ids[find.element(doc, path_of_input).id] = find.element(small, f"background.{path_of_input}").id
     leaves = driven(doc, path)
-    found = tuple((ids[ident], leaf) for ident, leaf in leaves if ident in ids)
-    if not found:
+    driven_leaves = tuple((ids[ident], leaf) for ident, leaf in leaves if ident in ids)
+    if not driven_leaves:
         raise AnalysisError(
             f"does not belong to {isolated.path}, which is measured alone",
             where=path,
             fix="Name parameters of the field, or keep the stimulus as constant input: inputs=[PATH]",
         )
-    own = find.element(small, "field").id
-    for ident, leaf in found:
+    field_id = find.element(small, "field").id
+    for ident, leaf in driven_leaves:
         name = leaf.split(".")[0]
-        if ident == own and name in ("noise", "noise_length"):
+        if ident == field_id and name in ("noise", "noise_length"):
             raise AnalysisError("changes no regime: noise is off in the measurement", where=path)
-        if ident == own and name == "tau":
+        if ident == field_id and name == "tau":
             raise AnalysisError(
                 "changes no regime: the steady states of a field do not depend on it", where=path
             )
-    return found
+    return driven_leaves

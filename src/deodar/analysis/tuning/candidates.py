@@ -87,8 +87,8 @@ def candidate_space(doc: Document, paths: Sequence[str], bounds: Mapping[str, An
     """
     if isinstance(paths, str) or not paths:
         raise ParameterError(f"the parameters are {show(paths)}; expected one path or more, in a list")
-    given = dict(bounds or {})
-    for path in given:
+    bounds_of = dict(bounds or {})
+    for path in bounds_of:
         if path not in paths:
             fix = did_you_mean(path, paths)
             raise ParameterError("has bounds and is not among the parameters", where=str(path), fix=fix)
@@ -97,35 +97,35 @@ def candidate_space(doc: Document, paths: Sequence[str], bounds: Mapping[str, An
     for k, path in enumerate(paths):
         if path in paths[:k]:
             raise ParameterError("is named twice", where=path, fix="Name it once")
-        value = _single(doc, path)
-        present.append(value)
-        ends.append(_bounds(doc, path, given[path]) if path in given else _guessed(doc, path, value))
+        number = _single(doc, path)
+        present.append(number)
+        ends.append(_bounds(doc, path, bounds_of[path]) if path in bounds_of else _guessed(doc, path, number))
     low, high = np.array(ends).T
     return CandidateSpace(tuple(paths), np.array(present), low, high)
 
 
 def _single(doc: Document, path: str) -> float:
     """Return the present value of a parameter that is one number."""
-    value = find.value(doc, path)
-    numbers = np.ravel(value) if real(value) is not None or np.ndim(value) else np.zeros(0)
+    number = find.value(doc, path)
+    numbers = np.ravel(number) if real(number) is not None or np.ndim(number) else np.zeros(0)
     if numbers.dtype.kind not in "fiu" or numbers.size != 1:
         inside: list[str] = []
         if (entry := find.target(doc, path).entry) is not None:
             parameter = find.target(doc, path).parameter
             inside = [n for n, _, _ in leaves(entry.element) if n.startswith(f"{parameter}.")]
         fix = f"Name one of: {', '.join(inside)}" if inside else ""
-        raise ParameterError(f"is not one number, but {show(value)}", where=path, fix=fix)
+        raise ParameterError(f"is not one number, but {show(number)}", where=path, fix=fix)
     return float(numbers[0])
 
 
-def _bounds(doc: Document, path: str, given: Any) -> tuple[float, float]:
+def _bounds(doc: Document, path: str, ends: Any) -> tuple[float, float]:
     try:
-        low, high = (float(number) for number in given)
+        low, high = (float(number) for number in ends)
     except (TypeError, ValueError):
-        raise ParameterError(f"the bounds are {show(given)}; expected (low, high)", where=path) from None
+        raise ParameterError(f"the bounds are {show(ends)}; expected (low, high)", where=path) from None
     if not (np.isfinite([low, high]).all() and low < high):
         raise ParameterError(
-            f"the bounds are {show(given)}; expected finite numbers, the lower one first", where=path
+            f"the bounds are {show(ends)}; expected finite numbers, the lower one first", where=path
         )
     for number in (low, high):
         edit.change(doc, path, number)
@@ -148,12 +148,12 @@ def _guessed(doc: Document, path: str, value: float) -> tuple[float, float]:
 
 def _declared(doc: Document, path: str) -> list[tuple[float | None, float | None]]:
     """Return the declared ranges of the numbers that a parameter drives."""
-    found = find.target(doc, path)
-    if found.entry is None:
-        links = next(k.links for k in doc.parameters if k.name == found.document_parameter)
+    target = find.target(doc, path)
+    if target.entry is None:
+        links = next(k.links for k in doc.parameters if k.name == target.document_parameter)
         pairs = [(find.entry(doc, ident), leaf) for ident, leaf in links]
     else:
-        pairs = [(found.entry, found.parameter)]
+        pairs = [(target.entry, target.parameter)]
     out: list[tuple[float | None, float | None]] = []
     for entry, leaf in pairs:
         for name, _, parameter in leaves(entry.element):

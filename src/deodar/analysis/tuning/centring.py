@@ -140,8 +140,8 @@ def _alone(judge: CandidateJudge, values: np.ndarray) -> tuple[tuple[float, floa
         parts = np.linspace(0, 1, SECTIONS + 1)[1:]
         trial = low[:, None] + (high - low)[:, None] * parts
         moves = (trial[..., None] * directions[:, None, :]).reshape(-1, n)
-        found = judge.margins(judge.request.space.moved(values, moves), "region").min(-1) >= 0
-        met = found.reshape(2 * n, SECTIONS)
+        inside = judge.margins(judge.request.space.moved(values, moves), "region").min(-1) >= 0
+        met = inside.reshape(2 * n, SECTIONS)
         reached = np.where(met.all(-1), SECTIONS, (~met).argmax(-1))
         edges = np.concatenate([low[:, None], trial], axis=1)
         low, high = (

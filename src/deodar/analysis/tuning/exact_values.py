@@ -104,26 +104,26 @@ class ExactField:
         over = BOOST if of.kind == "forgetting" else MIDDLE
         if near is not None:
             return self._fold(near.state, near.value, over, values)
-        found = self._found(of, over, values)
-        return self._fold(found.state, found.value, over, values)
+        fold = self._first_fold(of, over, values)
+        return self._fold(fold.state, fold.value, over, values)
 
-    def _found(self, of: ExactQuantity, over: int, values: np.ndarray) -> Bifurcation:
+    def _first_fold(self, of: ExactQuantity, over: int, values: np.ndarray) -> Bifurcation:
         """Return the first fold of the kind over an input: from rest upwards, or downwards from a peak
         without input. Up to there the field keeps its state.
         """
-        own, made = self.right_hand_side, self._all(values)
+        equations, parameters = self.right_hand_side, self._all(values)
         reach = self._request.isolated.scale
         if of.kind == "forgetting":
-            made[MIDDLE], made[BOOST] = of.strength, of.target + of.within
+            parameters[MIDDLE], parameters[BOOST] = of.strength, of.target + of.within
             first, last = of.target + of.within, of.target - 2 * of.within - 0.1 * reach
         else:
             first, last = 0.0, max(2 * of.target, of.strength, reach)
-        x = own.settle(own.start, made, SETTLING)
-        here = made.copy()
-        here[MIDDLE] = 0.0
-        here[over] = first
-        x = own.settle(x, here, SETTLING)
-        line = ParameterLine(own, over, here, max(abs(last - first) / 10, 1e-6))
+        x = equations.settle(equations.start, parameters, SETTLING)
+        parameters_at_start = parameters.copy()
+        parameters_at_start[MIDDLE] = 0.0
+        parameters_at_start[over] = first
+        x = equations.settle(x, parameters_at_start, SETTLING)
+        line = ParameterLine(equations, over, parameters_at_start, max(abs(last - first) / 10, 1e-6))
         start = begun(line, x, first, float(np.sign(last - first)))
         if start is None:
             raise QuantityLost
@@ -141,21 +141,21 @@ class ExactField:
 
     def _fold(self, x: np.ndarray, at: float, over: int, values: np.ndarray) -> ExactValue:
         """Return a fold near a state, as the root of the minimally augmented equations (see `locus`)."""
-        own, p, n = self.right_hand_side, self._all(values), x.size
+        equations, p, n = self.right_hand_side, self._all(values), x.size
         p[over] = at
-        left, _, right = np.linalg.svd(own.linear(x, p)[1])
+        left, _, right = np.linalg.svd(equations.linear(x, p)[1])
         border_left, border_right = left[:, -1], right[-1]
         for _ in range(MOST):
-            rates, jacobian, by = own.linear(x, p)
+            rates, jacobian, by = equations.linear(x, p)
             bordered = np.zeros((n + 1, n + 1))
             bordered[:n, :n], bordered[:n, n], bordered[n, :n] = jacobian, border_left, border_right
             unit = np.append(np.zeros(n), 1.0)
             v, w = solved(bordered, unit), solved(bordered.T, unit)
             residual = np.append(rates, v[n])
             if np.abs(residual).max() < 1e-11:
-                slopes = own.gradient(x, p, w[:n])
+                slopes = equations.gradient(x, p, w[:n])
                 return ExactValue(float(p[over]), -slopes[len(p) - len(values) :] / slopes[over], x)
-            by_state, by_parameter = own.curvature(x, p, v[:n], w[:n])
+            by_state, by_parameter = equations.curvature(x, p, v[:n], w[:n])
             rows = np.vstack(
                 [np.column_stack([jacobian, by[:, over]]), np.append(-by_state, -by_parameter[over])]
             )
@@ -167,60 +167,60 @@ class ExactField:
 
     def _form(self, of: ExactQuantity, values: np.ndarray) -> ExactValue:
         """Return the width or amplitude of the peak of an input."""
-        own, p = self.right_hand_side, self._all(values)
-        x = own.settle(own.start, p, SETTLING)
+        equations, p = self.right_hand_side, self._all(values)
+        x = equations.settle(equations.start, p, SETTLING)
         p[MIDDLE] = of.strength
-        x = own.settle(x, p, SETTLING)
-        line = ParameterLine(own, MIDDLE, p, 1.0)
+        x = equations.settle(x, p, SETTLING)
+        line = ParameterLine(equations, MIDDLE, p, 1.0)
         start = begun(line, x, of.strength, 1.0)
         if start is None:
             raise QuantityLost
         x = line.state(start.z)
-        activation = own.state(x)["field.activation"].ravel()
+        activation = equations.state(x)["field.activation"].ravel()
         number = self._request.threshold_of
         threshold = self._request.isolated.threshold if number is None else float(values[number])
         axes = self._request.isolated.axes
         if of.kind == "width":
-            value, slope = _width(activation - threshold, axes[0].step, axes[0].periodic)
+            size, slope = _width(activation - threshold, axes[0].step, axes[0].periodic)
             by_threshold = -float(slope.sum())
         else:
             highest = int(activation.argmax())
-            value, by_threshold = float(activation[highest]), 0.0
+            size, by_threshold = float(activation[highest]), 0.0
             slope = np.eye(1, activation.size, highest)[0]
-        _, jacobian, by = own.linear(x, p)
-        along = own.vector({"field.activation": slope.reshape(own.parts[0].shape)})
+        _, jacobian, by = equations.linear(x, p)
+        along = equations.vector({"field.activation": slope.reshape(equations.parts[0].shape)})
         slopes = -(solved(jacobian.T, along) @ by)[len(p) - len(values) :]
         if number is not None:
             slopes[number] += by_threshold
-        return ExactValue(value, slopes, x)
+        return ExactValue(size, slopes, x)
 
     def _all(self, values: np.ndarray) -> np.ndarray:
         return np.concatenate([np.zeros(4), values])
 
     # -------------------------------------------------------------------------------------- Newton's method
 
-    def reached(self, wanted: Sequence[ExactQuantity], values: np.ndarray) -> np.ndarray | None:
+    def reached(self, quantities: Sequence[ExactQuantity], values: np.ndarray) -> np.ndarray | None:
         """Return the nearest values at which all quantities have their targets; None if they are not reached.
 
         Each step is the shortest in relative changes of the parameters.
         """
         space, first = self._request.space, values
-        within = np.array([of.within for of in wanted])
-        target = np.array([of.target for of in wanted])
+        within = np.array([of.within for of in quantities])
+        target = np.array([of.target for of in quantities])
         try:
-            found = [self.value(of, values) for of in wanted]
+            exact = [self.value(of, values) for of in quantities]
             for _ in range(MOST):
-                missing = (np.array([f.value for f in found]) - target) / within
+                missing = (np.array([f.value for f in exact]) - target) / within
                 if np.abs(missing).max() < ACCURACY:
                     return values
                 unit = space.units(values)
-                slopes = np.array([f.slopes for f in found]) * unit / within[:, None]
+                slopes = np.array([f.slopes for f in exact]) * unit / within[:, None]
                 move = np.linalg.lstsq(slopes, -missing, rcond=1e-8)[0]
                 move *= min(1.0, LARGEST / max(float(np.abs(move).max()), 1e-300))
                 values = values + move * unit
                 if not np.isfinite(values).all() or (np.sign(values) * np.sign(first) < 0).any():
                     return None
-                found = [self.value(of, values, near) for of, near in zip(wanted, found, strict=True)]
+                exact = [self.value(of, values, near) for of, near in zip(quantities, exact, strict=True)]
         except (QuantityLost, AnalysisError, np.linalg.LinAlgError):
             return None
         return None

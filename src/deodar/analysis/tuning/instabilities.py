@@ -110,10 +110,10 @@ class ForgettingRequirement(Requirement):
             margin = response.silent(response.after(on, _NONE))
             return np.minimum(margin, response.active(response.after(on)))
         high, low = self.at + self.within, self.at - self.within
-        on, held = FieldInput(middle=strength, boost=high), FieldInput(boost=high)
-        kept, lost = response.after(on, held), response.after(on, held, FieldInput(boost=low))
+        on, held_input = FieldInput(middle=strength, boost=high), FieldInput(boost=high)
+        kept, lost = response.after(on, held_input), response.after(on, held_input, FieldInput(boost=low))
         margin = np.minimum(response.kept(kept), response.silent(lost))
-        return np.minimum(margin, response.silent(response.after(held)))
+        return np.minimum(margin, response.silent(response.after(held_input)))
 
     def exact(self, strength: float) -> ExactQuantity | None:
         if self.at is None:

@@ -66,13 +66,13 @@ class CandidateJudge:
         return np.concatenate(parts)
 
     def _margin(self, requirement: Requirement, response: FieldResponse, n: int) -> np.ndarray:
-        found = np.asarray(requirement.margin(response), float)
-        if found.shape != (n,):
+        margin = np.asarray(requirement.margin(response), float)
+        if margin.shape != (n,):
             raise AnalysisError(
-                f"the margin of {requirement} has the shape {list(found.shape)}",
+                f"the margin of {requirement} has the shape {list(margin.shape)}",
                 fix=f"Return one number for each of the {n} candidates",
             )
-        return np.nan_to_num(found, nan=LOST, neginf=LOST)
+        return np.nan_to_num(margin, nan=LOST, neginf=LOST)
 
     def _note(self, values: np.ndarray, margins: np.ndarray, what: str) -> None:
         self.measured += len(values)
@@ -88,8 +88,8 @@ class CandidateJudge:
     def values(self, candidate: np.ndarray) -> list[float | None]:
         """Return the measured value of each requirement of one candidate."""
         response, _ = next(self._protocol.responses(candidate[None]))
-        found = [requirement.value(response) for requirement in self.request.requirements]
-        return [None if value is None else float(value[0]) for value in found]
+        measured = [requirement.value(response) for requirement in self.request.requirements]
+        return [None if value is None else float(value[0]) for value in measured]
 
 
 def losses(margins: np.ndarray) -> np.ndarray:

@@ -91,20 +91,24 @@ class TuningProtocol:
         request, isolated = self.request, self.request.isolated
         # idle lanes repeat the last candidate
         padded = np.concatenate([values, np.repeat(values[-1:], self.lanes - len(values), axis=0)])
-        own = padded.astype(self.copies.dtype)
-        constants = self._call("constants", self._parameters(own, FieldInput()))
-        states: dict[Stages, ProgramState] = {(): self._call("start", self._parameters(own, FieldInput()))}
-        known: dict[Stages, SettledBatch] = {}
+        rounded = padded.astype(self.copies.dtype)
+        constants = self._call("constants", self._parameters(rounded, FieldInput()))
+        states: dict[Stages, ProgramState] = {
+            (): self._call("start", self._parameters(rounded, FieldInput()))
+        }
+        settled: dict[Stages, SettledBatch] = {}
 
         def run(stages: Stages) -> SettledBatch:
-            if stages not in known:
+            if stages not in settled:
                 if stages[:-1] not in states:
                     run(stages[:-1])
                 before = states[stages[:-1]]
-                state, found = self._call("stage", self._parameters(own, stages[-1]), constants, before)
-                arrays = [np.asarray(array)[: len(values)] for array in found]
-                states[stages], known[stages] = state, SettledBatch(*arrays)
-            return known[stages]
+                state, arrays_of_stage = self._call(
+                    "stage", self._parameters(rounded, stages[-1]), constants, before
+                )
+                arrays = [np.asarray(array)[: len(values)] for array in arrays_of_stage]
+                states[stages], settled[stages] = state, SettledBatch(*arrays)
+            return settled[stages]
 
         number = request.threshold_of
         threshold = np.full(len(values), isolated.threshold) if number is None else values[:, number]
@@ -113,8 +117,8 @@ class TuningProtocol:
         )
 
     def _parameters(self, values: np.ndarray, inputs: FieldInput) -> np.ndarray:
-        given = np.array([getattr(inputs, name) for name in INPUTS], values.dtype)
-        return np.concatenate([values, np.tile(given, (len(values), 1))], axis=1)
+        inputs_of_field = np.array([getattr(inputs, name) for name in INPUTS], values.dtype)
+        return np.concatenate([values, np.tile(inputs_of_field, (len(values), 1))], axis=1)
 
     def _call(self, name: str, *args: Any) -> Any:
         with (
@@ -139,17 +143,17 @@ class TuningProtocol:
         """Return the states when all candidates have settled, or at the limit, and what they are."""
         threshold = self._threshold(parameters)[:, None]
 
-        def going(own: StageCarry) -> Array:
-            return (own.blocks < LEAST_BLOCKS) | ((own.blocks < self._longest) & ~own.settled.all())
+        def going(carry: StageCarry) -> Array:
+            return (carry.blocks < LEAST_BLOCKS) | ((carry.blocks < self._longest) & ~carry.settled.all())
 
-        def block(own: StageCarry) -> StageCarry:
-            begin = self._activation(own.state)
-            before, state = self.copies.run(parameters, constants, own.state, self._steps)
-            last, now = self._activation(before), self._activation(state)
-            high, higher = (now - threshold).max(-1), (begin - threshold).max(-1)
-            crossing = jnp.where(higher > 0, own.blocks + self._passed(higher, high), own.active)
-            active = jnp.where(high > 0, own.blocks + 1.0, crossing).astype(own.active.dtype)
-            return StageCarry(own.blocks + 1, state, self._settled(begin, last, now), active)
+        def block(carry: StageCarry) -> StageCarry:
+            begin = self._activation(carry.state)
+            before, state = self.copies.run(parameters, constants, carry.state, self._steps)
+            last, after = self._activation(before), self._activation(state)
+            high, higher = (after - threshold).max(-1), (begin - threshold).max(-1)
+            crossing = jnp.where(higher > 0, carry.blocks + self._passed(higher, high), carry.active)
+            active = jnp.where(high > 0, carry.blocks + 1.0, crossing).astype(carry.active.dtype)
+            return StageCarry(carry.blocks + 1, state, self._settled(begin, last, after), active)
 
         none = jnp.zeros(self.lanes, parameters.dtype)
         end = jax.lax.while_loop(going, block, StageCarry(jnp.int32(0), state, none > 0, none))
@@ -164,15 +168,15 @@ class TuningProtocol:
         of the field.
         """
         duration = self._steps * self.copies.dynamics.dt / self.request.isolated.field.tau
-        left = math.exp(-duration)
-        to = jnp.minimum((end - left * begin) / (1 - left), -1e-30)
+        decay = math.exp(-duration)
+        to = jnp.minimum((end - decay * begin) / (1 - decay), -1e-30)
         return jnp.clip(jnp.log1p(jnp.maximum(begin, 0.0) / -to) / duration, 0.0, 1.0)
 
-    def _settled(self, begin: Array, last: Array, now: Array) -> Array:
+    def _settled(self, begin: Array, last: Array, after: Array) -> Array:
         """Return whether each candidate has settled: over a block, and in its last step."""
         tau, dt = self.request.isolated.field.tau, self.copies.dynamics.dt
-        slow = jnp.abs(now - begin).max(-1) * (tau / (self._steps * dt))
-        fast = jnp.abs(now - last).max(-1) * (tau / dt)
+        slow = jnp.abs(after - begin).max(-1) * (tau / (self._steps * dt))
+        fast = jnp.abs(after - last).max(-1) * (tau / dt)
         return ~(jnp.maximum(slow, fast) > self.request.tolerance)
 
     def _threshold(self, parameters: Array) -> Array:

@@ -103,7 +103,7 @@ class TuningRequest:
     def threshold_of(self) -> int | None:
         """Which parameter is the threshold above which a peak exists; None if none is."""
         ident = find.element(self.model.document, "field").id
-        return next((k for k, own in enumerate(self.leaves) if (ident, "sigmoid.threshold") in own), None)
+        return next((k for k, leafs in enumerate(self.leaves) if (ident, "sigmoid.threshold") in leafs), None)
 
 
 def requested(
@@ -139,7 +139,7 @@ def requested(
             where=isolated.path,
             fix="Tune the same field over one axis",
         )
-    wanted = _possible(requirements, bool(isolated.axes))
+    required = _possible(requirements, bool(isolated.axes))
     small = with_inputs(isolated, model.trusted)
     small.add(Boost("boost", isolated.axes, amplitude=0.0)) >> small["field"]
     leaves = tuple(driven_alone(doc, small.document, isolated, name) for name in space.paths)
@@ -149,12 +149,12 @@ def requested(
                 f"drives the same number as {space.paths[a]}", where=space.paths[b], fix="Name one of both"
             )
     names = tuple(f"tuned {k}" for k in range(len(leaves)))
-    for name, own, value in zip(names, leaves, space.present, strict=True):
+    for name, leafs, value in zip(names, leaves, space.present, strict=True):
         small.parameter(name, float(value))
-        for ident, leaf in own:
+        for ident, leaf in leafs:
             small.link(f"{small.document.by_id()[ident].path}.{leaf}", name)
     strength = search.strength
-    amplitude = _amplitude(wanted, isolated) if strength is None else positive("strength", strength)
+    amplitude = _amplitude(required, isolated) if strength is None else positive("strength", strength)
     return TuningRequest(
         model,
         isolated,
@@ -162,7 +162,7 @@ def requested(
         space,
         names,
         leaves,
-        wanted,
+        required,
         amplitude,
         positive("limit", search.limit),
         search.seed,
@@ -182,9 +182,9 @@ def _divided(
     return isolation, SearchOptions(strength, seed, budget, limit)
 
 
-def _amplitude(wanted: Sequence[Requirement], isolated: Isolated) -> float:
+def _amplitude(required: Sequence[Requirement], isolated: Isolated) -> float:
     """Return the amplitude of the inputs: 1.2 times the detection threshold, if one is required above 0."""
-    for requirement in wanted:
+    for requirement in required:
         if isinstance(requirement, DetectionRequirement) and requirement.at > 0:
             return STRONG * requirement.at
     return STRONG * isolated.scale
@@ -192,12 +192,12 @@ def _amplitude(wanted: Sequence[Requirement], isolated: Isolated) -> float:
 
 def _possible(requirements: Sequence[Requirement], axis: bool) -> tuple[Requirement, ...]:
     """Return requirements that may be met together."""
-    wanted = () if isinstance(requirements, Requirement) else tuple(requirements)
-    if not wanted:
+    required = () if isinstance(requirements, Requirement) else tuple(requirements)
+    if not required:
         raise ParameterError(
             "no requirement is given", fix="Give one or more: [dd.detects(at=3, within=0.2), dd.remembers()]"
         )
-    for requirement in wanted:
+    for requirement in required:
         if not isinstance(requirement, Requirement):
             raise ParameterError(
                 f"expected a requirement, not {show(requirement)}",
@@ -205,9 +205,9 @@ def _possible(requirements: Sequence[Requirement], axis: bool) -> tuple[Requirem
             )
         if requirement.needs_axis and not axis:
             raise AnalysisError(f"{requirement} has no meaning on a node, which has no axis")
-    for a, b in combinations(wanted, 2):
+    for a, b in combinations(required, 2):
         if str(a) == str(b):
             raise ParameterError(f"{a} is required twice", fix="Give it once")
         if why := a.contradicts(b) or b.contradicts(a):
             raise AnalysisError(f"{a} contradicts {b}: {why}", fix="Leave one of both out, or change values")
-    return wanted
+    return required

@@ -111,5 +111,5 @@ def apart(name: str, at: float, within: float, other_at: float, other_within: fl
 
 def written(name: str, **values: object) -> str:
     """Return a requirement as it is typed; values that are None are left out."""
-    given = ", ".join(f"{k}={v:g}" for k, v in values.items() if isinstance(v, (int, float)))
-    return f"{name}({given})"
+    arguments = ", ".join(f"{k}={v:g}" for k, v in values.items() if isinstance(v, (int, float)))
+    return f"{name}({arguments})"

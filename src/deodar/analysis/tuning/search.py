@@ -42,8 +42,8 @@ def searched(judge: CandidateJudge) -> np.ndarray:
     points = rng.uniform(size=(min(FIRST, max(budget, 1)), len(space.paths)))
     # the model itself may meet everything
     points[0] = np.clip(space.cube(space.present), 0, 1)
-    found = losses(judge.margins(space.values(points), "random points"))
-    points, visited = points[np.argsort(found, kind="stable")], np.zeros((0, len(space.paths)))
+    losses_of_points = losses(judge.margins(space.values(points), "random points"))
+    points, visited = points[np.argsort(losses_of_points, kind="stable")], np.zeros((0, len(space.paths)))
     while judge.best_margins.min() < 0 and judge.measured < budget:
         start = _next(points, visited, rng)
         options = {
@@ -53,11 +53,11 @@ def searched(judge: CandidateJudge) -> np.ndarray:
             "verbose": -9,
             "maxiter": GENERATIONS,
         }
-        own = _strategy()(_inside(start), SPREAD, options)
-        while not own.stop() and judge.best_margins.min() < 0 and judge.measured < budget:
-            cubes = np.array(own.ask())
-            own.tell(list(cubes), losses(judge.margins(space.values(cubes), "search")).tolist())
-        visited = np.vstack([visited, start, own.result.xfavorite])
+        strategy = _strategy()(_inside(start), SPREAD, options)
+        while not strategy.stop() and judge.best_margins.min() < 0 and judge.measured < budget:
+            cubes = np.array(strategy.ask())
+            strategy.tell(list(cubes), losses(judge.margins(space.values(cubes), "search")).tolist())
+        visited = np.vstack([visited, start, strategy.result.xfavorite])
     return judge.best
 
 

@@ -102,12 +102,12 @@ def _exact(judge: CandidateJudge, equations: ExactField, values: np.ndarray) -> 
     Those that are given return where no stated value is reached, or others are then missed.
     """
     request = judge.request
-    wanted: list[ExactQuantity] = [
+    quantities: list[ExactQuantity] = [
         quantity for r in request.requirements if (quantity := r.exact(request.strength)) is not None
     ]
     if equations.why:
         return values
-    for some in _subsets(wanted):
+    for some in _subsets(quantities):
         best, largest, start = values, -1.0, values
         for _ in range(ROUNDS):
             exact = equations.reached(some, start)
@@ -122,10 +122,10 @@ def _exact(judge: CandidateJudge, equations: ExactField, values: np.ndarray) -> 
     return values
 
 
-def _subsets(wanted: Sequence[ExactQuantity]) -> list[list[ExactQuantity]]:
+def _subsets(quantities: Sequence[ExactQuantity]) -> list[list[ExactQuantity]]:
     """Return which quantities are tried together: all, then fewer.
 
     Widths and amplitudes are left out first: on a coarse grid they jump from one value to the next.
     """
-    ordered = sorted(wanted, key=lambda of: of.kind in ("width", "amplitude"))
+    ordered = sorted(quantities, key=lambda of: of.kind in ("width", "amplitude"))
     return [list(some) for n in range(len(ordered), 0, -1) for some in combinations(ordered, n)]

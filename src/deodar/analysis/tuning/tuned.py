@@ -93,10 +93,10 @@ class Tuned:
     def note(self) -> str:
         """A sentence for the notes of a document: what it is tuned to, and how."""
         values = ", ".join(f"{path} from {self.before[path]:g}" for path in self.values)
-        wanted = ", ".join(str(requirement) for requirement in self.requirements)
+        requirements = ", ".join(str(requirement) for requirement in self.requirements)
         met = "" if self.met else f" Not met: {', '.join(self.missed)}."
-        seed, made = self.about["seed"], deodar.__version__
-        return f"Tuned by deodar {made} (seed {seed}): {values}; for {wanted}.{met}"
+        seed, version = self.about["seed"], deodar.__version__
+        return f"Tuned by deodar {version} (seed {seed}): {values}; for {requirements}.{met}"
 
     def data(self) -> JsonObject:
         """Return everything but the model as plain data."""
@@ -126,12 +126,12 @@ class Tuned:
             state += ", interrupted"
         lines = [f"<Tuned {self.field}: {state}"]
         for name, margin in self.margins.items():
-            value = f", at {self.reached[name]:.6g}" if name in self.reached else ""
+            reached = f", at {self.reached[name]:.6g}" if name in self.reached else ""
             exactly = " exactly" if name in self.exact else ""
             lines.append(
-                f"  {'met' if margin >= 0 else 'NOT MET'}{exactly}: {name}{value}, margin {margin:.2g}"
+                f"  {'met' if margin >= 0 else 'NOT MET'}{exactly}: {name}{reached}, margin {margin:.2g}"
             )
-        lines += [f"  {path} = {value:.6g}" for path, value in self.values.items()]
+        lines += [f"  {path} = {number:.6g}" for path, number in self.values.items()]
         if self.met and self.size:
             lines.append(f"  all may move by {self.tolerated:.1%} at once ({self.size.points} random points)")
         lines += [f"  {sentence}" for sentence in self.reasons]
@@ -174,17 +174,17 @@ def result(
     reached = {n: v for n, v in zip(names, judge.values(values), strict=True) if v is not None}
     exact: list[str] = []
     sensitivity: dict[str, Mapping[str, float]] = {}
-    for name, requirement, found in zip(names, request.requirements, computed, strict=True):
-        wanted = requirement.exact(request.strength)
-        if found is None or wanted is None:
+    for name, requirement, exact_value in zip(names, request.requirements, computed, strict=True):
+        quantity = requirement.exact(request.strength)
+        if exact_value is None or quantity is None:
             continue
-        reached[name] = found.value
-        error = abs(found.value - wanted.target) / wanted.within
+        reached[name] = exact_value.value
+        error = abs(exact_value.value - quantity.target) / quantity.within
         if margins[name] >= 0:
             margins[name] = 1 - error
         if error < EXACT:
             exact.append(name)
-        slopes = found.slopes * request.space.units(values)
+        slopes = exact_value.slopes * request.space.units(values)
         sensitivity[name] = dict(zip(request.space.paths, slopes.tolist(), strict=True))
     alone = judge.alone
     return Tuned(

@@ -80,28 +80,30 @@ def tuning_file(data: Any, where: str) -> TuningFile:
     return TuningFile(
         tuple(named),
         {path: ends for path, ends in named.items() if ends is not None},
-        tuple(_requirement(one, where) for one in listed),
+        tuple(_requirement(entry, where) for entry in listed),
         {key: data[key] for key in OPTIONS if key in data},
     )
 
 
-def _requirement(one: Any, where: str) -> Requirement:
-    given = {one: {}} if isinstance(one, str) else one
-    if not isinstance(given, dict) or len(given) != 1:
-        raise DocumentError(f"{show(one)} is no requirement", where=where, fix='Write such as "remembers"')
-    ((name, values),) = given.items()
+def _requirement(entry: Any, where: str) -> Requirement:
+    call_by_name = {entry: {}} if isinstance(entry, str) else entry
+    if not isinstance(call_by_name, dict) or len(call_by_name) != 1:
+        raise DocumentError(f"{show(entry)} is no requirement", where=where, fix='Write such as "remembers"')
+    ((name, values),) = call_by_name.items()
     if name not in REQUIREMENTS:
         raise DocumentError(
             f"unknown requirement {name!r}", where=where, fix=did_you_mean(name, REQUIREMENTS)
         )
     call = REQUIREMENTS[name]
-    known = inspect.signature(call).parameters
+    parameters = inspect.signature(call).parameters
     if not isinstance(values, dict):
         raise DocumentError(f"{name} has {show(values)}; expected values by name", where=where)
     for key in values:
-        if key not in known:
-            raise DocumentError(f"{name} has no value {key!r}", where=where, fix=did_you_mean(key, known))
-    for key, parameter in known.items():
+        if key not in parameters:
+            raise DocumentError(
+                f"{name} has no value {key!r}", where=where, fix=did_you_mean(key, parameters)
+            )
+    for key, parameter in parameters.items():
         if parameter.default is inspect.Parameter.empty and key not in values:
             raise DocumentError(f"{name} lacks the value {key!r}", where=where)
     return call(**values)
