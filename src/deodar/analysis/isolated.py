@@ -103,13 +103,13 @@ class Isolated:
         """The present peaks."""
         return peaks(self.activation(), self.axes, self.threshold)
 
-    def covers(self, peaks_of_field: Peaks) -> bool:
+    def covers(self, found: Peaks) -> bool:
         """Return whether a region fills the field: three quarters of it, as borders may be inactive.
 
         Such a region does not count as a peak.
         """
         whole = math.prod(a.range for a in self.axes)
-        return bool(self.axes) and any(p.size >= WHOLE * whole for p in peaks_of_field)
+        return bool(self.axes) and any(p.size >= WHOLE * whole for p in found)
 
     def snapshot(self) -> SessionSnapshot:
         """Return the whole state, including the inputs."""
