@@ -67,7 +67,7 @@ class About:
     def to_text(self) -> str:
         """Return the description as JSON."""
         motors = {name: _signal(signal) | self.rule(name).to_data() for name, signal in self.motors.items()}
-        data: JsonObject = {
+        description: JsonObject = {
             "robot": VERSION,
             "name": self.name,
             "kind": "zenoh",
@@ -79,7 +79,7 @@ class About:
             "motors": motors,
             "of": dict(self.of),
         }
-        return codec.line(data)
+        return codec.line(description)
 
     @classmethod
     def from_text(cls, content: bytes) -> About:
@@ -93,13 +93,17 @@ class About:
                 f"a robot describes itself in {len(content)} bytes; at most {MOST_TEXT} are read"
             )
         try:
-            data = codec.read(content)
+            parsed = codec.read(content)
         except DeodarError as error:
             raise WorldError(f"what a robot says of itself {error.problems[0].what}") from None
-        if not isinstance(data, dict) or data.get("robot") != VERSION:
+        if not isinstance(parsed, dict) or parsed.get("robot") != VERSION:
             raise WorldError(f"what a robot says of itself is not version {VERSION} of a robot")
-        given = cast("dict[str, Any]", data)
-        name, clock, period = given.get("name"), given.get("clock", "live"), given.get("period")
+        description = cast("dict[str, Any]", parsed)
+        name, clock, period = (
+            description.get("name"),
+            description.get("clock", "live"),
+            description.get("period"),
+        )
         if not isinstance(name, str) or not name or not is_text(name):
             raise WorldError(f"the name of a robot is {show(name)}; expected text")
         if clock not in CLOCKS:
@@ -107,13 +111,15 @@ class About:
         step = None if period is None else real(period)
         if period is not None and (step is None or not 0 < step < math.inf):
             raise WorldError(f"the period is {show(period)}; expected ms above 0", where=name)
-        if clock == "step" and given.get("reads") is not True:
+        if clock == "step" and description.get("reads") is not True:
             raise WorldError("a robot with the clock step has to answer `begin` and `read`", where=name)
-        sensors, motors = (_signals(given.get(what), f"{name} {what}") for what in ("sensors", "motors"))
-        entries = cast("dict[str, dict[str, Any]]", given.get("motors") or {})
+        sensors, motors = (
+            _signals(description.get(kind), f"{name} {kind}") for kind in ("sensors", "motors")
+        )
+        entries = cast("dict[str, dict[str, Any]]", description.get("motors") or {})
         rules = {motor: MotorRule.from_data(entries[motor], f"{name} {motor}") for motor in motors}
-        flags = given.get("repeatable") is True, given.get("reads") is True
-        of = given.get("of")
+        flags = description.get("repeatable") is True, description.get("reads") is True
+        of = description.get("of")
         return cls(name, clock, step, sensors, motors, rules, *flags, of if isinstance(of, dict) else {})
 
 
@@ -140,57 +146,57 @@ def requests_to_data(requests: Requests) -> list[Json]:
     ]
 
 
-def requests_from_data(data: Any, known: Mapping[str, Signal]) -> list[tuple[str, Axes]]:
+def requests_from_data(data: Any, sensors: Mapping[str, Signal]) -> list[tuple[str, Axes]]:
     """Read requests.
 
     Raises:
         WorldError: they are not requests, or the robot has no such sensor.
     """
-    found: list[tuple[str, Axes]] = []
+    requests: list[tuple[str, Axes]] = []
     try:
         for sensor, axes in data:
-            if sensor not in known:
-                raise WorldError(f"there is no sensor {show(sensor)}", fix=did_you_mean(str(sensor), known))
-            found.append((sensor, tuple(Axis(*values) for values in axes)))
+            if sensor not in sensors:
+                raise WorldError(f"there is no sensor {show(sensor)}", fix=did_you_mean(str(sensor), sensors))
+            requests.append((sensor, tuple(Axis(*values) for values in axes)))
     except (TypeError, ValueError):
         raise WorldError("is not a list of sensors and their axes") from None
-    return found
+    return requests
 
 
 def _signal(signal: Signal) -> JsonObject:
-    data: JsonObject = {"meaning": signal.meaning, "unit": signal.unit}
-    data["shape"] = None if signal.shape is None else list(signal.shape)
+    description: JsonObject = {"meaning": signal.meaning, "unit": signal.unit}
+    description["shape"] = None if signal.shape is None else list(signal.shape)
     if signal.period is not None:
-        data["period"] = signal.period
+        description["period"] = signal.period
     if signal.each:
-        data["each"] = True
+        description["each"] = True
     if signal.bounds is not None:
-        data["bounds"] = [list(pair) for pair in signal.bounds]
-    return data
+        description["bounds"] = [list(pair) for pair in signal.bounds]
+    return description
 
 
-def _signals(data: Any, where: str) -> dict[str, Signal]:
-    if not isinstance(data or {}, dict):
-        raise WorldError(f"is {show(data)}; expected signals by name", where=where)
-    entries = cast("dict[str, Any]", data or {})
+def _signals(signals: Any, where: str) -> dict[str, Signal]:
+    if not isinstance(signals or {}, dict):
+        raise WorldError(f"is {show(signals)}; expected signals by name", where=where)
+    entries = cast("dict[str, Any]", signals or {})
     return {name: _read_signal(name, entry, where) for name, entry in entries.items()}
 
 
-def _read_signal(name: str, data: Any, where: str) -> Signal:
+def _read_signal(name: str, entry: Any, where: str) -> Signal:
     place = f"{where}.{name}"
-    if not isinstance(data, dict):
-        raise WorldError(f"is {show(data)}; expected the description of a signal", where=place)
-    given = cast("dict[str, Any]", data)
-    shape, period, bounds = given.get("shape"), given.get("period"), given.get("bounds")
+    if not isinstance(entry, dict):
+        raise WorldError(f"is {show(entry)}; expected the description of a signal", where=place)
+    description = cast("dict[str, Any]", entry)
+    shape, period, bounds = description.get("shape"), description.get("period"), description.get("bounds")
     sizes = _sizes(shape, place)
     step = None if period is None else real(period)
     if period is not None and (step is None or not 0 < step < math.inf):
         raise WorldError(f"period is {show(period)}; expected ms above 0", where=place)
     pairs = _pairs(bounds, place)
-    words = [given.get(what, "") for what in ("meaning", "unit")]
+    words = [description.get(label, "") for label in ("meaning", "unit")]
     if not all(isinstance(word, str) and is_text(word) for word in words):
         raise WorldError("its meaning and unit are text", where=place)
-    return Signal(words[0], sizes, words[1], step, given.get("each") is True, pairs)
+    return Signal(words[0], sizes, words[1], step, description.get("each") is True, pairs)
 
 
 def _sizes(shape: Any, place: str) -> tuple[int, ...] | None:

@@ -86,8 +86,8 @@ class CommandInbox:
             if refused:
                 return
             lead = 1 if self._copies == 1 else 0
-            value = message.array[None] if lead else message.array
-            self._newest[motor] = Command(value, message.sequence, time.monotonic())
+            numbers = message.array[None] if lead else message.array
+            self._newest[motor] = Command(numbers, message.sequence, time.monotonic())
             self.stamp = message.stamp
         self._check()
 

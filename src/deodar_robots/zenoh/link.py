@@ -42,15 +42,15 @@ def require_endpoint(text: str, trusted: bool = False, files: TlsFiles = NO_FILE
         WorldError: the text is not an endpoint, it leads to another host without encryption or trust, or
             certificates are stated for an endpoint without TLS.
     """
-    found = _ENDPOINT.fullmatch(text)
-    if found is None or int(found[3]) > 65535:
+    match = _ENDPOINT.fullmatch(text)
+    if match is None or int(match[3]) > 65535:
         raise WorldError(f"{text!r} is not an endpoint", fix=f"Write it as {HERE}, or tls/HOST:PORT")
-    if found[1] == "tls":
+    if match[1] == "tls":
         return text
-    place = f"{found[2]}:{found[3]}"
+    place = f"{match[2]}:{match[3]}"
     if files:
         raise WorldError(f"{text} uses no certificates", fix=f"Write tls/{place}")
-    if found[2] not in LOCAL and not trusted:
+    if match[2] not in LOCAL and not trusted:
         raise WorldError(
             f"{text} leads beyond this machine, without encryption",
             fix=f"Write tls/{place} and state certificates; in a network of your own state that you trust it:"
@@ -87,13 +87,13 @@ def connect(endpoint: str, patience: float, files: TlsFiles = NO_FILES, router: 
     try:
         return zenoh.open(config)
     except zenoh.ZError:
-        what, fix = why_not(scheme, host, port, files, max(0.1, 0.1 * patience))
+        fault, fix = why_not(scheme, host, port, files, max(0.1, 0.1 * patience))
         who, start = "robot", "Start the robot, for example: deodar serve arena:blocks"
         if router:
             who, start = "router of ROS 2", "Start it: ros2 run rmw_zenoh_cpp rmw_zenohd"
         raise WorldError(
-            what or f"no {who} answers at {endpoint} within {patience:g} s",
-            where=endpoint if what else "",
+            fault or f"no {who} answers at {endpoint} within {patience:g} s",
+            where=endpoint if fault else "",
             fix=fix or start,
         ) from None
 
@@ -125,9 +125,9 @@ def listen(endpoint: str, files: TlsFiles = NO_FILES, router: bool = False) -> A
 
 def _parts(endpoint: str) -> tuple[str, str, int]:
     """Return scheme, host and port."""
-    found = _ENDPOINT.fullmatch(endpoint)
-    assert found is not None, "the endpoint was checked before"
-    return found[1], found[2], int(found[3])
+    match = _ENDPOINT.fullmatch(endpoint)
+    assert match is not None, "the endpoint was checked before"
+    return match[1], match[2], int(match[3])
 
 
 def callback(take: Callable[[Any], None], end: Callable[[], None] | None = None) -> Any:

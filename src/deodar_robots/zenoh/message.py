@@ -113,12 +113,12 @@ def unbundle(raw: bytes) -> list[WireMessage]:
     Raises:
         BadMessage: the bytes are not a bundle of messages.
     """
-    found: list[WireMessage] = []
+    messages: list[WireMessage] = []
     start = 0
     while start < len(raw):
         if len(raw) - start < 4:
             raise BadMessage("ends inside a length")
         (length,) = struct.unpack_from("<I", raw, start)
-        found.append(WireMessage.from_bytes(raw[start + 4 : start + 4 + length]))
+        messages.append(WireMessage.from_bytes(raw[start + 4 : start + 4 + length]))
         start += 4 + length
-    return found
+    return messages

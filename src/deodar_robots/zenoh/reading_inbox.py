@@ -26,7 +26,7 @@ class ReadingInbox:
     def __init__(self) -> None:
         self._changed = threading.Condition()
         self._newest: dict[str, tuple[WireMessage, float]] = {}
-        self._wanted: frozenset[str] | None = None
+        self._keys: frozenset[str] | None = None
         self._error = ""
         self._heard = time.monotonic()
         self._last = 0
@@ -38,33 +38,33 @@ class ReadingInbox:
     def want(self, keys: Sequence[str]) -> None:
         """Keep the readings of these keys alone."""
         with self._changed:
-            self._wanted = frozenset(keys)
-            self._newest = {k: v for k, v in self._newest.items() if k in self._wanted}
+            self._keys = frozenset(keys)
+            self._newest = {k: v for k, v in self._newest.items() if k in self._keys}
 
     def begin(self) -> None:
         """Forget all readings."""
         with self._changed:
             self._newest.clear()
-            self._wanted, self._error, self._last, self.stamp = frozenset(), "", 0, 0
+            self._keys, self._error, self._last, self.stamp = frozenset(), "", 0, 0
             self._heard = time.monotonic()
 
     def offer(self, where: str, raw: bytes) -> None:
         """Take a reading, or count that it is refused."""
-        now = time.monotonic()
+        moment = time.monotonic()
         try:
             message = WireMessage.from_bytes(raw)
         except BadMessage:
             message = None
         with self._changed:
-            if self._wanted is not None and where not in self._wanted:
+            if self._keys is not None and where not in self._keys:
                 return
             last = self._newest.get(where)
             back = message is not None and last is not None and message.sequence <= last[0].sequence
             if message is None or back or not message.finite:
                 self._refused += 1
                 return
-            self._newest[where] = message, now
-            self._heard = now
+            self._newest[where] = message, moment
+            self._heard = moment
             self._changed.notify_all()
 
     def add(self, where: str, message: WireMessage) -> None:
@@ -122,8 +122,8 @@ class ReadingInbox:
         """Return whether all these readings, of a period or a later one, are there within some seconds."""
 
         def complete() -> bool:
-            found = [self._newest.get(k) for k in keys]
-            return all(f is not None and f[0].sequence >= sequence for f in found)
+            newest = [self._newest.get(k) for k in keys]
+            return all(f is not None and f[0].sequence >= sequence for f in newest)
 
         with self._changed:
             self._changed.wait_for(lambda: self.gone or bool(self._error) or complete(), seconds)
@@ -132,8 +132,11 @@ class ReadingInbox:
     def reading(self, where: str) -> tuple[np.ndarray, int, float] | None:
         """Return the newest reading of a key, the number of its period, and its age in s."""
         with self._changed:
-            found = self._newest.get(where)
-            return None if found is None else (found[0].array, found[0].sequence, time.monotonic() - found[1])
+            newest = self._newest.get(where)
+            if newest is None:
+                return None
+            message, arrived = newest
+            return message.array, message.sequence, time.monotonic() - arrived
 
     def period(self) -> int:
         """Return the number of the last period that ended."""

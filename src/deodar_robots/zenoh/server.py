@@ -86,7 +86,7 @@ class WorldServer:
         self._readings: list[np.ndarray] | None = None
         self._limiter = MotorLimiter(self.about.motors, self.about.rules)
         self._driven: dict[str, np.ndarray] = {}
-        self._sequence, self._now = 0, 0.0
+        self._sequence, self._moment = 0, 0.0
         self._copies = 1
         self._dtype = np.dtype(np.float32)
         self._deferred: Any = None
@@ -138,11 +138,11 @@ class WorldServer:
             inbox.halt(bytes(sample.payload))
 
         def query(kind: str) -> Callable[[Any], None]:
-            def put(asked: Any) -> None:
+            def put(request: Any) -> None:
                 if events.qsize() < MOST_WAITING:
-                    events.put((kind, asked))
+                    events.put((kind, request))
                 else:
-                    asked.reply_err("the robot is busy")
+                    request.reply_err("the robot is busy")
 
             return put
 
@@ -152,11 +152,11 @@ class WorldServer:
                 inbox.begin(0)
 
         session, about = self._session, key(robot, "about")
-        self._kept = [
+        self._declared = [
             session.declare_subscriber(key(robot, "motor") + "/*", link.callback(command)),
             session.declare_subscriber(key(robot, "step"), link.callback(end)),
             session.declare_subscriber(key(robot, "halt"), link.callback(halt)),
-            session.declare_queryable(about, link.callback(lambda asked: asked.reply(about, text))),
+            session.declare_queryable(about, link.callback(lambda request: request.reply(about, text))),
             *(session.declare_queryable(key(robot, kind), link.callback(query(kind))) for kind in QUERIES),
             session.liveliness().declare_subscriber(key(robot, "commander") + "/*", link.callback(gone)),
             session.liveliness().declare_token(key(robot, "alive")),
@@ -167,23 +167,23 @@ class WorldServer:
     def _handle(self, seconds: float) -> None:
         """Handle the next event, if one comes in time."""
         try:
-            kind, given = self._events.get(timeout=max(0.0, seconds))
+            kind, event = self._events.get(timeout=max(0.0, seconds))
         except queue.Empty:
             return
         if kind == "step":
-            self._step(*given)
+            self._step(*event)
             return
         try:
-            answer = getattr(self, f"_{kind}")(given)
+            answer = getattr(self, f"_{kind}")(event)
             if answer is not None:
-                given.reply(given.key_expr, answer)
+                event.reply(event.key_expr, answer)
         except (DeodarError, BadMessage) as error:
-            given.reply_err(str(error))
+            event.reply_err(str(error))
 
-    def _begin(self, asked: Any) -> str:
+    def _begin(self, query: Any) -> str:
         """Accept a commander, and reset a world that waits for it."""
-        given = _object(asked)
-        number, who = given.get("commander"), given.get("who")
+        request = _object(query)
+        number, who = request.get("commander"), request.get("who")
         if type(number) is not int or not 0 < number < 2**64 or not isinstance(who, str):
             raise WorldError("a commander states its number and who it is")
         if self._inbox.commander not in (0, number):
@@ -192,7 +192,7 @@ class WorldServer:
             )
         copies = 1
         if self.about.clock == "step":
-            trials, seed, precision = (given.get(name) for name in ("trials", "seed", "precision"))
+            trials, seed, precision = (request.get(name) for name in ("trials", "seed", "precision"))
             if not isinstance(trials, list) or not all(type(t) is int for t in trials) or not trials:
                 raise WorldError(f"trials is {show(trials)}; expected whole numbers")
             if type(seed) is not int or precision not in ("float32", "float64"):
@@ -207,37 +207,37 @@ class WorldServer:
         self._inbox.begin(number, copies)
         return codec.line({"clock": self.about.clock})
 
-    def _read(self, asked: Any) -> bytes | None:
+    def _read(self, query: Any) -> bytes | None:
         """Return readings over any axes, and publish them from now on."""
-        given = _object(asked)
-        if given.get("commander") != self._inbox.commander:
+        request = _object(query)
+        if request.get("commander") != self._inbox.commander:
             raise WorldError("only the commander chooses what is read")
-        after = given.get("sequence", 0)
+        after = request.get("sequence", 0)
         if self.about.clock == "step" and type(after) is int and after > self._sequence:
-            self._deferred = asked  # its step is on its way
+            self._deferred = query  # its step is on its way
             return None
-        requests = requests_from_data(given.get("requests"), self.world.sensors)
+        requests = requests_from_data(request.get("requests"), self.world.sensors)
         if sum(8 * int(np.prod(shape(axes), dtype=float)) for _, axes in requests) > MOST_BYTES:
             raise WorldError("more is read than a message carries")
-        time = real(given.get("time", 0.0))
+        time = real(request.get("time", 0.0))
         if time is None or not math.isfinite(time):
-            raise WorldError(f"time is {show(given['time'])}; expected a finite number")
+            raise WorldError(f"time is {show(request['time'])}; expected a finite number")
         readings = self._sensed(requests, time)
-        if given.get("watch", True):
+        if request.get("watch", True):
             self._requests, self._readings = requests, readings
         return bundle(self._messages(requests, readings, time))
 
-    def _keep(self, asked: Any) -> bytes:
+    def _keep(self, query: Any) -> bytes:
         """Return the state of the world."""
         with errors_of(self.world, "keep"):
             leaves = jax.tree.leaves([self.world.keep(), self._limiter.keep()])
         return bundle([WireMessage(_numbers(leaf)) for leaf in leaves])
 
-    def _put(self, asked: Any) -> str:
+    def _put(self, query: Any) -> str:
         """Restore a state that `_keep` returned."""
         if self.about.clock != "step":
             raise WorldError("the state of a live robot cannot be restored")
-        leaves = [message.array for message in unbundle(bytes(asked.payload or b""))]
+        leaves = [message.array for message in unbundle(bytes(query.payload or b""))]
         with errors_of(self.world, "keep"):
             structure = [self.world.keep(), self._limiter.keep()]
         old, form = jax.tree.flatten(structure)
@@ -245,9 +245,9 @@ class WorldServer:
             isinstance(b, str) or np.shape(b) == a.shape for a, b in zip(leaves, old, strict=True)
         ):
             raise WorldError("is not a state of this robot")
-        kept = [_leaf(a, b) for a, b in zip(leaves, old, strict=True)]
+        restored = [_leaf(a, b) for a, b in zip(leaves, old, strict=True)]
         with errors_of(self.world, "put"):
-            world, commands = jax.tree.unflatten(form, kept)
+            world, commands = jax.tree.unflatten(form, restored)
             self.world.put(world)
         self._limiter.put(commands)
         self._readings = None
@@ -271,8 +271,8 @@ class WorldServer:
         self._sequence = sequence
         self._publish_readings(readings, after)
         if self._deferred is not None:
-            asked, self._deferred = self._deferred, None
-            self._events.put(("read", asked))
+            query, self._deferred = self._deferred, None
+            self._events.put(("read", query))
 
     def _advanced(
         self, commands: Mapping[str, np.ndarray], start: float, after: float
@@ -300,8 +300,8 @@ class WorldServer:
         start, due = time.monotonic(), time.monotonic()
         try:
             while not stopped():
-                while (left := due - time.monotonic()) > 0:
-                    self._handle(min(left, 0.1))
+                while (wait := due - time.monotonic()) > 0:
+                    self._handle(min(wait, 0.1))
                 self._live_period(1000 * (due - start))
                 due += period
                 behind = time.monotonic() - due
@@ -312,7 +312,7 @@ class WorldServer:
             self._publish("error", str(error).encode())
             raise
 
-    def _live_period(self, now: float) -> None:
+    def _live_period(self, moment: float) -> None:
         """Advance by a period with the newest commands; a motor without a fresh one is at rest.
 
         A motor that was never commanded gets no command, as in a run in one process.
@@ -328,35 +328,35 @@ class WorldServer:
             elif motor in self._driven:
                 commands[motor] = rule.at_rest(self._driven[motor])
                 self._limiter.rest(motor)
-        self._now = after = now + (self.about.period or 0.0)
-        self._publish_readings(self._advanced(commands, now, after), after)
+        self._moment = after = moment + (self.about.period or 0.0)
+        self._publish_readings(self._advanced(commands, moment, after), after)
 
     def _rest(self) -> None:
         """Send the command at rest to all motors that were commanded."""
         self._inbox.begin(0)
-        self._live_period(self._now)
+        self._live_period(self._moment)
 
     # --------------------------------------------------------------------------------------- what is sent
 
-    def _publish_readings(self, readings: Sequence[np.ndarray], now: float) -> None:
+    def _publish_readings(self, readings: Sequence[np.ndarray], moment: float) -> None:
         keys = reading_keys(self.about.name, self._requests)
-        for where, message in zip(keys, self._messages(self._requests, readings, now), strict=True):
+        for where, message in zip(keys, self._messages(self._requests, readings, moment), strict=True):
             self._put_at(where, message.to_bytes())
-        done = WireMessage(np.zeros(()), self._sequence, now, time.monotonic_ns(), self._inbox.stamp)
+        done = WireMessage(np.zeros(()), self._sequence, moment, time.monotonic_ns(), self._inbox.stamp)
         self._publish("period", done.to_bytes())
 
     def _messages(
-        self, requests: Sequence[tuple[str, Axes]], readings: Sequence[np.ndarray], now: float
+        self, requests: Sequence[tuple[str, Axes]], readings: Sequence[np.ndarray], moment: float
     ) -> list[WireMessage]:
         """Return the messages of readings; without the axis of copies if there is one copy."""
         stamp, parts = time.monotonic_ns(), len(requests)
-        found: list[WireMessage] = []
+        messages: list[WireMessage] = []
         for (sensor, _), reading in zip(requests, readings, strict=True):
             signal = self.world.sensors.get(sensor, Signal(sensor))
             array = np.asarray(reading)
             array = array[0] if signal.each and self._copies == 1 else array
-            found.append(WireMessage(array, self._sequence, now, stamp, self._inbox.stamp, parts=parts))
-        return found
+            messages.append(WireMessage(array, self._sequence, moment, stamp, self._inbox.stamp, parts=parts))
+        return messages
 
     def _publish(self, part: str, raw: bytes) -> None:
         self._put_at(key(self.about.name, part), raw)
@@ -376,14 +376,18 @@ def _numbers(leaf: Any) -> np.ndarray:
     return np.frombuffer(leaf.encode(), np.uint8) if isinstance(leaf, str) else np.asarray(leaf)
 
 
-def _leaf(numbers: np.ndarray, like: Any) -> Any:
+def _leaf(numbers: np.ndarray, template: Any) -> Any:
     """Return a part of a state from its array, of the type that it had."""
-    if isinstance(like, str):
+    if isinstance(template, str):
         try:
             return numbers.astype(np.uint8).tobytes().decode()
         except UnicodeDecodeError:
             raise WorldError("is not a state of this robot") from None
-    return numbers if isinstance(like, (np.ndarray, np.generic, jax.Array)) else type(like)(numbers.item())
+    return (
+        numbers
+        if isinstance(template, (np.ndarray, np.generic, jax.Array))
+        else type(template)(numbers.item())
+    )
 
 
 def free_name(world: World) -> str:
@@ -394,9 +398,9 @@ def free_name(world: World) -> str:
     return stated if isinstance(stated, str) and stated else f"{type(world).__name__.lower()}-{os.getpid()}"
 
 
-def _object(asked: Any) -> dict[str, Any]:
+def _object(query: Any) -> dict[str, Any]:
     """Return the object that a query holds."""
-    given = codec.read(bytes(asked.payload or b""))
-    if not isinstance(given, dict):
+    content = codec.read(bytes(query.payload or b""))
+    if not isinstance(content, dict):
         raise WorldError("a query holds an object")
-    return cast("dict[str, Any]", given)
+    return cast("dict[str, Any]", content)

@@ -52,13 +52,13 @@ class TlsFiles:
                 fix="State both: --certificate robot.pem --key robot.key",
             )
         self.context()
-        found: dict[str, Json] = {
+        settings: dict[str, Json] = {
             f"{_KEYS}listen_certificate": self.certificate,
             f"{_KEYS}listen_private_key": self.private_key,
         }
         if self.authority:
-            found |= {f"{_KEYS}root_ca_certificate": self.authority, f"{_KEYS}enable_mtls": True}
-        return found
+            settings |= {f"{_KEYS}root_ca_certificate": self.authority, f"{_KEYS}enable_mtls": True}
+        return settings
 
     def of_client(self) -> dict[str, Json]:
         """Return the settings of Zenoh for the side that connects.
@@ -72,17 +72,17 @@ class TlsFiles:
                 fix='State it: authority="authority.pem"',
             )
         self.context()
-        found: dict[str, Json] = {
+        settings: dict[str, Json] = {
             f"{_KEYS}root_ca_certificate": self.authority,
             f"{_KEYS}verify_name_on_connect": True,
         }
         if self.certificate:
-            found |= {
+            settings |= {
                 f"{_KEYS}connect_certificate": self.certificate,
                 f"{_KEYS}connect_private_key": self.private_key,
                 f"{_KEYS}enable_mtls": True,
             }
-        return found
+        return settings
 
     def context(self) -> ssl.SSLContext:
         """Return a context of Python's TLS with these files.
@@ -107,8 +107,10 @@ class TlsFiles:
                 context.load_cert_chain(self.certificate, self.private_key, password=lambda: b"")
         except (ssl.SSLError, OSError) as error:
             mismatch = isinstance(error, ssl.SSLError) and error.reason == "KEY_VALUES_MISMATCH"
-            what = "is not the private key of" if mismatch else "is not a private key without a password, for"
-            raise WorldError(f"{what} a certificate in {self.certificate}", where=self.private_key) from None
+            fault = (
+                "is not the private key of" if mismatch else "is not a private key without a password, for"
+            )
+            raise WorldError(f"{fault} a certificate in {self.certificate}", where=self.private_key) from None
         return context
 
 

@@ -116,27 +116,27 @@ class Zenoh(World):
         self._publishers: dict[str, Any] = {}
         self._close = weakref.finalize(self, session.close)
         try:
-            self.about = self._found(robot)
+            self.about = self._robot_named(robot)
             self._limiter = MotorLimiter(self.about.motors, self.about.rules)
             self._declare()
         except BaseException:
             self._close()
             raise
 
-    def _found(self, robot: str) -> About:
+    def _robot_named(self, robot: str) -> About:
         """Return the robot of a name, or the only one."""
         named = key(robot, "about") if robot else "*/about"
         limit = time.monotonic() + max(self.patience, 0.2)
-        found: list[About] = []
-        while not found and time.monotonic() < limit:
+        robots: list[About] = []
+        while not robots and time.monotonic() < limit:
             replies = self._session.get(named, timeout=max(self.patience, 0.2))
-            found = [About.from_text(bytes(r.ok.payload)) for r in replies if r.ok is not None]
-            if not found:
+            robots = [About.from_text(bytes(r.ok.payload)) for r in replies if r.ok is not None]
+            if not robots:
                 time.sleep(0.02)
-        names = sorted(about.name for about in found)
-        if len(found) == 1:
-            return found[0]
-        if not found and robot:
+        names = sorted(about.name for about in robots)
+        if len(robots) == 1:
+            return robots[0]
+        if not robots and robot:
             others = [
                 About.from_text(bytes(r.ok.payload)).name
                 for r in self._session.get("*/about", timeout=self.patience)
@@ -144,7 +144,7 @@ class Zenoh(World):
             ]
             hint = did_you_mean(robot, others)
             raise WorldError(f"no robot called {robot!r} is at {self.at}", fix=hint)
-        if not found:
+        if not robots:
             raise WorldError(f"no robot is at {self.at}", fix="Start one: deodar serve arena:blocks")
         if len(set(names)) < len(names):
             raise WorldError(f"two robots at {self.at} have one name, {names[0]!r}", fix="Rename one of them")
@@ -160,14 +160,14 @@ class Zenoh(World):
             if sample.kind == zenoh.SampleKind.DELETE:
                 inbox.leave()
 
-        def told(take: Callable[[bytes], None]) -> Any:
+        def passed_to(take: Callable[[bytes], None]) -> Any:
             return link.callback(lambda sample: take(bytes(sample.payload)))
 
-        self._kept = [
+        self._declared = [
             session.declare_subscriber(key(robot, "sensor") + "/**", link.callback(reading)),
-            session.declare_subscriber(key(robot, "period"), told(inbox.end)),
+            session.declare_subscriber(key(robot, "period"), passed_to(inbox.end)),
             session.declare_subscriber(
-                key(robot, "error"), told(lambda raw: inbox.fail(raw.decode(errors="replace")))
+                key(robot, "error"), passed_to(lambda raw: inbox.fail(raw.decode(errors="replace")))
             ),
             session.liveliness().declare_subscriber(key(robot, "alive"), link.callback(gone), history=True),
             session.liveliness().declare_token(key(robot, "commander", f"{self._commander:x}")),
@@ -184,10 +184,10 @@ class Zenoh(World):
         if not self._close.alive or self._inbox.gone:
             self._again()
         self._inbox.begin()
-        asked: JsonObject = {"commander": self._commander, "who": _who(), "seed": int(seed)}
-        asked |= {"trials": [int(t) for t in trials], "precision": str(precision)}
+        request: JsonObject = {"commander": self._commander, "who": _who(), "seed": int(seed)}
+        request |= {"trials": [int(t) for t in trials], "precision": str(precision)}
         if self.about.reads:  # a robot without deodar has nothing to begin
-            self._ask("begin", codec.line(asked).encode())
+            self._ask("begin", codec.line(request).encode())
             self._inbox.begin()  # a message of the run before may have come meanwhile
         # a live robot is one, whatever the number of copies
         self._copies = len(trials) if self.about.clock == "step" else 1
@@ -200,11 +200,11 @@ class Zenoh(World):
         self._close()
         self._inbox = ReadingInbox()
         self._connect(self.robot)
-        for what in ("sensors", "motors", "period", "clock"):
-            if getattr(before, what) != getattr(self.about, what):
+        for attribute in ("sensors", "motors", "period", "clock"):
+            if getattr(before, attribute) != getattr(self.about, attribute):
                 self.close()
                 raise WorldError(
-                    f"the robot {self.robot!r} has other {what} than before", fix="Open the world again"
+                    f"the robot {self.robot!r} has other {attribute} than before", fix="Open the world again"
                 )
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
@@ -213,26 +213,26 @@ class Zenoh(World):
     def sense_all(self, requests: Sequence[tuple[str, Axes]], time: float) -> list[np.ndarray]:
         for sensor, _ in requests:
             self.require(sensor)
-        wanted = [(sensor, tuple(axes)) for sensor, axes in requests]
+        requested = [(sensor, tuple(axes)) for sensor, axes in requests]
         if self.about.clock == "live":
-            return self._newest(wanted, time)
+            return self._newest(requested, time)
         self._wait()
-        if self._requests == wanted and self._sequence > self._read_at:
-            keys = reading_keys(self.robot, wanted)
+        if self._requests == requested and self._sequence > self._read_at:
+            keys = reading_keys(self.robot, requested)
             self._until(lambda seconds: self._inbox.wait_for(keys, seconds, self._sequence))
-            found = [self._inbox.reading(k) for k in keys]
-            return [self._incoming(s, r[0]) for (s, _), r in zip(wanted, found, strict=True) if r]
-        return self._read(wanted, time)
+            readings = [self._inbox.reading(k) for k in keys]
+            return [self._incoming(s, r[0]) for (s, _), r in zip(requested, readings, strict=True) if r]
+        return self._read(requested, time)
 
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
         self._require_there()
         self._wait()
         self._sequence += 1
-        for motor, given in motors.items():
+        for motor, command in motors.items():
             self.require_motor(motor)
-            value = np.asarray(self._limiter.allowed(motor, given, self.period or 0.0))
+            allowed = np.asarray(self._limiter.allowed(motor, command, self.period or 0.0))
             where = key(self.robot, "motor", motor)
-            self._send(where, value[0] if self._copies == 1 else value, time)
+            self._send(where, allowed[0] if self._copies == 1 else allowed, time)
         self._send(key(self.robot, "step"), np.zeros(()), time, len(motors))
 
     def halt(self) -> None:
@@ -240,38 +240,38 @@ class Zenoh(World):
             self._limiter.rest()
             self._send(key(self.robot, "halt"), np.zeros(()), 0.0)
 
-    def _newest(self, wanted: Sequence[tuple[str, Axes]], now: float) -> list[np.ndarray]:
+    def _newest(self, requests: Sequence[tuple[str, Axes]], time: float) -> list[np.ndarray]:
         """Return the newest readings of a live robot, none of them older than the patience."""
         self._require_there()
-        keys = reading_keys(self.robot, wanted)
-        if self._requests != wanted:
+        keys = reading_keys(self.robot, requests)
+        if self._requests != requests:
             if self.about.reads:
-                return self._read(wanted, now)
+                return self._read(requests, time)
             self._inbox.want(keys)
-            self._requests = list(wanted)
+            self._requests = list(requests)
         self._inbox.wait_for(keys, self.patience)
         self._require_there()
         readings: list[np.ndarray] = []
-        for (sensor, _), where in zip(wanted, keys, strict=True):
-            found = self._inbox.reading(where)
+        for (sensor, _), where in zip(requests, keys, strict=True):
+            newest = self._inbox.reading(where)
             slow = (self.sensors[sensor].period or 0.0) / 1000
-            if found is None or found[2] > self.patience + slow:
-                raise self._silent(found[2] if found else self.patience, sensor)
-            readings.append(self._incoming(sensor, found[0]))
+            if newest is None or newest[2] > self.patience + slow:
+                raise self._silent(newest[2] if newest else self.patience, sensor)
+            readings.append(self._incoming(sensor, newest[0]))
         return readings
 
-    def _read(self, wanted: Sequence[tuple[str, Axes]], time: float) -> list[np.ndarray]:
+    def _read(self, requests: Sequence[tuple[str, Axes]], time: float) -> list[np.ndarray]:
         """Read sensors now, and receive them after each period from now on."""
-        keys = reading_keys(self.robot, wanted)
+        keys = reading_keys(self.robot, requests)
         self._inbox.want(keys)
-        self._requests, self._read_at = list(wanted), self._sequence
-        asked: JsonObject = {"commander": self._commander, "requests": requests_to_data(wanted)}
-        asked |= {"sequence": self._sequence, "time": time}
-        messages = unbundle(self._ask("read", codec.line(asked).encode()))
+        self._requests, self._read_at = list(requests), self._sequence
+        question: JsonObject = {"commander": self._commander, "requests": requests_to_data(requests)}
+        question |= {"sequence": self._sequence, "time": time}
+        messages = unbundle(self._ask("read", codec.line(question).encode()))
         if self.about.clock == "live":
             for where, message in zip(keys, messages, strict=True):
                 self._inbox.add(where, message)
-        return [self._incoming(s, m.array) for (s, _), m in zip(wanted, messages, strict=True)]
+        return [self._incoming(s, m.array) for (s, _), m in zip(requests, messages, strict=True)]
 
     def _incoming(self, sensor: str, array: np.ndarray) -> np.ndarray:
         return array[None] if self.sensors[sensor].each and self._copies == 1 else array
@@ -302,8 +302,8 @@ class Zenoh(World):
         limit = time.monotonic() + SLOWEST
         while not wait(self.patience):
             self._require_there()
-            about = self._session.get(key(self.robot, "about"), timeout=self.patience)
-            if not any(reply.ok is not None for reply in about) or time.monotonic() > limit:
+            replies = self._session.get(key(self.robot, "about"), timeout=self.patience)
+            if not any(reply.ok is not None for reply in replies) or time.monotonic() > limit:
                 raise self._silent(self._inbox.age())
         self._require_there()
 
@@ -322,26 +322,26 @@ class Zenoh(World):
             )
 
     def _silent(self, age: float, sensor: str = "") -> WorldError:
-        what = f" shows nothing new of {sensor!r}" if sensor else " is silent"
+        state = f" shows nothing new of {sensor!r}" if sensor else " is silent"
         return WorldError(
-            f"the robot {self.robot!r}{what}; its last message came {age:.2f} s ago, and the patience is"
+            f"the robot {self.robot!r}{state}; its last message came {age:.2f} s ago, and the patience is"
             f" {self.patience:g} s. Its motors stop by themselves",
             fix="Look after it, then reset the run",
         )
 
-    def _ask(self, what: str, payload: bytes) -> bytes:
+    def _ask(self, kind: str, payload: bytes) -> bytes:
         """Ask the robot, and wait for its answer as long as it is there."""
         answers: list[Any] = []
         ended = threading.Event()
         handler = link.callback(answers.append, ended.set)
-        self._session.get(key(self.robot, what), handler, payload=payload, timeout=SLOWEST)
+        self._session.get(key(self.robot, kind), handler, payload=payload, timeout=SLOWEST)
         begun, self._begun = self._begun, True
         try:
             self._until(ended.wait)
         finally:
             self._begun = begun
         if not answers:
-            raise WorldError(f"the robot {self.robot!r} does not answer {what!r}")
+            raise WorldError(f"the robot {self.robot!r} does not answer {kind!r}")
         if answers[0].err is not None:
             raise WorldError(bytes(answers[0].err.payload).decode(errors="replace"), where=self.robot)
         return bytes(answers[0].ok.payload)
@@ -385,10 +385,10 @@ class Zenoh(World):
         `authority=FILE`; the name `*` is the only robot there.
         """
         name, *pieces = (piece.strip() for piece in argument.split(","))
-        found = named(pieces, ("at", "patience", *FILES), argument)
-        patience = float(numeric("patience", found.get("patience", "0.5"), argument))
-        files = (found.get(file, "") for file in FILES)
-        return cls("" if name == "*" else name, found.get("at", link.HERE), patience, False, *files)
+        settings = named(pieces, ("at", "patience", *FILES), argument)
+        patience = float(numeric("patience", settings.get("patience", "0.5"), argument))
+        files = (settings.get(file, "") for file in FILES)
+        return cls("" if name == "*" else name, settings.get("at", link.HERE), patience, False, *files)
 
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> Zenoh:
