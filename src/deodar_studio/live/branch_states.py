@@ -57,27 +57,27 @@ class BranchStates:
         self._interval, self._most = interval, most
         self._stored: list[_BranchState] = []
         self._reader = JournalReader()
-        self._wall, self._now, self._due = 0.0, 0.0, 0.0
+        self._wall, self._followed_at, self._due = 0.0, 0.0, 0.0
         self._too_large = 0
 
     @property
     def nbytes(self) -> int:
         """Sum of the sizes of the stored states."""
-        return sum(one.nbytes for one in self._stored)
+        return sum(state.nbytes for state in self._stored)
 
     @property
     def ticks(self) -> list[int]:
         """Ticks of the stored states."""
-        return [one.tick for one in self._stored]
+        return [state.tick for state in self._stored]
 
     def follow(self, session: Session) -> None:
         """Store the changes of the session since the last call, and its state if one is due.
 
         Call it before steps are taken.
         """
-        now = time.perf_counter()
-        self._wall += min(now - self._now, PAUSE) if self._stored else 0.0
-        self._now = now
+        moment = time.perf_counter()
+        self._wall += min(moment - self._followed_at, PAUSE) if self._stored else 0.0
+        self._followed_at = moment
         self.note(session)
         waits = session.next_dt != session.dt  # a snapshot does not hold a step that is still to come
         if self._too_large or waits or (self._stored and self._wall < self._due):
@@ -91,7 +91,7 @@ class BranchStates:
             self._stored.clear()
             return
         self._stored.append(_BranchState(snapshot, session.world, self._wall, nbytes))
-        self._due = self._wall + max(self._interval, (time.perf_counter() - now) / SHARE)
+        self._due = self._wall + max(self._interval, (time.perf_counter() - moment) / SHARE)
         while len(self._stored) > 1 and self._stored[1].wall < self._wall - SECONDS:
             self._stored.pop(0)
         while self.nbytes > self._most:
@@ -134,7 +134,7 @@ class BranchStates:
 
     def _require(self, session: Session, k: int | None) -> None:
         """Raise RecordError if a moment cannot be computed again."""
-        worlds = {session.world, *(one.world for one in self._stored)}
+        worlds = {session.world, *(state.world for state in self._stored)}
         live = next((world for world in worlds if world is not None and not world.repeatable), None)
         if live is not None:
             raise RecordError(
@@ -159,7 +159,7 @@ class BranchStates:
         if len(self._stored) <= 2:
             self._stored.pop(0)
             return
-        walls = np.array([one.wall for one in self._stored])
+        walls = np.array([state.wall for state in self._stored])
         gaps, ages = walls[2:] - walls[:-2], self._wall - walls[1:-1]
         k = int(np.argmin(gaps / np.maximum(ages, 1e-9))) + 1
         self._stored[k - 1].changes += self._stored.pop(k).changes
@@ -167,10 +167,10 @@ class BranchStates:
 
 def size(snapshot: SessionSnapshot) -> int:
     """Return the bytes of the arrays of a snapshot, each counted once."""
-    own = [array for pair in snapshot.states.values() for row in pair for array in row.values()]
+    of_elements = [array for pair in snapshot.states.values() for row in pair for array in row.values()]
     theirs = [] if snapshot.world is None else jax.tree.leaves(snapshot.world.world)
     bases: dict[int, int] = {}
-    for array in [*own, *(leaf for leaf in theirs if hasattr(leaf, "nbytes"))]:
+    for array in [*of_elements, *(leaf for leaf in theirs if hasattr(leaf, "nbytes"))]:
         base = array
         while isinstance(base, np.ndarray) and isinstance(base.base, np.ndarray):
             base = base.base

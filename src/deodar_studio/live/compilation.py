@@ -50,9 +50,9 @@ class CompileTimes:
     def start(self, document: Document) -> Compilation:
         """Begin a compilation."""
         size = _size(document)
-        near = min(self.known, key=lambda other: _distance(size, other), default=None)
-        alike = near is not None and _distance(size, near) <= math.log(ALIKE)
-        return Compilation(self.known[near] if near is not None and alike else None)
+        closest = min(self.known, key=lambda past_size: _distance(size, past_size), default=None)
+        alike = closest is not None and _distance(size, closest) <= math.log(ALIKE)
+        return Compilation(self.known[closest] if closest is not None and alike else None)
 
     def took(self, document: Document, seconds: float) -> None:
         """Store the time of a program that was not in the cache."""
@@ -66,5 +66,5 @@ def _size(document: Document) -> int:
     return 1 + len(document.entries) + len(document.connections)
 
 
-def _distance(size: int, other: int) -> float:
-    return abs(math.log(size / other))
+def _distance(size: int, past_size: int) -> float:
+    return abs(math.log(size / past_size))

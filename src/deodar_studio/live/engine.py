@@ -79,9 +79,9 @@ class Engine:
         self._calls: queue.SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = queue.SimpleQueue()
         self._wake = threading.Event()
         self._closed = False
-        self._wanted = True
+        self._requested = True
         self._stale = True
-        self._shown = 0.0
+        self._published_at = 0.0
         self._places: frozenset[PortKey] = frozenset()
         self._readers: list[PortReader] = []
         self._reader: PortReader | None = None
@@ -120,7 +120,7 @@ class Engine:
 
     def want(self) -> None:
         """Request another state; none is published without a request."""
-        self._wanted = True
+        self._requested = True
         self._wake.set()
 
     def close(self) -> None:
@@ -189,19 +189,19 @@ class Engine:
         Raises:
             RecordError: the moment cannot be computed again.
         """
-        session, found = self._require(), self.ring.at(time)
-        if found is None:
+        session, published = self._require(), self.ring.at(time)
+        if published is None:
             raise ModelError("The run has no moment to continue from", fix="Start it first")
-        shown = found[1]
+        state = published[1]
         self.play(False)
         try:
-            self.states.branch(session, shown.tick, self._report)
+            self.states.branch(session, state.tick, self._report)
         finally:
             self.busy, self._stale = "compiling" if self._target else "", True
         self.busy, self._target, self.injection = "", None, None
-        self.ring = self.ring.until(shown.tick)
-        self.traces = {request: trace.until(shown.time) for request, trace in self.traces.items()}
-        self.track.back(session, shown.trail, shown.passed)
+        self.ring = self.ring.until(state.tick)
+        self.traces = {request: trace.until(state.time) for request, trace in self.traces.items()}
+        self.track.back(session, state.trail, state.passed)
         if session.next_dt != session.document.step:  # a step that was lengthened
             session.dt = session.document.step
         self._make()
@@ -281,8 +281,8 @@ class Engine:
         if self.cost_report.measuring:
             return
         self.cost_report, at = CostReport(True, self.cost_report.costs), session.moment()
-        found = self._compiler.submit(lambda: costs(at))
-        found.add_done_callback(
+        measurement = self._compiler.submit(lambda: costs(at))
+        measurement.add_done_callback(
             lambda future: self._closed or self.call(lambda: self._billed(session, future))
         )
 
@@ -308,8 +308,8 @@ class Engine:
     def show(self, places: Iterable[PortKey], requests: Iterable[TraceRequest]) -> None:
         """Set the places that shots contain from now on, and the time courses that are sampled."""
         self._places = frozenset(places)
-        known = self.traces
-        self.traces = {r: known[r] if r in known else self._trace_so_far(r) for r in requests}
+        traces = self.traces
+        self.traces = {r: traces[r] if r in traces else self._trace_so_far(r) for r in requests}
         self._make()
         self._stale = True
 
@@ -343,7 +343,7 @@ class Engine:
         session = self.session
         if session is None or not (self.running or self._steps):
             self._halt()
-            return 0.02 if self._stale and self._wanted else 0.5
+            return 0.02 if self._stale and self._requested else 0.5
         if self._steps and self._making is not None and self._target is None:
             return 0.02  # time courses that were just requested shall have these steps
         n = min(self._steps, self.pace.most(session)) if self._steps else self.pace.due(session)
@@ -434,11 +434,11 @@ class Engine:
 
     def _publish(self) -> None:
         """Publish the state if it changed, one was requested, and the last one is older than FRAME."""
-        now = time.perf_counter()
-        if not (self._stale and self._wanted) or now - self._shown < FRAME:
+        wall = time.perf_counter()
+        if not (self._stale and self._requested) or wall - self._published_at < FRAME:
             return
         # before the state is published, because its readers may request the next one at once
-        self._stale, self._wanted = False, False
+        self._stale, self._requested = False, False
         session, seen = self.session, self._reader
         arrays: Mapping[PortKey, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
@@ -450,8 +450,8 @@ class Engine:
             self.published.number + 1, *moment, arrays, track.scene, track.trail, len(track.trail.places)
         )
         if session is not None and (arrays or not self._places):  # else their reader is being compiled
-            self.ring.add(self.published, now)
-        self._shown = now
+            self.ring.add(self.published, wall)
+        self._published_at = wall
         self._changed()
 
     def _fail(self, error: Exception) -> None:
@@ -480,38 +480,42 @@ class Engine:
         if session is None or self._making is not None:
             return
         model, document = self._target or (None, session.document)
-        wanted = (self._places, frozenset(request.place for request in self.traces))
-        known, program = list(self._readers), session.program
+        places_read = (self._places, frozenset(request.place for request in self.traces))
+        readers, program = list(self._readers), session.program
 
         compilation = self.compile_times.start(document)
 
         def make() -> tuple[Any, list[PortReader]]:
-            made = program
+            compiled = program
             if model is not None:
-                made = session.compiled(document, model)
+                compiled = session.compiled(document, model)
                 compilation.phase = "compiling"
-                session.precompile(made)
-                if made.compiled:
+                session.precompile(compiled)
+                if compiled.compiled:
                     self.compile_times.took(document, compilation.elapsed)
-            return made, [_found(known, made, places) or port_reader(made, places) for places in wanted]
+            return compiled, [
+                _found(readers, compiled, places) or port_reader(compiled, places) for places in places_read
+            ]
 
-        there = [_found(known, program, places) for places in wanted]
-        if model is None and there[0] is not None and there[1] is not None:
-            self._reader, self._sample = there[0], there[1]
+        fitting = [_found(readers, program, places) for places in places_read]
+        if model is None and fitting[0] is not None and fitting[1] is not None:
+            self._reader, self._sample = fitting[0], fitting[1]
             self._take_first(session)
             return
         if model is not None:
             self.busy, self.compilation = "compiling", compilation
         self._making = self._compiler.submit(make)
         self._making.add_done_callback(
-            lambda future: self._closed or self.call(lambda: self._made(session, document, wanted, future))
+            lambda future: (
+                self._closed or self.call(lambda: self._take_compiled(session, document, places_read, future))
+            )
         )
 
-    def _made(
+    def _take_compiled(
         self,
         session: Session,
         document: Document,
-        wanted: tuple[frozenset[PortKey], ...],
+        places_read: tuple[frozenset[PortKey], ...],
         future: Future[Any],
     ) -> None:
         self._making, self.busy, self._stale = None, "", True
@@ -521,7 +525,7 @@ class Engine:
         try:
             program, (at_shown, at_sampled) = future.result()
             self._readers = [
-                *(known for known in self._readers if known not in (at_shown, at_sampled)),
+                *(reader for reader in self._readers if reader not in (at_shown, at_sampled)),
                 at_shown,
                 at_sampled,
             ][-MOST_LOOKS:]
@@ -539,15 +543,15 @@ class Engine:
         if session.program is program:
             self._reader, self._sample = at_shown, at_sampled
             self._take_first(session)
-        now = (self._places, frozenset(request.place for request in self.traces))
-        if self._target is not None or now != wanted or session.program is not program:
+        places_now = (self._places, frozenset(request.place for request in self.traces))
+        if self._target is not None or places_now != places_read or session.program is not program:
             self._make()
         return None
 
 
-def _found(known: Sequence[PortReader], program: Any, places: Iterable[PortKey]) -> PortReader | None:
+def _found(readers: Sequence[PortReader], program: Any, places: Iterable[PortKey]) -> PortReader | None:
     """Return a known `PortReader` of a program that reads exactly the groups of these places, or None."""
-    return next((one for one in known if one.program is program and one.fits(places)), None)
+    return next((reader for reader in readers if reader.program is program and reader.fits(places)), None)
 
 
 def said(error: BaseException) -> tuple[Problem, ...]:

@@ -66,17 +66,17 @@ class StateRing:
         """Add a state at the wall time `now`; it replaces the last one if no step was taken between them."""
         with self._lock:
             last = self._stored[-1] if self._stored else None
-            known = {} if last is None else last.state.arrays
-            own = {place: _own(array, known.get(place)) for place, array in state.arrays.items()}
-            stored = _Stored(self._sharing(state, own, last), self._wall)
+            before = {} if last is None else last.state.arrays
+            arrays = {place: _own(array, before.get(place)) for place, array in state.arrays.items()}
+            stored = _Stored(self._sharing(state, arrays, last), self._wall)
             if last is not None and last.state.tick == state.tick:
                 stored.thinned = last.thinned
-                self._count(own, 1)
+                self._count(arrays, 1)
                 self._remove(-1)
             else:
                 self._wall += min(now - self._added, PAUSE) if last is not None else 0.0
                 stored.wall = self._wall
-                self._count(own, 1)
+                self._count(arrays, 1)
             self._added = now
             self._stored.append(stored)
             while self._stored[0].wall < self._wall - self._seconds:
@@ -110,29 +110,29 @@ class StateRing:
     def states(self) -> list[PublishedState]:
         """Return all stored states in order of time."""
         with self._lock:
-            return [one.state for one in self._stored]
+            return [stored.state for stored in self._stored]
 
     def until(self, tick: int) -> StateRing:
         """Return a new ring with the states up to a tick."""
         ring = StateRing(self._seconds, self._most)
         with self._lock:
-            for one in self._stored:
-                if one.state.tick <= tick:
-                    ring._stored.append(dc.replace(one))
-                    ring._count(one.state.arrays, 1)
+            for stored in self._stored:
+                if stored.state.tick <= tick:
+                    ring._stored.append(dc.replace(stored))
+                    ring._count(stored.state.arrays, 1)
             ring._wall = ring._stored[-1].wall if ring._stored else 0.0
             ring._added = self._added
         return ring
 
     def _sharing(
-        self, state: PublishedState, own: Mapping[PortKey, np.ndarray], last: _Stored | None
+        self, state: PublishedState, arrays: Mapping[PortKey, np.ndarray], last: _Stored | None
     ) -> PublishedState:
         scene, before = state.scene, None if last is None else last.state.scene
         if scene is not None and before is not None:
             boxes = before.boxes if before.boxes == scene.boxes else scene.boxes
             marks = before.marks if before.marks == scene.marks else scene.marks
             scene = dc.replace(scene, boxes=boxes, marks=marks)
-        return dc.replace(state, arrays=own, scene=scene)
+        return dc.replace(state, arrays=arrays, scene=scene)
 
     def _count(self, arrays: Mapping[PortKey, np.ndarray], by: int) -> None:
         for array in arrays.values():
@@ -151,16 +151,16 @@ class StateRing:
         if len(self._stored) <= 2:
             self._remove(0)
             return
-        walls = np.array([one.wall for one in self._stored])
+        walls = np.array([stored.wall for stored in self._stored])
         gaps, ages = walls[2:] - walls[:-2], walls[-1] - walls[1:-1]
         k = int(np.argmin(gaps / np.maximum(ages, 1e-9))) + 1
         self._stored[k + 1].thinned = True
         self._remove(k)
 
 
-def _own(array: np.ndarray, known: np.ndarray | None) -> np.ndarray:
+def _own(array: np.ndarray, before: np.ndarray | None) -> np.ndarray:
     """Return a copy in single precision, or the known array if that has the same values."""
-    if known is not None and known.shape == array.shape:
+    if before is not None and before.shape == array.shape:
         same = array.astype(np.float32) if array.dtype != np.float32 else array
-        return known if np.array_equal(known, same) else np.array(same)
+        return before if np.array_equal(before, same) else np.array(same)
     return np.array(array, np.float32)

@@ -44,11 +44,13 @@ class Section:
         axes = distinct(axes)
         chosen, cut = self._chosen(axes), dict(self.at)
         lead = array.ndim - len(axes)
-        rest = [d for d in range(len(axes)) if d not in chosen]
-        array = array.transpose(*range(lead), *(lead + d for d in (*chosen, *rest)))
+        cut_away = [d for d in range(len(axes)) if d not in chosen]
+        array = array.transpose(*range(lead), *(lead + d for d in (*chosen, *cut_away)))
         array = array[
             (slice(None),) * (lead + len(chosen))
-            + tuple(nearest(axes[d], cut[axes[d].name]) if axes[d].name in cut else slice(None) for d in rest)
+            + tuple(
+                nearest(axes[d], cut[axes[d].name]) if axes[d].name in cut else slice(None) for d in cut_away
+            )
         ]
         over = tuple(range(lead + len(chosen), array.ndim))
         return array.max(axis=over) if over else array

@@ -89,9 +89,9 @@ class Trace:
     def until(self, time: float) -> Trace:
         """Return a new time course with the samples up to a time."""
         trace = Trace()
-        for at, value in self.since(0):
+        for at, sample in self.since(0):
             if at <= time:
-                trace.add(at, value)
+                trace.add(at, sample)
         return trace
 
 
@@ -108,11 +108,11 @@ def extremes(values: np.ndarray, first: int, interval: int) -> np.ndarray:
         return np.arange(len(values))
     low, high = (np.where(np.isnan(values), bad, values) for bad in (np.inf, -np.inf))
     begins = np.arange(-(first % interval), len(values), interval)
-    found: set[int] = set()
+    places: set[int] = set()
     for begin in np.maximum(begins, 0).tolist():
         end = begin + interval - (first + begin) % interval
-        found |= {begin + int(low[begin:end].argmin()), begin + int(high[begin:end].argmax())}
-    return np.asarray(sorted(found), int)
+        places |= {begin + int(low[begin:end].argmin()), begin + int(high[begin:end].argmax())}
+    return np.asarray(sorted(places), int)
 
 
 def farthest(
@@ -135,13 +135,13 @@ def farthest(
     for moments, values in parts:
         begins = np.maximum(np.arange(-(first % interval), len(values), interval), 0)
         low, high = (f.reduceat(values, begins, axis=0) for f in (np.fmin, np.fmax))
-        kept = list(farther(low, high, median))
+        thinned = list(farther(low, high, median))
         if rows and first % interval:  # the first of them began in the part before
-            both = np.stack([rows.pop(), kept[0]])
-            kept[0] = farther(np.fmin.reduce(both), np.fmax.reduce(both), median)
+            parted = np.stack([rows.pop(), thinned[0]])
+            thinned[0] = farther(np.fmin.reduce(parted), np.fmax.reduce(parted), median)
             begins = begins[1:]
         times += moments[begins].tolist()
-        rows += kept
+        rows += thinned
         yield times[:-1], rows[:-1]
         times, rows, first = times[-1:], rows[-1:], first + len(values)
     yield times, rows

@@ -57,21 +57,21 @@ class Track:
             self.scene, self.trail, self._of = None, Trail(), None
             return
         left, low, right, high = scene.border
-        now: Positions = tuple(v for body in scene.bodies for v in body.center)
-        known = self._of is not None and self._of[0] is session and self._of[1] is session.world
+        positions: Positions = tuple(v for body in scene.bodies for v in body.center)
+        is_same_run = self._of is not None and self._of[0] is session and self._of[1] is session.world
         if (
-            not known
+            not is_same_run
             or session.time < self._time
-            or (self.trail.places and len(self.trail.places[-1]) != len(now))
+            or (self.trail.places and len(self.trail.places[-1]) != len(positions))
         ):
             self.trail = Trail(fine=FINE * max(right - left, high - low))
         self._of, self._time = (session, session.world), session.time
         last = self.trail.places[-1] if self.trail.places else None
         if last is None or any(
-            math.hypot(now[k] - last[k], now[k + 1] - last[k + 1]) >= self.trail.fine
-            for k in range(0, len(now), 2)
+            math.hypot(positions[k] - last[k], positions[k + 1] - last[k + 1]) >= self.trail.fine
+            for k in range(0, len(positions), 2)
         ):
             if len(self.trail.places) >= MOST:
                 self.trail = Trail(self.trail.places[::2], 2 * self.trail.fine)
-            self.trail.places.append(now)
+            self.trail.places.append(positions)
         self.scene = scene
