@@ -48,7 +48,7 @@ def test_a_signature_is_printed_as_valid_python() -> None:
     )
     assert str(inspect.signature(dd.Gain)).endswith("*, name: str = '')")
     assert str(inspect.signature(dd.Experiment)).startswith(
-        "(name: str, model: object, limit: float, trials: int = 1, conditions: Sequence[Event] = (), "
+        "(name: str, model: object, plan: TrialPlan, trials: int = 1, factors: Sequence[Factor] = (), *, "
     )
 
 
