@@ -106,7 +106,7 @@ def requested(
             f"a map has two parameters, not {len(over)}",
             fix="Name both: {'u.resting_level': (-8, -2, 50), 'u.global_inhibition': (0, 1, 50)}",
         )
-    values = {name: _values(doc, name, wished) for name, wished in over.items()}
+    values = {name: _values(doc, name, points) for name, points in over.items()}
     isolated = isolate(model, path, **isolation)
     if len(isolated.axes) > 1:
         raise AnalysisError(
@@ -170,30 +170,30 @@ def positive(name: str, value: Any) -> float:
     return number
 
 
-def _values(doc: Document, path: str, wished: Any) -> np.ndarray:
+def _values(doc: Document, path: str, points: Any) -> np.ndarray:
     """Return the values of one parameter, in growing order: given as such, or as (low, high, n)."""
     driven(doc, path)
     try:
-        numbers = np.asarray(wished, float)
+        numbers = np.asarray(points, float)
     except (TypeError, ValueError):
         numbers = np.zeros((0, 0))
     if numbers.ndim != 1:
         raise ParameterError(
-            f"the values are {show(wished)}; expected numbers, or (low, high, n)", where=path
+            f"the values are {show(points)}; expected numbers, or (low, high, n)", where=path
         )
-    if isinstance(wished, tuple) and len(numbers) == 3:
+    if isinstance(points, tuple) and len(numbers) == 3:
         low, high, n = (float(number) for number in numbers)
         if not float(n).is_integer() or n < 2:
             raise ParameterError(f"n is {n:g}; a map needs 2 or more values of each parameter", where=path)
         numbers = np.linspace(low, high, int(n))
     if not np.isfinite(numbers).all():
-        raise ParameterError(f"the values {show(wished)} are not all finite numbers", where=path)
+        raise ParameterError(f"the values {show(points)} are not all finite numbers", where=path)
     if len(numbers) < 2:
         raise ParameterError(
             f"has {len(numbers)} values; a map needs 2 or more of each parameter", where=path
         )
     if not (np.diff(numbers) > 0).all():
-        raise ParameterError(f"the values {show(wished)} do not grow from each to the next", where=path)
+        raise ParameterError(f"the values {show(points)} do not grow from each to the next", where=path)
     for number in (numbers[0], numbers[-1]):
         edit.change(doc, path, float(number))
     return numbers
