@@ -140,10 +140,10 @@ def test_an_experiment_with_a_measure_of_a_package_is_written_and_batched(
         == (json.loads(experiment.read_text())["measures"])
     )
     assert "Width" in json.dumps(dd.Experiment.schema()["properties"]["measures"])
-    together = dataclasses.replace(loaded, world="", conditions=(), trials=2, measures=loaded.measures[1:])
-    together = dataclasses.replace(together, model=_without_eye(tmp_path))
+    plan = dataclasses.replace(loaded.plan, events=(), measures=loaded.plan.measures[1:])
+    together = dataclasses.replace(loaded, world="", plan=plan, trials=2, model=_without_eye(tmp_path))
     assert together.setup().batched
-    alone = run_alone(together.model, 30, measures=together.measures)
+    alone = run_alone(together.model, 30, measures=plan.measures)
     assert together.run()["width"].values.tolist() == [alone.measures["width"]] * 2
 
 
