@@ -397,8 +397,8 @@ class ClusterPool:
         differ = [name for name in named if here_made.get(name) != worker.get(name)]
         if differ:
             there, mine = (
-                ", ".join(f"{name} {found.get(name, 'missing')}" for name in differ)
-                for found in (worker, here_made)
+                ", ".join(f"{name} {versions.get(name, 'missing')}" for name in differ)
+                for versions in (worker, here_made)
             )
             raise WorkerError(
                 f"{who} has {there}, and this process {mine}", fix="Install the same versions everywhere"

@@ -124,8 +124,8 @@ class Bifurcation:
 
 def live_numbers(of: RightHandSide) -> list[str]:
     """Return the paths of all numbers on which the steady states of a model may depend."""
-    linked: set[Leaf] = {(link[0], link[1]) for known in of.doc.parameters for link in known.links}
-    paths = [known.name for known in of.doc.parameters if known.links]
+    linked: set[Leaf] = {(link[0], link[1]) for shared in of.doc.parameters for link in shared.links}
+    paths = [shared.name for shared in of.doc.parameters if shared.links]
     for entry in of.doc.entries:
         for leaf, _, parameter in leaves(entry.element):
             if parameter.form != "array" and (entry.id, leaf) not in linked and _counts(leaf):

@@ -220,7 +220,7 @@ class ExactField:
                 values = values + move * unit
                 if not np.isfinite(values).all() or (np.sign(values) * np.sign(first) < 0).any():
                     return None
-                exact = [self.value(of, values, near) for of, near in zip(quantities, exact, strict=True)]
+                exact = [self.value(of, values, last) for of, last in zip(quantities, exact, strict=True)]
         except (QuantityLost, AnalysisError, np.linalg.LinAlgError):
             return None
         return None

@@ -54,9 +54,9 @@ class ReverseRequirement(Requirement):
     def margin(self, response: FieldResponse) -> np.ndarray:
         on = FieldInput(middle=response.strength if self.strength is None else self.strength)
         held = FieldInput(middle=self.at + self.within)
-        kept = response.after(on, held)
+        memory = response.after(on, held)
         lost = response.after(on, held, FieldInput(middle=self.at - self.within))
-        margin = np.minimum(response.kept(kept), response.silent(lost))
+        margin = np.minimum(response.kept(memory), response.silent(lost))
         return np.minimum(margin, response.active(response.after(on)))
 
     def exact(self, strength: float) -> ExactQuantity:
@@ -111,8 +111,8 @@ class ForgettingRequirement(Requirement):
             return np.minimum(margin, response.active(response.after(on)))
         high, low = self.at + self.within, self.at - self.within
         on, held_input = FieldInput(middle=strength, boost=high), FieldInput(boost=high)
-        kept, lost = response.after(on, held_input), response.after(on, held_input, FieldInput(boost=low))
-        margin = np.minimum(response.kept(kept), response.silent(lost))
+        memory, lost = response.after(on, held_input), response.after(on, held_input, FieldInput(boost=low))
+        margin = np.minimum(response.kept(memory), response.silent(lost))
         return np.minimum(margin, response.silent(response.after(held_input)))
 
     def exact(self, strength: float) -> ExactQuantity | None:
