@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import signal
 import sys
-import threading
-from collections.abc import Generator
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
+from deodar.session.interrupt import interrupted_by_sigterm
 
 if TYPE_CHECKING:
     from deodar.session.recorder import Recorder
@@ -104,26 +101,6 @@ def run(args: argparse.Namespace) -> int:
     if stopped:
         print(f"deodar run: {_options.paragraph([stopped])}", file=sys.stderr)
     return 1 if stopped else 0
-
-
-@contextlib.contextmanager
-def interrupted_by_sigterm() -> Generator[None]:
-    """End the run at SIGTERM as at Ctrl-C, so that a robot is put to rest."""
-    if threading.current_thread() is not threading.main_thread():  # no other one receives signals
-        yield
-        return
-
-    def end(number: int, frame: FrameType | None) -> None:
-        handler = signal.getsignal(signal.SIGINT)
-        if not callable(handler):  # a script that starts a command with `&` makes it ignore SIGINT
-            raise KeyboardInterrupt
-        handler(signal.SIGINT, frame)
-
-    before = signal.signal(signal.SIGTERM, end)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 def _refuse(args: argparse.Namespace) -> None:

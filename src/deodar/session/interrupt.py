@@ -49,3 +49,28 @@ def stoppable(across: bool = False) -> Generator[Callable[[], None]]:
         yield check
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@contextlib.contextmanager
+def interrupted_by_sigterm() -> Generator[list[int]]:
+    """Let SIGTERM interrupt as Ctrl-C does, so that a robot is put to rest; yield the list of those received.
+
+    Outside the main thread it does nothing.
+    """
+    received: list[int] = []
+
+    def end(number: int, frame: FrameType | None) -> None:
+        received.append(number)
+        handler = signal.getsignal(signal.SIGINT)
+        if not callable(handler):  # a script that starts a command with `&` makes it ignore SIGINT
+            raise KeyboardInterrupt
+        handler(signal.SIGINT, frame)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield received
+        return
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield received
+    finally:
+        signal.signal(signal.SIGTERM, before)

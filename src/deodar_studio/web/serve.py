@@ -5,17 +5,16 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
-import signal
 import socket
 import sys
 import webbrowser
 from collections.abc import Callable, Generator
-from types import FrameType
 from urllib.parse import urlsplit
 
 import uvicorn
 
 from deodar.errors import OutputError
+from deodar.session.interrupt import interrupted_by_sigterm
 from deodar_studio.access import token as tokens
 from deodar_studio.access.guard import is_local
 from deodar_studio.access.redirect_file import RedirectFile
@@ -67,20 +66,10 @@ def serve(service: Service, browser: bool, say: Callable[[str], None]) -> bool:
         for redirect in redirects:
             redirect.remove()
 
-    received: list[int] = []
-
-    def terminated(number: int, frame: FrameType | None) -> None:
-        received.append(number)
-        raise KeyboardInterrupt
-
     server, bound = prepare(service, ready, ended)
     # the server passes a signal on after it has closed; Ctrl-C is the normal end
-    before = signal.signal(signal.SIGTERM, terminated)
-    try:
-        with contextlib.suppress(KeyboardInterrupt), short_turns():
-            server.run(sockets=[bound])
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    with interrupted_by_sigterm() as received, contextlib.suppress(KeyboardInterrupt), short_turns():
+        server.run(sockets=[bound])
     return bool(received)
 
 

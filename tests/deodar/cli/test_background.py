@@ -12,13 +12,13 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
-from deodar.cli import _live
+from deodar.session.interrupt import interrupted_by_sigterm
 
 
 def test_sigterm_interrupts_also_before_the_first_step_where_sigint_is_ignored() -> None:
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        with pytest.raises(KeyboardInterrupt), _live.interrupted_by_sigterm():
+        with pytest.raises(KeyboardInterrupt), interrupted_by_sigterm():
             signal.raise_signal(signal.SIGTERM)
     finally:
         signal.signal(signal.SIGINT, before)
