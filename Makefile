@@ -15,7 +15,7 @@ demo: .venv/installed
 test: .venv/installed-test
 	$(MAKE) -j 3 types verdict lint page smoke
 
-# everything, nothing twice
+# everything: the verdict, then the others and new examples of properties
 whole:
 	$(MAKE) test
 	$(MAKE) rest
@@ -46,7 +46,7 @@ browser: studio
 
 # a verdict in about a minute
 fast: .venv/installed-test
-	$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder -m fast
+	$(BIN)/python tools/suite.py fast
 
 # Python by ruff and by the limits of tools/measure.py and tools/names.py, the page by prettier and biome
 lint: .venv/installed-test

@@ -110,10 +110,11 @@ def pytest_configure(config: pytest.Config) -> None:
     flags = os.environ.get("XLA_FLAGS", "").split()
     if not config.getoption("--default-programs"):
         os.environ["XLA_FLAGS"] = " ".join(dict.fromkeys((*flags, *QUICK_PROGRAMS)))
-    config.pluginmanager.register(durations.Meter())
-    if not hasattr(config, "workerinput"):
-        keep, required = (config.getoption(f"--{name}-durations") for name in ("write", "require"))
-        config.pluginmanager.register(durations.Durations(keep, required))
+    keep, required = (config.getoption(f"--{name}-durations") for name in ("write", "require"))
+    if keep or required:
+        config.pluginmanager.register(durations.Meter())
+        if not hasattr(config, "workerinput"):
+            config.pluginmanager.register(durations.Durations(keep))
 
 
 @pytest.hookimpl(wrapper=True)

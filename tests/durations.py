@@ -147,10 +147,10 @@ class Meter:
 
 
 class Durations:
-    """Collect what a `Meter` attached to reports, here or in other processes."""
+    """Collect what a `Meter` attached to reports, here or in other processes; write it, or require rows."""
 
-    def __init__(self, keep: bool, required: bool) -> None:
-        self.keep, self.required = keep, required
+    def __init__(self, keep: bool) -> None:
+        self.keep = keep
         self.seconds: Counter[str] = Counter()
         self.shared: dict[str, Counter[str]] = defaultdict(Counter)
         """Seconds of each fixture in each process, which makes its own."""
@@ -183,11 +183,11 @@ class Durations:
         yield
         if self.keep:
             write(self.rows())
-        elif self.required and self.unlisted(read()) and session.exitstatus == 0:
+        elif self.unlisted(read()) and session.exitstatus == 0:
             session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        if self.required and (names := self.unlisted(read())):
+        if not self.keep and (names := self.unlisted(read())):
             paths = " ".join(sorted({name.split("::")[0] for name in names}))
             terminalreporter.write_line(
                 f"No row in {FILE.name} has {', '.join(names)}, which took more than {UNMEASURED:g} s of CPU "

@@ -436,7 +436,7 @@ def stored() -> Iterator[Figure]:
 def tests() -> Iterator[Figure]:
     """Wall time of the tests, called as `make` calls them; the limits are for two idle cores."""
     for what, most, calls in (
-        ("pytest -m fast", 60, [suite.FAST]),
+        ("pytest -m fast", 60, suite.calls("fast")),
         ("the verdict", 240, suite.calls("verdict")),
         ("the whole suite", 720, suite.calls("whole")),
     ):

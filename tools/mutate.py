@@ -23,6 +23,7 @@ from __future__ import annotations
 import argparse
 import ast
 import builtins
+import contextlib
 import csv
 import dataclasses as dc
 import importlib.machinery
@@ -414,22 +415,19 @@ def raising(text: str) -> str | None:
 
 def lowest(root: Path, file: str, found: Calls) -> str | None:
     """Return the cheapest test function that calls a file and fails when its public functions raise."""
-    path = root / file
-    text = path.read_text(encoding="utf-8")
-    changed = raising(text)
+    changed = raising((root / file).read_text(encoding="utf-8"))
+    if changed is None:
+        return None
     cases: dict[str, list[str]] = {}
     for test, (_, called) in found.items():
         # the tests may be later than the map
         if any(call.startswith(f"{file}:") for call in called) and defined(root, test):
             cases.setdefault(test.split("[")[0], []).append(test)
     cost = {name: sum(found[test][0] for test in members) for name, members in cases.items()}
-    path.write_text(changed or text, encoding="utf-8")
-    try:
-        for name in sorted(cost, key=lambda name: (cost[name], name))[:CANDIDATES] if changed else ():
+    with replaced(root, file, changed):
+        for name in sorted(cost, key=lambda name: (cost[name], name))[:CANDIDATES]:
             if run(root, [name], PATIENCE[0] * cost[name] + PATIENCE[1])[0] == "killed":
                 return name
-    finally:
-        path.write_text(text, encoding="utf-8")
     return None
 
 
@@ -487,14 +485,22 @@ def judge(root: Path, mutant: Mutant, found: Calls, commit: str) -> Row:
 
 def _changed(root: Path, mutant: Mutant, tests: Sequence[str], found: Calls) -> tuple[str, str]:
     """Run tests of a tree with the change: the outcome, and the test that failed."""
-    path = root / mutant.file
-    text = path.read_text(encoding="utf-8")
-    path.write_text(mutant.applied(text), encoding="utf-8")
-    try:
+    text = (root / mutant.file).read_text(encoding="utf-8")
+    with replaced(root, mutant.file, mutant.applied(text)):
         return run(root, tests, PATIENCE[0] * sum(found[t][0] for t in tests) + PATIENCE[1])
+
+
+@contextlib.contextmanager
+def replaced(root: Path, file: str, text: str) -> Iterator[None]:
+    """Replace the text of a file of a tree inside the block."""
+    path = root / file
+    before = path.read_text(encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
+    try:
+        yield
     finally:
-        path.write_text(text, encoding="utf-8")
-        if mutant.file.startswith("src/deodar/compiler/"):  # it may have kept wrong programs
+        path.write_text(before, encoding="utf-8")
+        if file.startswith("src/deodar/compiler/"):  # it may have kept wrong programs
             shutil.rmtree(root / ".pytest_cache", ignore_errors=True)
 
 
@@ -612,11 +618,12 @@ def judge_changes(root: Path, map_file: Path, commit: str, since: str, count: in
     if missing := sorted(f for f in folders if not any(test.startswith(f"{f}/") for test in tested)):
         note(root, map_file, ["-q", "-m", "fast or verdict", *missing])
     rows: list[Row] = []
+    calls_by_test = calls(map_file)
     for mutant in drawn:
         if time.monotonic() > began + 60 * MINUTES:
             print(f"{len(drawn) - len(rows)} of {len(drawn)} were not judged in {MINUTES:g} minutes")
             break
-        rows.append(judge(root, mutant, calls(map_file), commit))
+        rows.append(judge(root, mutant, calls_by_test, commit))
         print(
             f"{rows[-1].outcome:>12}  {rows[-1].place}  {rows[-1].before}  ->  {rows[-1].after}", flush=True
         )

@@ -5,6 +5,7 @@ once more with programs as deodar compiles them.
     python tools/suite.py rest                       what `make whole` runs after it, and properties once more
     python tools/suite.py whole                      all
     python tools/suite.py core                       the engine's part of the verdict, and the contracts
+    python tools/suite.py fast                       functions of little CPU time
 """
 
 from __future__ import annotations
@@ -33,13 +34,17 @@ PARTS = {"verdict": " and verdict", "rest": " and (not verdict or hypothesis)", 
 examples.
 """
 
-FAST = (*PYTEST, *SPREAD, "-m", "fast")
+ALONE = {
+    "core": (*ENGINE, *SPREAD, "-m", f"not default_program{PARTS['verdict']}", *CORE),
+    "fast": (*PYTEST, *SPREAD, "-m", "fast"),
+}
+"""Parts that are one call."""
 
 
 def calls(part: str) -> list[tuple[str, ...]]:
     """Return the arguments of Python of each call."""
-    if part == "core":
-        return [(*ENGINE, *SPREAD, "-m", f"not default_program{PARTS['verdict']}", *CORE)]
+    if part in ALONE:
+        return [ALONE[part]]
     quick = ("-m", f"not default_program{PARTS[part]}")
     optimised = ("-m", f"default_program{PARTS[part]}", "--default-programs")
     return [
@@ -51,7 +56,7 @@ def calls(part: str) -> list[tuple[str, ...]]:
 
 def main(arguments: Sequence[str]) -> int:
     """Run all calls of a part; return the status of the first that fails."""
-    if not arguments or arguments[0] not in (*PARTS, "core"):
+    if not arguments or arguments[0] not in (*PARTS, *ALONE):
         print(__doc__)
         return 2
     part, *options = arguments

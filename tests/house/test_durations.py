@@ -82,7 +82,7 @@ def test_a_function_that_takes_long_without_a_row_is_named() -> None:
             nodeid, ("", 0, ""), {}, "passed", None, "teardown", (), 0.0, 0, 0, properties
         )
 
-    measured = durations.Durations(keep=False, required=True)
+    measured = durations.Durations(keep=False)
     for nodeid, cpu in (("b.py::test_x[1]", 0.6), ("b.py::test_x[2]", 0.6), ("a.py::test_y", 0.9)):
         measured.pytest_runtest_logreport(report(nodeid, cpu))
     assert measured.unlisted({}) == ["b.py::test_x"]
@@ -168,7 +168,7 @@ def test_a_shared_fixture_has_a_row_of_its_own_and_its_users_name_it(tmp_path: P
     )
     code = (
         "import pytest; from tests import durations\n"
-        "measured = durations.Durations(keep=False, required=True)\n"
+        "measured = durations.Durations(keep=False)\n"
         f"assert pytest.main(['-qq', '-n{processes}', '--rootdir', {str(tmp_path)!r}, {str(tmp_path)!r}], "
         "[measured]) == 0\n"
         "print({n.split('::')[1]: (round(r.seconds, 1), sorted(f.split('::')[1] for f in r.fixtures)) "
