@@ -38,7 +38,7 @@ import sys
 import tarfile
 import tempfile
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import CodeType
@@ -491,7 +491,7 @@ def _changed(root: Path, mutant: Mutant, tests: Sequence[str], found: Calls) -> 
 
 
 @contextlib.contextmanager
-def replaced(root: Path, file: str, text: str) -> Iterator[None]:
+def replaced(root: Path, file: str, text: str) -> Generator[None]:
     """Replace the text of a file of a tree inside the block."""
     path = root / file
     before = path.read_text(encoding="utf-8")
