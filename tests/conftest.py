@@ -25,6 +25,8 @@ settings.register_profile(
     deadline=None,
     derandomize=True,
     database=None,
+    # stated: hypothesis takes another default where the variable CI is set
+    print_blob=False,
     suppress_health_check=list(HealthCheck),
 )
 # `make whole` draws other examples each time; a failure prints the decorator that repeats it

@@ -7,9 +7,9 @@ python tools/busy.py --as WAY,WAY ...      the verdict (or the tests that follow
 
 Ways: background (SIGINT ignored, as of a job that a script starts with `&`), closed (no standard input, no
 terminal), umlaut (a folder with a blank and an umlaut), user (not root; only root can try it), readonly
-(nothing can be written at home), C (LANG and LC_ALL), zone (14 hours from UTC), load (20 busy processes),
-twice (two at the same time, of two copies). A way that has to write elsewhere runs in a copy of the files
-that git knows.
+(nothing can be written at home), C (LANG and LC_ALL), zone (14 hours from UTC), ci (variables that a public
+CI sets), load (20 busy processes), twice (two at the same time, of two copies). A way that has to write
+elsewhere runs in a copy of the files that git knows.
 """
 
 from __future__ import annotations
@@ -114,6 +114,7 @@ WAYS = {
     "readonly": Way(environment={"HOME": "/dev/null/home", "USERPROFILE": "/dev/null/home"}),
     "C": Way(environment={"LANG": "C", "LC_ALL": "C"}),
     "zone": Way(environment={"TZ": "Pacific/Kiritimati"}),
+    "ci": Way(environment={"CI": "true", "GITHUB_ACTIONS": "true", "TERM": "dumb"}),
     "load": Way(busy=20),
     "twice": Way(folder="deodar", runs=2),
 }
