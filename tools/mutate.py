@@ -1,9 +1,11 @@
 """Change the package at places drawn by a commit, and run the tests that cover each change.
 
     python tools/mutate.py map [PYTEST ARGUMENTS]    note which functions each test calls
-    python tools/mutate.py run [--count 200]         judge what HEAD draws: rows in evidence/mutants.csv
+    python tools/mutate.py run [--count 300]         judge what HEAD draws: rows in evidence/mutants.csv, and
+                                                     the functions that fail in tests/kills.csv
     python tools/mutate.py run --again               judge the survivors again, with the present tests
-    python tools/mutate.py show                      print the share that is killed, and every survivor
+    python tools/mutate.py show                      print the share that is killed by all tests and by the
+                                                     verdict, and every survivor
     python tools/mutate.py changed REV [--count 20]  judge mutants of the lines of `src` that changed since a
                                                      revision, in ten minutes (`make mutants CHANGED=REV`)
     python tools/mutate.py floor [FILE ...]          find for each source file the cheapest test that notices
@@ -38,7 +40,7 @@ import sys
 import tarfile
 import tempfile
 import time
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Generator, Iterable, Iterator, Mapping, Sequence
 from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import CodeType
@@ -48,14 +50,18 @@ ROOT = Path(__file__).parents[1]
 KEPT = ROOT / ".pytest_cache" / "mutants"
 ROWS = ROOT / "evidence" / "mutants.csv"
 FLOOR = ROOT / "tests" / "floor.csv"
+KILLS = ROOT / "tests" / "kills.csv"
 EQUIVALENT = ROOT / "evidence" / "equivalent_mutants.csv"
 
-COUNT = 200
+COUNT = 300
 CANDIDATES = 8
 """Most test functions that are tried for the floor of a file, the cheapest first."""
 
 TESTS = 150
 """Most tests that are run for one mutant: those of the shortest time first."""
+
+FAILING = 5
+"""Functions that fail with a mutant, after which no others are tried."""
 
 NOT_FOUND = 4
 """What pytest returns if a test does not exist, and where it cannot import one."""
@@ -235,12 +241,12 @@ def mutants(file: str, text: str) -> Iterator[Mutant]:
 
 def draw(root: Path, seed: str, count: int) -> list[Mutant]:
     """Mutants of the package, drawn by a text: the same text draws the same ones from the same files."""
-    found = [
+    places = [
         mutant
         for path in sorted((root / "src").rglob("*.py"))
         for mutant in mutants(path.relative_to(root).as_posix(), path.read_text(encoding="utf-8"))
     ]
-    return random.Random(seed).sample(found, min(count, len(found)))
+    return random.Random(seed).sample(places, min(count, len(places)))
 
 
 # Which test calls which function.
@@ -350,11 +356,12 @@ def calls(file: Path) -> Calls:
     if not file.exists():
         return {}
     with file.open(encoding="utf-8") as text:
-        return {test: (seconds, set(found)) for test, seconds, found in map(json.loads, text)}
+        return {test: (seconds, set(functions)) for test, seconds, functions in map(json.loads, text)}
 
 
-def covering(mutant: Mutant, text: str, found: Calls) -> list[str]:
-    """Tests that call the function of a mutant: those of its module's own test file first, then the quickest.
+def covering(mutant: Mutant, text: str, calls_by_test: Calls) -> list[str]:
+    """Tests that call the function of a mutant: a case of each test function, then the other cases. In both,
+    those of the module's own test file come first, then the quickest.
 
     Outside of functions, and where no test was seen to call the function (it is called at import, or in a
     process that a test starts), these are the tests that call any function of its file; without such tests
@@ -366,15 +373,20 @@ def covering(mutant: Mutant, text: str, found: Calls) -> list[str]:
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
         and node.body[0].lineno <= mutant.line <= (node.end_lineno or 0)
     ]
-    own = f"/test_{Path(mutant.file).stem}.py::"
-    order = sorted(found, key=lambda test: (own not in test, found[test][0], test))
+    of_module = f"/test_{Path(mutant.file).stem}.py::"
+    by_time = sorted(calls_by_test, key=lambda test: (of_module not in test, calls_by_test[test][0], test))
+    # one case of each function, then the others
+    first = {test.split("[")[0]: test for test in reversed(by_time)}
+    order = sorted(by_time, key=lambda test: first[test.split("[")[0]] != test)
     tests: list[str] = []
     if around:
         inner = max(around, key=lambda node: node.lineno)
-        tests = [test for test in order if f"{mutant.file}:{first_line(inner)}" in found[test][1]]
+        tests = [test for test in order if f"{mutant.file}:{first_line(inner)}" in calls_by_test[test][1]]
     if not tests:
-        tests = [test for test in order if any(c.startswith(f"{mutant.file}:") for c in found[test][1])]
-    return tests or [test for test in order if own not in test][:1]
+        tests = [
+            test for test in order if any(c.startswith(f"{mutant.file}:") for c in calls_by_test[test][1])
+        ]
+    return tests or [test for test in order if of_module not in test][:1]
 
 
 # One mutant after another.
@@ -382,7 +394,12 @@ def covering(mutant: Mutant, text: str, found: Calls) -> list[str]:
 
 @dc.dataclass(frozen=True)
 class Row:
-    """What became of a mutant: killed, survived or timed out."""
+    """What became of a mutant: killed, survived or timed out.
+
+    Attributes:
+        test: the functions that failed, up to FAILING, divided by blanks.
+        tests: number of tests that were run, if all passed.
+    """
 
     commit: str
     place: str
@@ -397,6 +414,11 @@ class Row:
     @property
     def key(self) -> Key:
         return self.place, self.before, self.after
+
+    @property
+    def failed(self) -> list[str]:
+        """The functions that failed."""
+        return self.test.split()
 
 
 def raising(text: str) -> str | None:
@@ -413,17 +435,17 @@ def raising(text: str) -> str | None:
     return ast.unparse(ast.fix_missing_locations(tree)) if functions else None
 
 
-def lowest(root: Path, file: str, found: Calls) -> str | None:
+def lowest(root: Path, file: str, calls_by_test: Calls) -> str | None:
     """Return the cheapest test function that calls a file and fails when its public functions raise."""
     changed = raising((root / file).read_text(encoding="utf-8"))
     if changed is None:
         return None
     cases: dict[str, list[str]] = {}
-    for test, (_, called) in found.items():
+    for test, (_, called) in calls_by_test.items():
         # the tests may be later than the map
         if any(call.startswith(f"{file}:") for call in called) and defined(root, test):
             cases.setdefault(test.split("[")[0], []).append(test)
-    cost = {name: sum(found[test][0] for test in members) for name, members in cases.items()}
+    cost = {name: sum(calls_by_test[test][0] for test in members) for name, members in cases.items()}
     with replaced(root, file, changed):
         for name in sorted(cost, key=lambda name: (cost[name], name))[:CANDIDATES]:
             if run(root, [name], PATIENCE[0] * cost[name] + PATIENCE[1])[0] == "killed":
@@ -431,12 +453,12 @@ def lowest(root: Path, file: str, found: Calls) -> str | None:
     return None
 
 
-def find_floor(root: Path, found: Calls, named: Sequence[str]) -> None:
+def find_floor(root: Path, calls_by_test: Calls, named: Sequence[str]) -> None:
     """Find the tests of the named files, or of all that have none, and write them one by one."""
     files = [path.relative_to(root).as_posix() for path in sorted((root / "src").rglob("*.py"))]
     tests = {file: test for file, test in read_floor().items() if file in files}
     for file in named or [file for file in files if file not in tests]:
-        if test := lowest(root, file, found):
+        if test := lowest(root, file, calls_by_test):
             tests = {**tests, file: test}
             write_floor(tests)
         print(f"{file}  {test or 'no test that is mapped'}", flush=True)
@@ -468,26 +490,46 @@ def environment(root: Path) -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(root / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
 
 
-def judge(root: Path, mutant: Mutant, found: Calls, commit: str) -> Row:
+def judge(root: Path, mutant: Mutant, calls_by_test: Calls, commit: str) -> Row:
     """Change a tree, run the tests that cover the change, and take the change back."""
     path = root / mutant.file
     text = path.read_text(encoding="utf-8")
-    tests = covering(mutant, text, found)[:TESTS]
+    tests = covering(mutant, text, calls_by_test)[:TESTS]
     began = time.monotonic()
-    outcome, test = _changed(root, mutant, tests, found)
-    # the tests may be later than the map, and one may need what the commit does not have
-    while test in found and run(root, [test], PATIENCE[0] * found[test][0] + PATIENCE[1])[0] != "survived":
-        tests = [t for t in tests if t != test]
-        outcome, test = _changed(root, mutant, tests, found) if tests else ("survived", "")
-    seconds = round(time.monotonic() - began, 1)
-    return Row(commit, *mutant.key, mutant.kind, outcome, test, len(tests), seconds)
-
-
-def _changed(root: Path, mutant: Mutant, tests: Sequence[str], found: Calls) -> tuple[str, str]:
-    """Run tests of a tree with the change: the outcome, and the test that failed."""
-    text = (root / mutant.file).read_text(encoding="utf-8")
+    if not tests:  # pytest would run all that it finds
+        return Row(commit, *mutant.key, mutant.kind, "survived", "", 0, 0.0)
     with replaced(root, mutant.file, mutant.applied(text)):
-        return run(root, tests, PATIENCE[0] * sum(found[t][0] for t in tests) + PATIENCE[1])
+        outcome, failed = run(
+            root, tests, PATIENCE[0] * sum(calls_by_test[t][0] for t in tests) + PATIENCE[1]
+        )
+    seconds = round(time.monotonic() - began, 1)
+    return Row(commit, *mutant.key, mutant.kind, outcome, " ".join(failed), len(tests), seconds)
+
+
+def confirmed(root: Path, rows: Sequence[Row], places: Iterable[Mutant], calls_by_test: Calls) -> list[Row]:
+    """Take away functions that also fail without a change: the tests may be later than the map, and one may
+    need what the commit does not have. A mutant that no other function killed is judged again.
+    """
+    functions = sorted({name for row in rows for name in row.failed if "::" in name})
+    if not functions:
+        return list(rows)
+    seconds = sum(cost for test, (cost, _) in calls_by_test.items() if test.split("[")[0] in functions)
+    outcome, failed = run(root, functions, PATIENCE[0] * seconds + PATIENCE[1])
+    broken = {*functions} if outcome == "timed out" else {*failed}
+    if not broken:
+        return list(rows)
+    others = {test: called for test, called in calls_by_test.items() if test.split("[")[0] not in broken}
+    by_key = {mutant.key: mutant for mutant in places}
+
+    def again(row: Row) -> Row:
+        left = [name for name in row.failed if name not in broken]
+        if left == row.failed:
+            return row
+        if left:
+            return dc.replace(row, test=" ".join(left))
+        return judge(root, by_key[row.key], others, row.commit)
+
+    return confirmed(root, [again(row) for row in rows], by_key.values(), others)
 
 
 @contextlib.contextmanager
@@ -504,14 +546,14 @@ def replaced(root: Path, file: str, text: str) -> Generator[None]:
             shutil.rmtree(root / ".pytest_cache", ignore_errors=True)
 
 
-def run(root: Path, tests: Sequence[str], allowed: float) -> tuple[str, str]:
-    """Run tests until one fails: the outcome, and the test that failed."""
+def run(root: Path, tests: Sequence[str], allowed: float) -> tuple[str, list[str]]:
+    """Run tests until some fail: the outcome, and the functions that failed, up to FAILING cases."""
     with tempfile.TemporaryDirectory() as place:
         names = Path(place) / "tests"
         names.write_text("\n".join(tests), encoding="utf-8")
-        command = ["-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--tb=no", "-rfE"]
+        command = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--tb=no", "-rfE"]
         process = subprocess.Popen(
-            [sys.executable, *command, f"@{names}"],
+            [sys.executable, *command, f"--maxfail={FAILING}", f"@{names}"],
             cwd=root,
             env=environment(root),
             stdout=subprocess.PIPE,
@@ -524,18 +566,19 @@ def run(root: Path, tests: Sequence[str], allowed: float) -> tuple[str, str]:
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()
-            return "timed out", ""
+            return "timed out", []
     if process.returncode == 0:
-        return "survived", ""
+        return "survived", []
     failed = [
-        line.split(" ", 1)[1].split(" - ")[0]
+        line.split(" ", 1)[1].split(" - ")[0].split("[")[0]
         for line in out.splitlines()
         if line.startswith(("FAILED ", "ERROR "))
     ]
     functions = list(dict.fromkeys(test.split("[")[0] for test in tests))
     if process.returncode == NOT_FOUND and not failed and functions != list(tests):
         return run(root, functions, allowed)  # the change gives a test other cases
-    return "killed", (failed or ["at import"])[0]
+    # a session that ends at import names no function
+    return "killed", list(dict.fromkeys(failed)) or functions[:1]
 
 
 def read(file: Path) -> list[Row]:
@@ -568,12 +611,46 @@ def equivalents(file: Path = EQUIVALENT) -> Mapping[Key, str]:
         return {(r["place"], r["before"], r["after"]): r["why"] for r in csv.DictReader(text)}
 
 
-def report(rows: Sequence[Row], equal: Mapping[Key, str]) -> list[str]:
-    """The share that is killed, and a line for each mutant that is not."""
+def write_kills(rows: Sequence[Row], file: Path = KILLS) -> None:
+    """Write the functions that fail with mutants into the table that the verdict is chosen by; rows of other
+    commits stay.
+    """
+    here = {row.commit[:8] for row in rows}
+    with file.open(encoding="utf-8", newline="") as text:
+        header, *others = csv.reader(text)
+    with file.open("w", encoding="utf-8", newline="") as text:
+        out = csv.writer(text, lineterminator="\n")
+        out.writerow(header)
+        out.writerows(kill for kill in others if kill[0] not in here)
+        out.writerows(
+            (row.commit[:8], row.place, row.after, name)
+            for row in rows
+            for name in row.failed
+            if "::" in name
+        )
+
+
+def of_the_verdict() -> set[str]:
+    """Return the functions that `make test` runs."""
+    sys.path.insert(0, str(ROOT))
+    from tests import durations, verdict  # of this tree alone: the others here work on any tree
+
+    return verdict.chosen(durations.read(), verdict.read(verdict.KILLS), verdict.read(verdict.FLOOR))
+
+
+def report(
+    rows: Sequence[Row], equal: Mapping[Key, str], verdict: Collection[str] | None = None
+) -> list[str]:
+    """The share that is killed, that by functions of the verdict, and a line for each mutant that is not."""
     counted = [r for r in rows if r.key not in equal]
+
+    def share(killed: int) -> str:
+        return f"{killed} of {len(counted)} mutants killed ({100 * killed / max(1, len(counted)):.1f} %)"
+
     killed = sum(r.outcome == "killed" for r in counted)
-    share = f"{100 * killed / len(counted):.1f} %" if counted else "none"
-    out = [f"{killed} of {len(counted)} mutants killed ({share}); {len(rows) - len(counted)} are equivalent"]
+    out = [f"{share(killed)}; {len(rows) - len(counted)} are equivalent"]
+    if verdict is not None:
+        out.append(f"{share(sum(any(test in verdict for test in r.failed) for r in counted))} by the verdict")
     return out + [
         f"{r.outcome:>12}  {r.place}  {r.kind}: {r.before}  ->  {r.after}"
         for r in counted
@@ -627,7 +704,7 @@ def judge_changes(root: Path, map_file: Path, commit: str, since: str, count: in
         print(
             f"{rows[-1].outcome:>12}  {rows[-1].place}  {rows[-1].before}  ->  {rows[-1].after}", flush=True
         )
-    return rows
+    return confirmed(root, rows, drawn, calls_by_test)
 
 
 def age(rows: Sequence[Row]) -> list[str]:
@@ -680,7 +757,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     map_file = KEPT / f"{commit}.jsonl"
     rows = read(ROWS)
     if given.command == "show":
-        print(*age(rows), *report(rows, equivalents())[: 1 if given.short else None], sep="\n")
+        lines = report(rows, equivalents(), of_the_verdict())
+        print(*age(rows), *lines[: 2 if given.short else None], sep="\n")
         return
     with tempfile.TemporaryDirectory() as place:
         root = tree(commit, Path(place).resolve())
@@ -690,23 +768,27 @@ def main(arguments: Sequence[str] | None = None) -> None:
             rows = judge_changes(root, map_file, commit, given.since, given.count)
             print("\n".join(report(rows, equivalents())))
             return
-        found = calls(map_file)
-        if not found:
+        calls_by_test = calls(map_file)
+        if not calls_by_test:
             parser.error(
                 f"no map of {commit[:7]}; type `python tools/mutate.py map --commit {commit[:7]}` first"
             )
         if given.command == "floor":
-            find_floor(root, found, rest)
+            find_floor(root, calls_by_test, rest)
             return
         rows = [r for r in rows if r.commit == commit]
         done = {r.key for r in rows if r.outcome == "killed" or not given.again}
-        for mutant in draw(root, commit, given.count):
+        drawn = draw(root, commit, given.count)
+        for mutant in drawn:
             if mutant.key in done:
                 continue
-            row = judge(root, mutant, found, commit)
+            row = judge(root, mutant, calls_by_test, commit)
             rows = [*(r for r in rows if r.key != mutant.key), row]
             write(ROWS, rows)
             print(f"{row.outcome:>12}  {row.place}  {row.kind}: {row.before}  ->  {row.after}", flush=True)
+        rows = confirmed(root, rows, drawn, calls_by_test)
+    write(ROWS, rows)
+    write_kills(rows)
     print("\n".join(report(rows, equivalents())[:1]))
 
 

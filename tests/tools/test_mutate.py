@@ -112,8 +112,14 @@ def test_mutants_are_killed_or_survive_by_the_tests_that_cover_them(
     assert (tmp_path / "src" / "toy.py").read_text() == text
     mutate.write(tmp_path / "rows.csv", rows)
     assert mutate.read(tmp_path / "rows.csv") == rows
-    assert mutate.report(rows, {rows[1].key: "the test is about 20 alone"}) == [
+    kills = "commit,place,after,test\n{}other,p,a,t\n"
+    (tmp_path / "kills.csv").write_text(kills.format("abc,p,a,t\n"))
+    mutate.write_kills(rows, tmp_path / "kills.csv")
+    row = "abc,src/toy.py:2:12,(a - b),test_toy.py::test_total\n"
+    assert (tmp_path / "kills.csv").read_text() == kills.format("") + row
+    assert mutate.report(rows, {rows[1].key: "the test is about 20 alone"}, {"test_toy.py::test_large"}) == [
         "1 of 2 mutants killed (50.0 %); 1 are equivalent",
+        "0 of 2 mutants killed (0.0 %) by the verdict",
         "    survived  src/toy.py:8:12  arithmetic: a * 2  ->  (a / 2)",
     ]
 
@@ -128,14 +134,18 @@ def test_a_test_that_fails_without_the_change_kills_nothing(
         "import toy\ndef test_later(): assert toy.total(1, 2) == 4\n"
         "def test_zero(): assert toy.total(1, 0) == 1\ndef test_sum(): assert toy.total(1, 2) == 3\n"
     )
-    found = mutate.mutants("src/toy.py", "def total(a, b):\n    return a + b\n")
-    [change] = [m for m in found if m.kind == "arithmetic"]
+    places = mutate.mutants("src/toy.py", "def total(a, b):\n    return a + b\n")
+    [change] = [m for m in places if m.kind == "arithmetic"]
     later, zero, right = (f"test_toy.py::test_{name}" for name in ("later", "zero", "sum"))
     called = {test: (k / 10, {"src/toy.py:1"}) for k, test in enumerate((later, zero, right))}
-    killed = mutate.judge(tmp_path, change, called, "abc")
-    assert (killed.outcome, killed.test) == ("killed", right)
-    survived = mutate.judge(tmp_path, change, {later: called[later]}, "abc")
-    assert (survived.outcome, survived.test) == ("survived", "")
+
+    def outcome(calls: mutate.Calls) -> tuple[str, list[str]]:
+        [row] = mutate.confirmed(tmp_path, [mutate.judge(tmp_path, change, calls, "abc")], [change], calls)
+        return row.outcome, row.failed
+
+    assert outcome(called) == ("killed", [right])
+    assert outcome({name: called[name] for name in (later, right)}) == ("killed", [right])
+    assert outcome({later: called[later]}) == ("survived", [])
 
 
 @pytest.mark.parametrize("condition", ["case", "case in (2, 3)"])
@@ -154,16 +164,18 @@ def test_a_change_of_the_cases_of_a_test_alone_kills_nothing(
     assert row.outcome == ("survived" if condition == "case" else "killed")
 
 
-def test_the_test_file_of_the_module_comes_first_and_then_the_quickest() -> None:
+def test_the_test_file_of_the_module_comes_first_then_the_quickest_case_of_each_function() -> None:
     text = "def total(a, b):\n    return a + b\n\nSTART = 1 + 1\n\ndef late(a):\n    return a + 1\n"
     sums = [m for m in mutate.mutants("src/toy.py", text) if m.kind == "arithmetic"]
     found = {
         "tests/test_other.py::quick": (0.1, {"src/other.py:1"}),
-        "tests/test_both.py::slow": (3.0, {"src/toy.py:1"}),
+        "tests/test_both.py::slow[1]": (3.0, {"src/toy.py:1"}),
+        "tests/test_both.py::slow[2]": (0.5, {"src/toy.py:1"}),
         "tests/test_both.py::quicker": (1.0, {"src/toy.py:1"}),
         "tests/test_toy.py::own": (5.0, {"src/toy.py:1"}),
     }
-    called = ["tests/test_toy.py::own", "tests/test_both.py::quicker", "tests/test_both.py::slow"]
+    both = ("slow[2]", "quicker", "slow[1]")
+    called = ["tests/test_toy.py::own", *(f"tests/test_both.py::{name}" for name in both)]
     # within a function, outside of functions, and in a function that no mapped test calls
     assert [mutate.covering(m, text, found) for m in sums] == [called, called, called]
     assert mutate.covering(sums[0], text, {"tests/test_other.py::quick": (0.1, {"src/other.py:1"})}) == [
@@ -173,7 +185,7 @@ def test_the_test_file_of_the_module_comes_first_and_then_the_quickest() -> None
 
 def test_a_mutant_that_times_out_survives(tmp_path: Path) -> None:
     (tmp_path / "test_slow.py").write_text("import time\ndef test_slow(): time.sleep(600)\n")
-    assert mutate.run(tmp_path, ["test_slow.py::test_slow"], 0.5) == ("timed out", "")
+    assert mutate.run(tmp_path, ["test_slow.py::test_slow"], 0.5) == ("timed out", [])
 
 
 def test_public_functions_and_methods_raise_and_private_ones_do_not() -> None:
