@@ -30,6 +30,7 @@ import csv
 import dataclasses as dc
 import importlib.machinery
 import io
+import itertools
 import json
 import os
 import random
@@ -59,6 +60,9 @@ CANDIDATES = 8
 
 TESTS = 150
 """Most tests that are run for one mutant: those of the shortest time first."""
+
+SECONDS = 30.0
+"""CPU seconds of the tests that are run for one mutant, after which no others are added."""
 
 FAILING = 5
 """Functions that fail with a mutant, after which no others are tried."""
@@ -495,6 +499,8 @@ def judge(root: Path, mutant: Mutant, calls_by_test: Calls, commit: str) -> Row:
     path = root / mutant.file
     text = path.read_text(encoding="utf-8")
     tests = covering(mutant, text, calls_by_test)[:TESTS]
+    spent = itertools.accumulate((calls_by_test[test][0] for test in tests), initial=0.0)
+    tests = [test for test, before in zip(tests, spent, strict=False) if before < SECONDS]
     began = time.monotonic()
     if not tests:  # pytest would run all that it finds
         return Row(commit, *mutant.key, mutant.kind, "survived", "", 0, 0.0)
