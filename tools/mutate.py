@@ -50,6 +50,7 @@ from typing import Any
 ROOT = Path(__file__).parents[1]
 KEPT = ROOT / ".pytest_cache" / "mutants"
 ROWS = ROOT / "evidence" / "mutants.csv"
+PROGRAMS = Path(".pytest_cache", "programs")
 FLOOR = ROOT / "tests" / "floor.csv"
 KILLS = ROOT / "tests" / "kills.csv"
 EQUIVALENT = ROOT / "evidence" / "equivalent_mutants.csv"
@@ -549,7 +550,18 @@ def replaced(root: Path, file: str, text: str) -> Generator[None]:
     finally:
         path.write_text(before, encoding="utf-8")
         if file.startswith("src/deodar/compiler/"):  # it may have kept wrong programs
-            shutil.rmtree(root / ".pytest_cache", ignore_errors=True)
+            link_programs(root)
+
+
+def link_programs(root: Path) -> None:
+    """Let a tree begin with the compiled programs of this one, without any that it has added."""
+    programs = root / PROGRAMS
+    shutil.rmtree(programs, ignore_errors=True)
+    if (ROOT / PROGRAMS).exists():
+        try:
+            shutil.copytree(ROOT / PROGRAMS, programs, copy_function=os.link)
+        except (OSError, shutil.Error):  # another disk
+            shutil.copytree(ROOT / PROGRAMS, programs, dirs_exist_ok=True)
 
 
 def run(root: Path, tests: Sequence[str], allowed: float) -> tuple[str, list[str]]:
@@ -736,6 +748,7 @@ def tree(commit: str, into: Path) -> Path:
     shutil.copytree(ROOT / "tests", into / "tests")
     if (page := ROOT / "src" / "deodar_studio" / "static").exists():
         shutil.copytree(page, into / page.relative_to(ROOT))
+    link_programs(into)
     return into
 
 
