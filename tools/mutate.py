@@ -62,10 +62,10 @@ CANDIDATES = 8
 TESTS = 150
 """Most tests that are run for one mutant: those of the shortest time first."""
 
-SECONDS = 30.0
+SECONDS = 15.0
 """CPU seconds of the tests that are run for one mutant, after which no others are added."""
 
-FAILING = 5
+FAILING = 2
 """Functions that fail with a mutant, after which no others are tried."""
 
 NOT_FOUND = 4

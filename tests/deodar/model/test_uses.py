@@ -143,6 +143,8 @@ def test_an_ungrouped_or_removed_group_is_no_longer_linked() -> None:
     assert model.document.uses == ()
     with pytest.raises(UnknownName, match="no group is linked to a template 'switch'"):
         model.refresh(template())
+    with pytest.raises(UnknownName, match="Did you mean 'switch'"):
+        host().refresh(dd.Model("swich"))
 
 
 def test_a_refresh_can_be_undone() -> None:

@@ -56,6 +56,11 @@ def test_a_step_longer_than_the_relaxation_time_ends_at_the_attractor(rule):
     assert change(rule, 5.0, 1.0, 1.0, 30.0, 0.0) == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("loss", [1.0, 30.0])
+def test_a_step_longer_than_the_time_of_the_loss_loses_all_weights_and_no_more(loss):
+    assert change("hebb", 5.0, 1.0, 1.0, 0.5, loss) == pytest.approx(0.5)
+
+
 def test_after_returns_its_first_argument():
     assert after(jnp.float32(0.3), jnp.zeros(4)) == np.float32(0.3)
 
