@@ -24,8 +24,8 @@ def test_results_contain_every_entry_of_a_claim():
         assumes="the start",
         inferred=True,
     )
-    told = json.loads(results([claim], {"quick": False}))
-    assert told["claims"] == [
+    answer = json.loads(results([claim], {"quick": False}))
+    assert answer["claims"] == [
         {
             "name": "a",
             "value": 0.5,

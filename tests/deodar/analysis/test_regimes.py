@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 import itertools
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -27,53 +30,57 @@ from deodar.numerics.kernels.custom import Custom
 x = dd.Axis("x", 0, 60, samples=61)
 
 
-def lateral(excitation: float, inhibition: float, everywhere: float = 0.0, **more: object) -> dd.Field:
+def lateral(excitation: float, inhibition: float, everywhere: float = 0.0, **options: object) -> dd.Field:
     kernel = [dd.Gaussian(excitation, 4, normalized=True), dd.Gaussian(-inhibition, 8, normalized=True)]
-    return dd.Field("u", [x], **({"tau": 10, "kernel": kernel, "global_inhibition": everywhere} | more))  # type: ignore[arg-type]
+    return dd.Field("u", [x], **({"tau": 10, "kernel": kernel, "global_inhibition": everywhere} | options))  # type: ignore[arg-type]
 
 
 def test_a_field_with_weak_excitation_is_input_driven_and_selective() -> None:
-    found = regimes(lateral(12, 0, 0.6))
+    measured = regimes(lateral(12, 0, 0.6))
     assert (
-        not found.self_sustained
-        and found.selection is not None
-        and found.selection.selects
-        and found.selection.right
+        not measured.self_sustained
+        and measured.selection is not None
+        and measured.selection.selects
+        and measured.selection.right
     )
     assert (
-        found.detection is not None
-        and found.reverse is not None
-        and 0 < found.reverse < 0.97 * found.detection
+        measured.detection is not None
+        and measured.reverse is not None
+        and 0 < measured.reverse < 0.97 * measured.detection
     )
-    assert "selective" in " ".join(found.words)
+    assert "selective" in " ".join(measured.words)
 
 
 def test_local_interaction_keeps_two_peaks() -> None:
-    found = regimes(lateral(11, 6))
-    assert found.selection is not None and not found.selection.selects and len(found.selection.equal) == 2
+    measured = regimes(lateral(11, 6))
+    assert (
+        measured.selection is not None
+        and not measured.selection.selects
+        and len(measured.selection.equal) == 2
+    )
 
 
 def test_a_working_memory_is_erased_by_inhibition() -> None:
-    found = regimes(lateral(18, 6, 0.1))
-    assert found.self_sustained and found.memory is not None and len(found.memory.left) == 1
-    assert found.forgetting is not None and found.forgetting < 0
+    measured = regimes(lateral(18, 6, 0.1))
+    assert measured.self_sustained and measured.memory is not None and len(measured.memory.left) == 1
+    assert measured.forgetting is not None and measured.forgetting < 0
 
 
 def test_a_memory_is_also_erased_by_an_input_beside_its_position() -> None:
-    found, driven = regimes(lateral(18, 6, 0.1)), regimes(lateral(12, 0, 0.6))
-    assert found.suppression is not None and found.suppression < 0 and driven.suppression is None
-    one = isolate(lateral(18, 6, 0.1))
-    (center,), (sigma,) = one.center, one.sigma
-    for share, left in ((0.95, 1), (1.05, 0)):
-        one.reset(input=1.2 * found.detection)  # type: ignore[operator]
-        one.settle()
-        one.put(input=0.0)
-        one.settle()
-        one.session.set("input.center", center + 0.1 * sigma)
-        one.put(input=share * found.suppression)
-        one.settle()
-        assert len(one.peaks()) == left
-        one.session.set("input.center", center)
+    measured, driven = regimes(lateral(18, 6, 0.1)), regimes(lateral(12, 0, 0.6))
+    assert measured.suppression is not None and measured.suppression < 0 and driven.suppression is None
+    isolated = isolate(lateral(18, 6, 0.1))
+    (center,), (sigma,) = isolated.center, isolated.sigma
+    for share, count in ((0.95, 1), (1.05, 0)):
+        isolated.reset(input=1.2 * measured.detection)  # type: ignore[operator]
+        isolated.settle()
+        isolated.put(input=0.0)
+        isolated.settle()
+        isolated.session.set("input.center", center + 0.1 * sigma)
+        isolated.put(input=share * measured.suppression)
+        isolated.settle()
+        assert len(isolated.peaks()) == count
+        isolated.session.set("input.center", center)
 
 
 def test_rounding_does_not_determine_the_input_that_erases_a_memory() -> None:
@@ -86,60 +93,62 @@ def test_rounding_does_not_determine_the_input_that_erases_a_memory() -> None:
 
 
 def test_an_input_weaker_than_the_one_that_erases_a_memory_moves_it_aside() -> None:
-    one = isolate(lateral(18, 6, 0.1))
-    strong = 1.2 * regimes(one.field).detection  # type: ignore[operator]
-    found = suppression(one, strong)
-    assert found is not None and one.session.get("input.center") == one.center
-    one.restore(found.state)
-    assert not one.peaks()
-    one.session.set("input.center", one.center)
-    one.reset(input=strong)
-    one.settle()
-    one.put(input=0.0)
-    one.settle()
-    one.session.set("input.center", one.center[0] + 0.1 * one.sigma[0])
-    one.put(input=found.before)
-    one.settle()
-    (peak,) = one.peaks()
-    assert peak.position[0] < one.center[0] - one.sigma[0]
+    isolated = isolate(lateral(18, 6, 0.1))
+    strong = 1.2 * regimes(isolated.field).detection  # type: ignore[operator]
+    erased = suppression(isolated, strong)
+    assert erased is not None and isolated.session.get("input.center") == isolated.center
+    isolated.restore(erased.state)
+    assert not isolated.peaks()
+    isolated.session.set("input.center", isolated.center)
+    isolated.reset(input=strong)
+    isolated.settle()
+    isolated.put(input=0.0)
+    isolated.settle()
+    isolated.session.set("input.center", isolated.center[0] + 0.1 * isolated.sigma[0])
+    isolated.put(input=erased.before)
+    isolated.settle()
+    (peak,) = isolated.peaks()
+    assert peak.position[0] < isolated.center[0] - isolated.sigma[0]
 
 
 def test_a_boost_makes_a_peak_at_the_position_of_a_subthreshold_input() -> None:
-    found = regimes(lateral(12, 0, 0.6))
-    needed = [b.boost for b in found.boosts]
-    assert all(b.localised for b in found.boosts) and all(a > b > 0 for a, b in itertools.pairwise(needed))  # type: ignore[operator]
-    assert all(b.preshape + b.boost == pytest.approx(found.detection, rel=0.05) for b in found.boosts)  # type: ignore[operator]
+    measured = regimes(lateral(12, 0, 0.6))
+    needed = [b.boost for b in measured.boosts]
+    assert all(b.localised for b in measured.boosts) and all(a > b > 0 for a, b in itertools.pairwise(needed))  # type: ignore[operator]
+    assert all(b.preshape + b.boost == pytest.approx(measured.detection, rel=0.05) for b in measured.boosts)  # type: ignore[operator]
 
 
 def test_separation_is_the_smallest_distance_at_which_two_peaks_coexist() -> None:
-    near, selective = regimes(lateral(11, 6)), regimes(lateral(12, 0, 0.6))
-    assert near.separation is not None and 0.1 < near.separation < 0.5 and selective.separation is None
-    one = isolate(lateral(11, 6))
+    local, selective = regimes(lateral(11, 6)), regimes(lateral(12, 0, 0.6))
+    assert local.separation is not None and 0.1 < local.separation < 0.5 and selective.separation is None
+    isolated = isolate(lateral(11, 6))
     for off, count in ((-0.04, 1), (0.02, 2)):
-        found = selection(one, 1.2 * near.detection, 0.0, near.separation + off)  # type: ignore[operator]
-        assert len(found.equal) == count
+        two_inputs = selection(isolated, 1.2 * local.detection, 0.0, local.separation + off)  # type: ignore[operator]
+        assert len(two_inputs.equal) == count
 
 
 def test_without_interaction_there_is_no_instability() -> None:
-    found = regimes(dd.Field("u", [x], tau=10))
-    assert [b.preshape + b.boost for b in found.boosts] == pytest.approx([5.0] * 3, rel=0.01)  # type: ignore[operator]
+    measured = regimes(dd.Field("u", [x], tau=10))
+    assert [b.preshape + b.boost for b in measured.boosts] == pytest.approx([5.0] * 3, rel=0.01)  # type: ignore[operator]
     assert (
-        found.detection == pytest.approx(5.0, rel=0.01)
-        and not found.thresholds.detection.jump
-        and found.bistable is None
+        measured.detection == pytest.approx(5.0, rel=0.01)
+        and not measured.thresholds.detection.jump
+        and measured.bistable is None
     )  # type: ignore[union-attr]
 
 
 def test_more_excitation_lowers_detection_and_reverse_detection() -> None:
-    found = [regimes(lateral(strength, 0, 0.3)) for strength in (6, 9)]
-    assert found[1].detection < found[0].detection and (found[1].reverse or 0) < (found[0].reverse or 9)  # type: ignore[operator]
+    measured = [regimes(lateral(strength, 0, 0.3)) for strength in (6, 9)]
+    assert measured[1].detection < measured[0].detection and (measured[1].reverse or 0) < (
+        measured[0].reverse or 9
+    )  # type: ignore[operator]
 
 
 def test_the_ramp_shows_the_hysteresis_between_the_thresholds() -> None:
-    one = isolate(lateral(12, 0, 0.6))
-    found = regimes(lateral(12, 0, 0.6))
-    low, high = found.bistable  # type: ignore[misc]
-    swept = ramp(one, np.linspace(0, high * 1.2, 25))
+    isolated = isolate(lateral(12, 0, 0.6))
+    measured = regimes(lateral(12, 0, 0.6))
+    low, high = measured.bistable  # type: ignore[misc]
+    swept = ramp(isolated, np.linspace(0, high * 1.2, 25))
     inside = (swept.values > low * 1.02) & (swept.values < high * 0.98)
     outside = (swept.values < low * 0.98) | (swept.values > high * 1.02)
     assert inside.any() and (swept.down.count[inside] == 1).all() and (swept.up.count[inside] == 0).all()
@@ -150,11 +159,11 @@ def test_the_ramp_shows_the_hysteresis_between_the_thresholds() -> None:
 def test_regimes_of_fields_over_several_axes_are_measured(dimensions: int) -> None:
     axes = [dd.Axis(name, 0, 20, samples=11) for name in "abc"[:dimensions]]
     kernel = [dd.Gaussian(16, 3, normalized=True)]
-    found = regimes(
+    measured = regimes(
         dd.Field("u", axes, tau=10, kernel=kernel, global_inhibition=0.02 if dimensions == 2 else 0.002)
     )
-    assert found.detection is not None and 2 < found.detection < 5 and found.peak is not None
-    assert np.allclose(found.peak.position, 10, atol=1)
+    assert measured.detection is not None and 2 < measured.detection < 5 and measured.peak is not None
+    assert np.allclose(measured.peak.position, 10, atol=1)
 
 
 def test_thresholds_of_a_node_agree_with_a_root_finder() -> None:
@@ -163,11 +172,11 @@ def test_thresholds_of_a_node_agree_with_a_root_finder() -> None:
     def rate(u: float, s: float = 0.0) -> float:
         return -u - 2 + s + 3 / (1 + np.exp(-4 * u))
 
-    found = phase(node)
+    portrait = phase(node)
     grid = np.linspace(-4, 4, 4001)
     roots = [optimize.brentq(rate, a, b) for a, b in itertools.pairwise(grid) if rate(a) * rate(b) < 0]
-    assert np.allclose([p.u for p in found.fixed_points], roots, atol=1e-8) and [
-        p.stable for p in found.fixed_points
+    assert np.allclose([p.u for p in portrait.fixed_points], roots, atol=1e-8) and [
+        p.stable for p in portrait.fixed_points
     ] == [True, False, True]
     # at a fold the rate and its slope are zero together
     folds = []
@@ -189,8 +198,8 @@ def test_thresholds_of_a_node_agree_with_a_root_finder() -> None:
 def test_a_fixed_point_on_a_sample_of_the_span_is_found(index: int, step: float) -> None:
     """A node without interaction has one fixed point, h + s; the rate there is exactly zero."""
     span = -5 - index * step, -5 + (COARSE - 1 - index) * step
-    (found,) = phase(dd.Field("n", [], resting_level=-8), 3.0, span).fixed_points
-    assert found.u == -5 and found.stable
+    (fixed_point,) = phase(dd.Field("n", [], resting_level=-8), 3.0, span).fixed_points
+    assert fixed_point.u == -5 and fixed_point.stable
 
 
 @pytest.mark.parametrize("amplitude", [0.02, 0.2, 2.0, 20.0])
@@ -221,7 +230,7 @@ def test_settle_returns_whether_the_field_has_settled() -> None:
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     model = dd.Model("m")
     model.add(lateral(12, 0, 0.6))
@@ -231,15 +240,15 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_the_command_prints_and_draws(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_prints_and_draws(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["regimes", "m.json", "u"]) == 0
     page = capsys.readouterr().out
     assert "detection threshold" in page and "selective" in page and "m-regimes-001.png" in page
-    with Image.open(here / "m-regimes-001.png") as picture:
+    with Image.open(folder / "m-regimes-001.png") as picture:
         assert picture.size[0] > 800
     assert main(["regimes", "m.json", "g.n", "--json", "-o", "n.svg"]) == 0
     answer = json.loads(capsys.readouterr().out)
-    assert answer["self_sustained"] is True and "du/dt" in (here / "n.svg").read_text()
+    assert answer["self_sustained"] is True and "du/dt" in (folder / "n.svg").read_text()
     assert main(["regimes", "m.json", "u", "-o", "n.svg"]) == 1 and "--force" in capsys.readouterr().err
 
 
@@ -247,15 +256,15 @@ def test_the_command_prints_and_draws(here: Path, capsys: pytest.CaptureFixture[
     ("element", "says"), [("v", "Did you mean"), ("s", "is not a Field"), ("u.activation", "element")]
 )
 def test_an_element_that_cannot_be_measured_is_an_error_and_writes_nothing(
-    here: Path, element: str, says: str, capsys: pytest.CaptureFixture[str]
+    folder: Path, element: str, says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    before = sorted(here.iterdir())
+    before = sorted(folder.iterdir())
     assert main(["regimes", "m.json", element]) == 1
     error = capsys.readouterr().err
     assert (
         (says in error or "there is no element" in error)
         and "Traceback" not in error
-        and sorted(here.iterdir()) == before
+        and sorted(folder.iterdir()) == before
     )
 
 
@@ -270,13 +279,13 @@ def test_the_interval_of_a_threshold_holds_the_instability_at_every_accuracy() -
     node = dd.Field("n", [], tau=10, resting_level=-2, sigmoid=dd.Logistic(4), kernel=[dd.Gaussian(3.0)])
     exact = {"detection": fold(-3.0, 0.0), "reverse": fold(0.0, 3.0)}
     for precision, accuracies in (("float64", (1e-2, 1e-3, 1e-4, 1e-5)), ("float32", (1e-2, 1e-4))):
-        one = isolate(node, precision=precision)
+        isolated = isolate(node, precision=precision)
         for accuracy in accuracies:
-            found = thresholds(one, accuracy=accuracy)
+            measured = thresholds(isolated, accuracy=accuracy)
             for name, value in exact.items():
-                low, high = getattr(found, name).interval
+                low, high = getattr(measured, name).interval
                 assert low <= value <= high, (precision, accuracy, name, low - value, high - value)
-                assert high - low <= 1.5 * accuracy * max(abs(value), 0.01 * one.scale) + (
+                assert high - low <= 1.5 * accuracy * max(abs(value), 0.01 * isolated.scale) + (
                     2e-3 if precision == "float32" else 1.1e-5
                 )
 
@@ -292,9 +301,9 @@ def held(samples: int, quadrature: str) -> dd.Field:
 def test_the_discretisation_error_is_the_change_on_a_grid_twice_as_fine_and_smaller_with_cells() -> None:
     moved = {}
     for quadrature in ("point", "cell"):
-        one = isolate(held(25, quadrature), sigma=5.0)
-        lost = forgetting(one, 6.0, accuracy=1e-3)
-        moved[quadrature] = discretisation(one, {"forgetting": lost}, 1.2, accuracy=1e-3)["forgetting"]  # type: ignore[dict-item]
+        isolated = isolate(held(25, quadrature), sigma=5.0)
+        lost = forgetting(isolated, 6.0, accuracy=1e-3)
+        moved[quadrature] = discretisation(isolated, {"forgetting": lost}, 1.2, accuracy=1e-3)["forgetting"]  # type: ignore[dict-item]
         fine = forgetting(isolate(held(49, quadrature), sigma=5.0), 6.0, accuracy=1e-3)
         assert moved[quadrature] == pytest.approx(fine.value - lost.value, abs=2e-3)  # type: ignore[union-attr]
     assert abs(moved["point"]) > 0.05 > 5 * abs(moved["cell"])
@@ -326,19 +335,35 @@ def test_where_no_finer_grid_is_measured_the_reason_is_given(field: dd.Field, sa
     assert says in obstacle(isolate(field))
 
 
+def called_once(call: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function whose first call is made, and which later returns the answer of that call."""
+    answers: list[Any] = []
+
+    def first(*args: Any, **options: Any) -> Any:
+        if not answers:
+            answers.append(call(*args, **options))
+        return answers[0]
+
+    return first
+
+
 def test_the_command_prints_the_interval_and_discretisation_error_of_every_threshold(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """As a table, and as data of the same measurement."""
+    for module, name in (("regimes", "regimes"), ("continuation.confirmation", "confirmed")):
+        place = importlib.import_module(f"deodar.analysis.{module}")
+        monkeypatch.setattr(place, name, called_once(getattr(place, name)))
     model = dd.Model("m")
     model.add(held(25, "cell"))
     dd.save(model, tmp_path / "m.json")
-    given = ["regimes", str(tmp_path / "m.json"), "u", "-o", str(tmp_path / "m.png")]
-    assert main(given) == 0
+    command = ["regimes", str(tmp_path / "m.json"), "u", "-o", str(tmp_path / "m.png")]
+    assert main(command) == 0
     page = capsys.readouterr().out
     for line in ("detection threshold", "erased by a homogeneous input below", "by a localised input below"):
-        (said,) = [text for text in page.splitlines() if line in text]
-        assert " ± " in said and "discretisation error " in said
-    assert main([*given, "--json", "--force"]) == 0
+        (row,) = [text for text in page.splitlines() if line in text]
+        assert " ± " in row and "discretisation error " in row
+    assert main([*command, "--json", "--force"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert (
         answer["intervals"].keys()

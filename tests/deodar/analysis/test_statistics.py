@@ -14,8 +14,8 @@ def test_wilson_is_the_published_interval():
     # scipy computes it too; 81 of 263 is the example of Newcombe (1998), Stat. Med. 17, 857
     low, high = statistics.wilson(81, 263)
     assert (round(low, 4), round(high, 4)) == (0.2553, 0.3662)
-    other = stats.binomtest(19, 20).proportion_ci(method="wilson")
-    assert statistics.wilson(19, 20) == pytest.approx((other.low, other.high))
+    wilson = stats.binomtest(19, 20).proportion_ci(method="wilson")
+    assert statistics.wilson(19, 20) == pytest.approx((wilson.low, wilson.high))
 
 
 def test_the_wilson_interval_is_correct_for_shares_of_0_and_1():
@@ -97,8 +97,8 @@ def test_an_inequality_fails_if_the_difference_is_too_small():
 
 def test_the_interval_of_a_difference_of_shares_is_the_published_one():
     # Newcombe (1998), table II, method 10, example (a)
-    value, (low, high) = statistics.share_difference((56, 70), (48, 80))
-    assert value == pytest.approx(0.2) and (low, high) == (
+    difference, (low, high) = statistics.share_difference((56, 70), (48, 80))
+    assert difference == pytest.approx(0.2) and (low, high) == (
         pytest.approx(0.0524, abs=1e-4),
         pytest.approx(0.3339, abs=1e-4),
     )
@@ -108,8 +108,11 @@ def test_the_interval_of_a_difference_of_shares_is_the_published_one():
 def test_paired_values_give_a_narrower_interval_of_a_ratio():
     draw = np.random.default_rng(2)
     base = draw.uniform(1.0, 2.0, 80)
-    near = base * draw.normal(1.0, 0.01, 80)
-    loose, tight = statistics.ratio_interval(near, base), statistics.ratio_interval(near, base, paired=True)
+    similar = base * draw.normal(1.0, 0.01, 80)
+    loose, tight = (
+        statistics.ratio_interval(similar, base),
+        statistics.ratio_interval(similar, base, paired=True),
+    )
     assert tight[1] - tight[0] < 0.5 * (loose[1] - loose[0]) and tight[0] < 1 < tight[1]
     with pytest.raises(AnalysisError, match="the same number on both sides"):
-        statistics.ratio_interval(near, base[:7], paired=True)
+        statistics.ratio_interval(similar, base[:7], paired=True)

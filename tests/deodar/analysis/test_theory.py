@@ -68,11 +68,11 @@ def test_the_width_of_a_settled_peak_is_that_of_theory(
     a: float, sigma: float, c: float, h: float, samples: int
 ) -> None:
     _, stable = widths(a, sigma, c, h)
-    one = isolate(field(a, sigma, c, h, samples), precision="float64")
-    kept = outlives(one, 1.5 * abs(h))
-    assert kept.outlives and kept.settled and len(kept.left) == 1
-    assert kept.left[0].width[0] == pytest.approx(stable, abs=LENGTH / samples)
-    assert kept.left[0].position[0] == pytest.approx(one.center[0], abs=LENGTH / samples)
+    isolated = isolate(field(a, sigma, c, h, samples), precision="float64")
+    memory = outlives(isolated, 1.5 * abs(h))
+    assert memory.outlives and memory.settled and len(memory.left) == 1
+    assert memory.left[0].width[0] == pytest.approx(stable, abs=LENGTH / samples)
+    assert memory.left[0].position[0] == pytest.approx(isolated.center[0], abs=LENGTH / samples)
 
 
 @pytest.mark.parametrize(("a", "sigma", "c", "h"), SETS)
@@ -84,20 +84,20 @@ def test_the_width_between_growth_and_decay_is_that_of_theory(
     unstable, stable = widths(a, sigma, c, h)
     assert w(unstable, a, sigma, c) > 0 > w(stable, a, sigma, c)
     for width, grows in ((unstable - 3 * step, False), (unstable + 3 * step, True)):
-        one = isolate(field(a, sigma, c, h, samples), precision="float64")
-        x = np.asarray(one.axes[0].points) - LENGTH / 2
+        isolated = isolate(field(a, sigma, c, h, samples), precision="float64")
+        x = np.asarray(isolated.axes[0].points) - LENGTH / 2
         shape = h + sum(
             w(x - y, a, sigma, c) * step for y in np.arange(-width / 2 + step / 2, width / 2, step)
         )
-        start = one.snapshot()
-        ident = one.session.document.by_names()[("field",)].id
+        start = isolated.snapshot()
+        ident = isolated.session.document.by_names()[("field",)].id
         row = {"activation": shape}
-        one.restore(dc.replace(start, states={**start.states, ident: (row, row)}))
-        one.settle()
-        found = one.peaks()
-        assert bool(found) == grows, (width, unstable)
+        isolated.restore(dc.replace(start, states={**start.states, ident: (row, row)}))
+        isolated.settle()
+        peaks = isolated.peaks()
+        assert bool(peaks) == grows, (width, unstable)
         if grows:
-            assert found[0].width[0] == pytest.approx(stable, abs=step)
+            assert peaks[0].width[0] == pytest.approx(stable, abs=step)
 
 
 @pytest.mark.parametrize(("a", "sigma", "c", "h"), SETS)
@@ -110,13 +110,13 @@ def test_the_resting_level_below_which_peaks_vanish_is_that_of_theory(
     measured = []
     for samples in (320, 640):
         step = LENGTH / samples
-        found = forgetting(
+        forgotten = forgetting(
             isolate(field(a, sigma, c, h, samples), precision="float64"), 1.5 * abs(h), accuracy=0.002
         )
-        assert found is not None and found.jump
+        assert forgotten is not None and forgotten.jump
         on_this_grid = -h - np.cumsum(w(np.arange(samples // 2) * step, a, sigma, c) * step).max()
-        assert found.value == pytest.approx(on_this_grid, rel=0.01)
-        measured.append(found.value)
+        assert forgotten.value == pytest.approx(on_this_grid, rel=0.01)
+        measured.append(forgotten.value)
     lowest = -h - big_w(widest_rise(a, sigma, c), a, sigma, c)
     assert 2 * measured[1] - measured[0] == pytest.approx(lowest, rel=0.01)
     assert abs(measured[1] - lowest) < 0.6 * abs(measured[0] - lowest)
@@ -128,18 +128,18 @@ def test_localised_input_is_detected_where_it_reaches_the_threshold(
     a: float, sigma: float, c: float, h: float, precision: str
 ) -> None:
     """A step output is silent up to the threshold, so that detection is where h + amplitude = 0."""
-    found = thresholds(isolate(field(a, sigma, c, h, 160), precision=precision)).detection
-    assert found is not None and found.jump and found.value == pytest.approx(-h, rel=0.01)
+    detection = thresholds(isolate(field(a, sigma, c, h, 160), precision=precision)).detection
+    assert detection is not None and detection.jump and detection.value == pytest.approx(-h, rel=0.01)
 
 
 def test_a_settled_field_satisfies_its_fixed_point_equation() -> None:
     """The pattern that is left satisfies u = h + w * g(u), recomputed with plain sums."""
-    one = isolate(
+    isolated = isolate(
         dc.replace(field(1.0, 5.0, 0.30, -2.0, 160), sigmoid=dd.Logistic(20.0)), precision="float64"
     )
-    kept = outlives(one, 3.0)
-    assert kept.outlives
-    u, x, step = kept.activation, one.axes[0].points, one.axes[0].step
+    memory = outlives(isolated, 3.0)
+    assert memory.outlives
+    u, x, step = memory.activation, isolated.axes[0].points, isolated.axes[0].step
     g = 1 / (1 + np.exp(-20.0 * u))
     lag = x[:, None] - x[None]
     lag = lag - LENGTH * np.round(lag / LENGTH)

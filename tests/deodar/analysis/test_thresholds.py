@@ -17,10 +17,20 @@ def node(resting_level: float, excitation: float = 3.0) -> dd.Field:
 def test_a_node_that_no_searched_input_activates_has_no_threshold(monkeypatch: pytest.MonkeyPatch) -> None:
     """It inhibits itself, so an input as large as the distance of its resting level is too small."""
     monkeypatch.setitem(thresholds.__globals__, "MOST_DOUBLINGS", 0)
-    found = thresholds(isolate(node(-4, excitation=-3)))
-    assert (found.detection, found.reverse, found.active_at_rest, found.searched) == (None, None, False, 4.0)
+    measured = thresholds(isolate(node(-4, excitation=-3)))
+    assert (measured.detection, measured.reverse, measured.active_at_rest, measured.searched) == (
+        None,
+        None,
+        False,
+        4.0,
+    )
 
 
 def test_a_node_that_is_active_without_input_has_no_threshold() -> None:
-    found = thresholds(isolate(node(2)))
-    assert (found.detection, found.reverse, found.active_at_rest, found.searched) == (None, None, True, 0.0)
+    measured = thresholds(isolate(node(2)))
+    assert (measured.detection, measured.reverse, measured.active_at_rest, measured.searched) == (
+        None,
+        None,
+        True,
+        0.0,
+    )

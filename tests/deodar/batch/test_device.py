@@ -79,25 +79,25 @@ for precision in ("float64", "float32"):
     assert abs(whole - divided)["u.activation"].max() < (1e-10 if precision == "float64" else 1e-4)
     assert np.array_equal(whole["u.activation"] > -5, divided["u.activation"] > -5)
     assert bits(run(made, trials=13, precision=precision, devices="all"), divided.isel(trial=slice(13)))
-    grid = {"u.kernel.0.sigma": values, "u.tau": [20.0, 30.0, 40.0]}
-    few = {name: found[:2] for name, found in grid.items()}
-    one = run(made, trials=2, precision=precision, sweep=grid, devices=8)
-    two = run(made, trials=2, precision=precision, sweep=few, batch=4)
-    chosen = one.isel({"u.kernel.0.sigma": [0, 1], "u.tau": [0, 1]})
-    assert bits(chosen, two), float(abs(chosen - two)["u.activation"].max())
-    few = {"u.tau": [20.0, 30.0]}
-    one, two = (run(made, trials=8, precision=precision, sweep=few, **given) for given in ways)
-    assert bits(one, two)
-    one = run(made, trials=2, precision=precision, sweep=grid, devices=8)
-    programs = [p for p in made.programs.values() if p.distribution is not None]
-    assert {p.distribution.along for p in programs} == {"trials", "points"}
-    for p in programs:
-        for compiled in (p.chunk(())[0], p.reader([p.port(model().document.entries[0].id, "output")])):
-            text = compiled.as_text()
-            used = {len(s.device_set) for s in jax.tree.leaves(compiled.input_shardings)}
-            assert used == {len(p.distribution.devices)}
-            assert not re.search("all-reduce|all-gather|all-to-all|collective-permute|reduce-scatter", text)
-assert about(one)["devices"] == 8 and about(one)["made_by"]["devices"] == "8"
+# sweeps, in single precision
+grid = {"u.kernel.0.sigma": values, "u.tau": [20.0, 30.0, 40.0]}
+few = {name: some[:2] for name, some in grid.items()}
+swept = run(made, trials=2, sweep=grid, devices=8)
+two = run(made, trials=2, sweep=few, batch=4)
+chosen = swept.isel({"u.kernel.0.sigma": [0, 1], "u.tau": [0, 1]})
+assert bits(chosen, two), float(abs(chosen - two)["u.activation"].max())
+few = {"u.tau": [20.0, 30.0]}
+one, two = (run(made, trials=8, sweep=few, **given) for given in ways)
+assert bits(one, two)
+programs = [p for p in made.programs.values() if p.distribution is not None]
+assert {p.distribution.along for p in programs} == {"trials", "points"}
+for p in programs:
+    for compiled in (p.chunk(())[0], p.reader([p.port(model().document.entries[0].id, "output")])):
+        text = compiled.as_text()
+        used = {len(s.device_set) for s in jax.tree.leaves(compiled.input_shardings)}
+        assert used == {len(p.distribution.devices)}
+        assert not re.search("all-reduce|all-gather|all-to-all|collective-permute|reduce-scatter", text)
+assert about(swept)["devices"] == 8 and about(swept)["made_by"]["devices"] == "8"
 robot, loop = avoiding(), dict(record=["pose.output"], every=64, world=dd.Arena("blocks"))
 ways = dict(devices=4), dict(batch=2)
 one, two = (dd.simulate(robot, 64 * 10, trials=8, **loop, on=dd.Resources(**given)) for given in ways)

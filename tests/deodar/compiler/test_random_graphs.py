@@ -1,8 +1,7 @@
 """Random graphs of fields and couplings against plain loops over time: any plan stays near the equations.
 
-A failure shrinks to a small graph, whose document is printed. `pytest
-tests/deodar/compiler/test_random_graphs.py --hypothesis-profile=thorough` draws 200 graphs for each test in
-place of 5.
+A failure shrinks to a small graph, whose document is printed. The ways to apply kernels share the examples
+of a property: each has graphs of its own.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from typing import Any
 import jax
 import numpy as np
 import pytest
-from hypothesis import assume, given, note
+from hypothesis import assume, given, note, settings
 from hypothesis import strategies as st
 
 import deodar as dd
@@ -267,9 +266,12 @@ def dear(way: str) -> Iterator[None]:
 
 
 WAYS = ("", "waves", "fourier")
+SHARE = settings(max_examples=max(2, settings().max_examples // 4))
+"""A quarter of the examples of a property, for each way."""
 
 
 @pytest.mark.parametrize("way", [*WAYS, "taps"])
+@SHARE
 @given(graph=graphs(), seed=st.integers(0, 9))
 def test_every_convolution_strategy_agrees_with_its_matrix(way: str, graph: Graph, seed: int) -> None:
     """One application, to 1e-5 of the sum of absolute weights."""
@@ -297,6 +299,7 @@ def test_every_convolution_strategy_agrees_with_its_matrix(way: str, graph: Grap
 
 
 @pytest.mark.parametrize("way", WAYS)
+@SHARE
 @given(graph=graphs())
 def test_contractive_graphs_stay_near_the_equations(way: str, graph: Graph) -> None:
     """200 steps without noise, to 1e-4 in activation, as they are run by default."""

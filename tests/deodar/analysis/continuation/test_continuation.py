@@ -20,8 +20,8 @@ def kinds(branch) -> list[tuple[str, str]]:
 def test_the_folds_of_a_node_are_those_of_the_closed_form():
     branch = dd.continuation(node(), "s.amplitude", (0, 8))
     assert kinds(branch) == [("fold", "detection"), ("fold", "reverse detection")]
-    found = [b.value for b in branch.bifurcations]
-    assert found == pytest.approx(node_folds(), abs=1e-9)
+    folds = [b.value for b in branch.bifurcations]
+    assert folds == pytest.approx(node_folds(), abs=1e-9)
     assert branch.not_refined == "no element has an axis"
     assert branch.ended == ("start", "span") and branch.values[-1] == pytest.approx(8.0)
     np.testing.assert_array_equal(np.unique(np.diff(np.sign(np.diff(branch.values)))), [-2, 0, 2])
@@ -60,8 +60,8 @@ def test_the_period_near_a_hopf_point_is_that_of_the_run():
     first = dd.continuation(oscillator(0.2), "e.resting_level", (-4, 2)).bifurcations[0]
     model = oscillator(0.2)
     model.set("e.resting_level", first.value + 0.05)
-    data = dd.simulate(model, 40_000, dt=0.2, record="e.activation", every=1.0, precision="float64")
-    u = data["e.activation"].values[-4000:]
+    record = dd.simulate(model, 40_000, dt=0.2, record="e.activation", every=1.0, precision="float64")
+    u = record["e.activation"].values[-4000:]
     rises = np.flatnonzero((u[:-1] < u.mean()) & (u[1:] >= u.mean()))
     assert np.ptp(u) > 0.05
     assert np.diff(rises).mean() == pytest.approx(2 * np.pi / first.frequency, rel=0.03)
@@ -111,8 +111,8 @@ def test_a_memory_is_forgotten_at_a_fold_and_the_grid_makes_others():
     assert [b.instability for b in named] == ["forgetting"]
     assert named[0].value == pytest.approx(-1.685172, abs=1e-5)
     assert named[0].fine_value == pytest.approx(-1.602856, abs=1e-5)
-    made = [b for b in branch.bifurcations if b.by_grid]
-    assert len(made) == 4 and "made by the grid" in made[0].words
+    by_grid = [b for b in branch.bifurcations if b.by_grid]
+    assert len(by_grid) == 4 and "made by the grid" in by_grid[0].words
 
 
 @pytest.mark.parametrize("even", [(), ("x",)])
@@ -209,12 +209,12 @@ def test_a_field_that_is_held_is_constant_and_has_no_name():
     model = node()
     model.add(dd.Field("v", tau=10, resting_level=-3.0))
     model["v"] >> model["u"]
-    whole, held = (
+    whole, held_branch = (
         dd.continuation(model, "s.amplitude", (0, 8), hold=hold, finer=False) for hold in ((), ("v",))
     )
-    assert list(held.state(0)) == ["u.activation"]
-    assert kinds(whole) == kinds(held) == [("fold", "detection"), ("fold", "reverse detection")]
-    assert [b.value for b in held.bifurcations] == pytest.approx(
+    assert list(held_branch.state(0)) == ["u.activation"]
+    assert kinds(whole) == kinds(held_branch) == [("fold", "detection"), ("fold", "reverse detection")]
+    assert [b.value for b in held_branch.bifurcations] == pytest.approx(
         [b.value for b in whole.bifurcations], abs=1e-6
     )
 
@@ -226,6 +226,6 @@ def test_the_parameter_of_the_span_cannot_induce_the_state():
 
 def test_what_was_found_is_plain_data():
     branch = dd.continuation(node(), "s.amplitude", (0, 8))
-    data = branch.data()
-    assert data["bifurcations"][0]["instability"] == "detection" and data["stable"] < data["states"]
+    summary = branch.data()
+    assert summary["bifurcations"][0]["instability"] == "detection" and summary["stable"] < summary["states"]
     assert "fold(detection) 3.96637" in repr(branch)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 
 import numpy as np
 import pytest
@@ -31,14 +32,20 @@ def assert_same(a: SteadyBranch, b: SteadyBranch) -> None:
         assert new.vector == pytest.approx(old.vector, abs=1e-13)
 
 
+@functools.cache
+def whole_line() -> SteadyBranch:
+    """Return a branch with both folds, each also on a finer grid."""
+    return dd.continuation(line(), "s.amplitude", (0, 8))
+
+
 @pytest.mark.parametrize("name", ["branch.nc", "branch.zarr"])
 def test_a_branch_survives_its_file(tmp_path, name):
-    branch = dd.continuation(line(), "s.amplitude", (0, 8))
+    branch = whole_line()
     branch.save(tmp_path / name)
-    again = SteadyBranch.load(tmp_path / name)
-    assert_same(branch, again)
-    assert np.array_equal(again.read("u.output"), branch.read("u.output"))
-    up, same = branch.bifurcations[0], again.bifurcations[0]
+    loaded = SteadyBranch.load(tmp_path / name)
+    assert_same(branch, loaded)
+    assert np.array_equal(loaded.read("u.output"), branch.read("u.output"))
+    up, same = branch.bifurcations[0], loaded.bifurcations[0]
     assert same.sensitivity == pytest.approx(up.sensitivity, rel=1e-9)
     with pytest.raises(OutputExists):
         branch.save(tmp_path / name)
@@ -46,7 +53,7 @@ def test_a_branch_survives_its_file(tmp_path, name):
 
 
 def test_other_programs_find_states_by_path_axis_and_parameter(tmp_path):
-    branch = dd.continuation(line(), "s.amplitude", (0, 8), finer=False)
+    branch = whole_line()
     record = dd.load_record(branch.save(tmp_path / "branch.nc"))
     assert record["u.activation"].dims == ("state", "x") and record["x"].size == 101
     assert record["value"].attrs["long_name"] == "s.amplitude"
@@ -56,14 +63,14 @@ def test_other_programs_find_states_by_path_axis_and_parameter(tmp_path):
 
 
 def test_a_loaded_branch_is_left_at_its_branch_point_and_followed_in_a_second_parameter(tmp_path):
-    both = dd.continuation(rivals(101), "u.global_inhibition", (0.32, 0.45), finer=False)
-    both.save(tmp_path / "both.nc")
-    again = SteadyBranch.load(tmp_path / "both.nc")
-    (point,) = again.bifurcations
-    for old, new in zip(both.switch(both.bifurcations[0]), again.switch(point), strict=True):
+    branch = dd.continuation(rivals(101), "u.global_inhibition", (0.32, 0.45), finer=False)
+    branch.save(tmp_path / "both.nc")
+    loaded = SteadyBranch.load(tmp_path / "both.nc")
+    (point,) = loaded.bifurcations
+    for old, new in zip(branch.switch(branch.bifurcations[0]), loaded.switch(point), strict=True):
         assert new.data() == old.data() or new.values == pytest.approx(old.values, abs=1e-6)
-    found = dd.locus(point, "u.kernel.0.amplitude", (11.9, 12.1), (0, 1))
-    assert abs(found.values[:, 0] - point.value).min() < 1e-6
+    curve = dd.locus(point, "u.kernel.0.amplitude", (11.9, 12.1), (0, 1))
+    assert abs(curve.values[:, 0] - point.value).min() < 1e-6
 
 
 def test_states_that_are_even_held_or_induced_are_restored(tmp_path):
@@ -82,11 +89,11 @@ def test_states_that_are_even_held_or_induced_are_restored(tmp_path):
         model, "boost.amplitude", (0, -4), {"input.amplitude": 8}, hold=["w"], even=["state"], finer=False
     )
     branch.save(tmp_path / "memory.nc")
-    again = SteadyBranch.load(tmp_path / "memory.nc")
-    assert_same(branch, again)
-    own, new = branch.line.right_hand_side, again.line.right_hand_side
-    assert new.even == ("state",) and new.held == own.held and new.dt == 2
-    assert np.array_equal(again.line.parameters, branch.line.parameters)
+    loaded = SteadyBranch.load(tmp_path / "memory.nc")
+    assert_same(branch, loaded)
+    before, new = branch.line.right_hand_side, loaded.line.right_hand_side
+    assert new.even == ("state",) and new.held == before.held and new.dt == 2
+    assert np.array_equal(loaded.line.parameters, branch.line.parameters)
     record = dd.load_record(tmp_path / "memory.nc")
     assert record["u.activation"].dims == ("state", "u.activation.state")
     assert record[f"{v.path}.activation"].dims == ("state", "v.activation.state")
@@ -100,9 +107,9 @@ def test_a_branch_without_bifurcations_and_one_of_two_axes_survive(tmp_path):
     assert_same(quiet, SteadyBranch.load(tmp_path / "quiet.nc"))
     large = dd.continuation(plane(), "s.amplitude", (0, 2), finer=False)
     large.save(tmp_path / "large.zarr")
-    again = SteadyBranch.load(tmp_path / "large.zarr")
-    assert_same(large, again)
-    assert again.line.right_hand_side.size > 600
+    loaded = SteadyBranch.load(tmp_path / "large.zarr")
+    assert_same(large, loaded)
+    assert loaded.line.right_hand_side.size > 600
 
 
 def test_hopf_points_keep_their_frequency_and_step_value(tmp_path):
@@ -116,17 +123,17 @@ def test_hopf_points_keep_their_frequency_and_step_value(tmp_path):
 @pytest.mark.parametrize("name", ["locus.nc", "locus.zarr"])
 def test_a_locus_survives_its_file(tmp_path, name):
     fold = dd.continuation(node(), "s.amplitude", (0, 8)).bifurcations[0]
-    found = dd.locus(fold, "u.kernel.0.amplitude", (0.5, 10), (-10, 10))
-    found.save(tmp_path / name)
-    again = Locus.load(tmp_path / name)
-    assert again.data() == found.data() and np.array_equal(again.values, found.values)
-    assert again.points == found.points and again.distance((2, 6)) == found.distance((2, 6))
-    assert again.line is not None and again.line.right_hand_side.parameters == ("s.amplitude",)
+    curve = dd.locus(fold, "u.kernel.0.amplitude", (0.5, 10), (-10, 10))
+    curve.save(tmp_path / name)
+    loaded = Locus.load(tmp_path / name)
+    assert loaded.data() == curve.data() and np.array_equal(loaded.values, curve.values)
+    assert loaded.points == curve.points and loaded.distance((2, 6)) == curve.distance((2, 6))
+    assert loaded.line is not None and loaded.line.right_hand_side.parameters == ("s.amplitude",)
     record = dd.load_record(tmp_path / name)
     assert record["second"].attrs["long_name"] == "u.kernel.0.amplitude"
     s, excitation = float(record["first"][3]), float(record["second"][3])
-    assert min(abs(s - own) for own in node_folds(excitation)) < 1e-8
-    again.over("u.kernel.0.amplitude", "s.amplitude").save(tmp_path / f"turned-{name}")
+    assert min(abs(s - fold) for fold in node_folds(excitation)) < 1e-8
+    loaded.over("u.kernel.0.amplitude", "s.amplitude").save(tmp_path / f"turned-{name}")
     turned = Locus.load(tmp_path / f"turned-{name}")
     assert turned.parameters == ("u.kernel.0.amplitude", "s.amplitude")
 

@@ -41,21 +41,21 @@ def hopf() -> list[dd.analysis.Bifurcation]:
 
 def test_the_hopf_points_of_two_nodes_are_straight_lines_up_to_bogdanov_takens_points(hopf):
     for high, point in enumerate(hopf):
-        found = dd.locus(point, "back.factor", (-12, 0), (-20, 20))
-        assert found.of == "Hopf"
-        for (level, factor), frequency in zip(found.values, found.frequencies, strict=True):
+        curve = dd.locus(point, "back.factor", (-12, 0), (-20, 20))
+        assert curve.of == "Hopf"
+        for (level, factor), frequency in zip(curve.values, curve.frequencies, strict=True):
             expected, square = closed_form(factor, bool(high))
             assert level == pytest.approx(expected, abs=1e-8)
             assert frequency**2 == pytest.approx(square, abs=1e-9)
-        (end,) = found.points
+        (end,) = curve.points
         assert end.kind == "Bogdanov-Takens"
         # 1 - w g' = -1/2 there
         g = steep(SELF)
         i = 1 / (1 + np.exp(-(FORTH * (1 - g if high else g) - 3)))
         factor = -0.5 / (FORTH * 0.6 * i * (1 - i))
         assert end.values == pytest.approx((closed_form(factor, bool(high))[0], factor), abs=1e-7)
-        assert tuple(found.values[-1]) == end.values and found.frequencies[-1] == 0
-        assert found.values[0, 1] <= -12, "the other end is that of the span"
+        assert tuple(curve.values[-1]) == end.values and curve.frequencies[-1] == 0
+        assert curve.values[0, 1] <= -12, "the other end is that of the span"
 
 
 def test_a_hopf_line_ends_where_the_fold_has_its_bogdanov_takens_point():
@@ -67,8 +67,8 @@ def test_a_hopf_line_ends_where_the_fold_has_its_bogdanov_takens_point():
     doubles = [point.values for point in points if point.kind == "Bogdanov-Takens"]
     assert len(doubles) == 2
     model.set("back.factor", -9.0)
-    found = dd.continuation(model, "e.resting_level", (-4, 10), finer=False).bifurcations
-    lines = [dd.locus(b, "back.factor", (-12, 0), (-10, 15)) for b in found if b.kind == "Hopf"]
+    bifurcations = dd.continuation(model, "e.resting_level", (-4, 10), finer=False).bifurcations
+    lines = [dd.locus(b, "back.factor", (-12, 0), (-10, 15)) for b in bifurcations if b.kind == "Hopf"]
     ends = [p.values for line in lines for p in line.points]
     assert len(ends) == 2
     for end in ends:
@@ -80,17 +80,17 @@ def test_a_pair_that_is_real_at_the_next_point_crosses_in_a_hopf_point(last):
     """Whatever the steps are: behind the Hopf points the two growing modes soon oscillate no more."""
     model = oscillator()
     model.set({"e.kernel.0.amplitude": 6.0, "back.factor": -9.0})
-    found = dd.continuation(model, "e.resting_level", (-4, last), finer=False).bifurcations
-    assert [b.kind for b in found] == ["Hopf", "Hopf"]
-    for b, high in zip(found, (False, True), strict=True):
+    bifurcations = dd.continuation(model, "e.resting_level", (-4, last), finer=False).bifurcations
+    assert [b.kind for b in bifurcations] == ["Hopf", "Hopf"]
+    for b, high in zip(bifurcations, (False, True), strict=True):
         level, square = closed_form(-9.0, high, 6.0)
         assert (b.value, b.frequency**2) == pytest.approx((level, square), abs=1e-7)
 
 
 def test_the_excitation_bends_the_line(hopf):
-    found = dd.locus(hopf[0], "e.kernel.0.amplitude", (1.6, 5), (-10, 10))
-    assert len(found.values) > 10
-    for (level, excitation), frequency in zip(found.values, found.frequencies, strict=True):
+    curve = dd.locus(hopf[0], "e.kernel.0.amplitude", (1.6, 5), (-10, 10))
+    assert len(curve.values) > 10
+    for (level, excitation), frequency in zip(curve.values, curve.frequencies, strict=True):
         expected = [closed_form(-6.0, high, excitation) for high in (False, True)]
         nearest = min(expected, key=lambda pair: abs(pair[0] - level))
         assert level == pytest.approx(nearest[0], abs=1e-7)
@@ -113,21 +113,21 @@ def fields() -> dd.Model:
 def test_the_fastest_mode_of_two_fields_neither_grows_nor_decays_along_the_line():
     branch = dd.continuation(fields(), "s.amplitude", (0, 8), finer=False)
     first = next(b for b in branch.bifurcations if b.kind == "Hopf")
-    found = dd.locus(first, "back.factor", (-6.5, -5.5), (0, 12))
-    assert found.values[:, 1].min() <= -6.5 and found.values[:, 1].max() >= -5.5
-    amplitude, factor = found.values[3]
+    curve = dd.locus(first, "back.factor", (-6.5, -5.5), (0, 12))
+    assert curve.values[:, 1].min() <= -6.5 and curve.values[:, 1].max() >= -5.5
+    amplitude, factor = curve.values[3]
     model = fields()
     model.set("back.factor", float(factor))
-    again = dd.continuation(model, "s.amplitude", (0, 8), finer=False).bifurcations
-    near = min((b for b in again if b.kind == "Hopf"), key=lambda b: abs(b.value - amplitude))
-    assert near.value == pytest.approx(amplitude, abs=1e-6)
-    assert near.frequency == pytest.approx(found.frequencies[3], rel=1e-6)
+    bifurcations = dd.continuation(model, "s.amplitude", (0, 8), finer=False).bifurcations
+    nearest = min((b for b in bifurcations if b.kind == "Hopf"), key=lambda b: abs(b.value - amplitude))
+    assert nearest.value == pytest.approx(amplitude, abs=1e-6)
+    assert nearest.frequency == pytest.approx(curve.frequencies[3], rel=1e-6)
 
 
 def test_the_line_and_its_frequencies_survive_a_file_and_are_drawn(hopf, tmp_path):
-    found = dd.locus(hopf[0], "back.factor", (-8, 0), (-20, 20))
-    again = dd.analysis.Locus.load(found.save(tmp_path / "hopf.nc"))
-    assert again.data() == found.data() and np.array_equal(again.frequencies, found.frequencies)
-    axes = dd.locus_figure(found, again).axes[0]
+    curve = dd.locus(hopf[0], "back.factor", (-8, 0), (-20, 20))
+    loaded = dd.analysis.Locus.load(curve.save(tmp_path / "hopf.nc"))
+    assert loaded.data() == curve.data() and np.array_equal(loaded.frequencies, curve.frequencies)
+    axes = dd.locus_figure(curve, loaded).axes[0]
     assert [drawn.get_marker() for drawn in axes.lines] == ["None", "*", "None"]
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["Hopf"]

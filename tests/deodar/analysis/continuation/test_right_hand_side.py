@@ -89,8 +89,8 @@ def test_what_has_no_steady_state_is_refused_by_name_or_held():
     model["u"] >> trace
     with pytest.raises(AnalysisError, match=r"trace: learns \(MemoryTrace\).*hold=\['trace'\]"):
         dd.right_hand_side(model)
-    held = dd.right_hand_side(model, hold=["trace"])
-    assert list(held.state(held.start)) == ["u.activation"]
+    without_trace = dd.right_hand_side(model, hold=["trace"])
+    assert list(without_trace.state(without_trace.start)) == ["u.activation"]
     model.add(dd.Sensor("eye", [x], sensor="picture"))
     with pytest.raises(AnalysisError, match="eye: reads a world"):
         dd.right_hand_side(model, hold=["trace"])

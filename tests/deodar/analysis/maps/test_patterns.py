@@ -19,10 +19,10 @@ def test_peaks_are_those_of_dd_peaks(periodic):
         [rough, np.cumsum(rough, axis=1), np.full((1, 24), 1.0), np.full((1, 24), -1.0)]
     )
     patterns = patterns.astype(np.float32)
-    found = [dd.peaks(pattern, [axis]) for pattern in patterns]
-    assert count(jnp.asarray(patterns), (axis,)).tolist() == [len(peaks) for peaks in found]
-    assert {len(peaks) for peaks in found} >= {0, 1, 2, 5}
-    sizes = [max((peak.size for peak in peaks), default=0.0) for peaks in found]
+    expected_peaks = [dd.peaks(pattern, [axis]) for pattern in patterns]
+    assert count(jnp.asarray(patterns), (axis,)).tolist() == [len(peaks) for peaks in expected_peaks]
+    assert {len(peaks) for peaks in expected_peaks} >= {0, 1, 2, 5}
+    sizes = [max((peak.size for peak in peaks), default=0.0) for peaks in expected_peaks]
     assert np.asarray(widest(jnp.asarray(patterns), axis)) == pytest.approx(sizes, abs=1e-4)
 
 

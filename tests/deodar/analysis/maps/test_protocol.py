@@ -17,26 +17,26 @@ WIDTH = "u.kernel.0.sigma"
 def shapes(path: str, samples: int = 31) -> tuple[int, set[tuple[int, ...]]]:
     """Return the number of lanes, and the shapes of their constants."""
     over = {path: [4.0, 8.0], INHIBITION: [0.1, 0.2]}
-    found = protocol.RegimeProtocol(requested(line(samples), over, "u", None, {}))
-    parameters = np.ones((found.copies.count, 5), np.float32)
-    constants = jax.eval_shape(found.copies.constants, parameters)
-    return found.copies.count, {leaf.shape for leaf in jax.tree.leaves(constants)}
+    regime_protocol = protocol.RegimeProtocol(requested(line(samples), over, "u", None, {}))
+    parameters = np.ones((regime_protocol.copies.count, 5), np.float32)
+    constants = jax.eval_shape(regime_protocol.copies.constants, parameters)
+    return regime_protocol.copies.count, {leaf.shape for leaf in jax.tree.leaves(constants)}
 
 
 def test_lanes_that_differ_by_an_amplitude_share_one_matrix():
-    lanes, found = shapes(EXCITATION)
-    assert lanes == protocol.MOST_LANES and (1, 31, 31) in found and (lanes, 1, 31, 31) not in found
+    lanes, shape = shapes(EXCITATION)
+    assert lanes == protocol.MOST_LANES and (1, 31, 31) in shape and (lanes, 1, 31, 31) not in shape
 
 
 def test_lanes_that_differ_by_a_width_have_a_matrix_each():
-    lanes, found = shapes(WIDTH)
-    assert lanes == protocol.MOST_LANES and (lanes, 1, 31, 31) in found
+    lanes, shape = shapes(WIDTH)
+    assert lanes == protocol.MOST_LANES and (lanes, 1, 31, 31) in shape
 
 
 def test_large_matrices_of_lanes_are_bounded():
-    lanes, found = shapes(WIDTH, 301)
+    lanes, shape = shapes(WIDTH, 301)
     assert lanes * 301**2 * 4 <= protocol.LANE_BYTES < protocol.MOST_LANES * 301**2 * 4
-    assert (lanes, 1, 301, 301) in found
+    assert (lanes, 1, 301, 301) in shape
 
 
 @pytest.mark.parametrize("path", [EXCITATION, WIDTH])

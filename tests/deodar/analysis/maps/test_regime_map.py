@@ -16,8 +16,8 @@ def line(samples: int = 101, excitation: float = 8.0, inhibition: float = 0.1, *
     x = dd.Axis("x", 0, 100, samples, **{k: values.pop(k) for k in ("periodic",) if k in values})
     model = dd.Model("line")
     kernel = [dd.Gaussian(excitation, 5, normalized=True)]
-    given = {"tau": 20, "resting_level": -5, "kernel": kernel, "global_inhibition": inhibition} | values
-    model.add(dd.Field("u", [x], **given))
+    options = {"tau": 20, "resting_level": -5, "kernel": kernel, "global_inhibition": inhibition} | values
+    model.add(dd.Field("u", [x], **options))
     return model
 
 
@@ -41,19 +41,25 @@ def measured(excitation: float, inhibition: float, strength: float, **axis) -> s
     memory = dd.outlives(isolated, strength)
     if isolated.covers(memory.driven) or isolated.covers(memory.left):
         return "unbounded"
-    one = len(dd.selection(isolated, strength).equal) == 1
-    both = {(False, False): "input-driven", (True, False): "self-sustained"}
-    return (both | {(False, True): "selective", (True, True): "self-sustained and selective"})[
-        memory.outlives, one
+    selects = len(dd.selection(isolated, strength).equal) == 1
+    words = {(False, False): "input-driven", (True, False): "self-sustained"}
+    return (words | {(False, True): "selective", (True, True): "self-sustained and selective"})[
+        memory.outlives, selects
     ]
 
 
 @pytest.mark.parametrize("periodic", [False, True])
 def test_labels_agree_with_single_measurements(periodic):
     model = line(31, periodic=periodic)
-    found = dd.regime_map(model, {EXCITATION: (2, 30, 5), INHIBITION: (0, 1.2, 4)}, sigma=5, refine=False)
-    words = {(e, c): measured(e, c, 6.0, periodic=periodic) for e in found.values[0] for c in found.values[1]}
-    assert [found.word(*at) for at in words] == list(words.values())
+    regime_map = dd.regime_map(
+        model, {EXCITATION: (2, 30, 5), INHIBITION: (0, 1.2, 4)}, sigma=5, refine=False
+    )
+    words = {
+        (e, c): measured(e, c, 6.0, periodic=periodic)
+        for e in regime_map.values[0]
+        for c in regime_map.values[1]
+    }
+    assert [regime_map.word(*at) for at in words] == list(words.values())
     assert len(set(words.values())) >= 5
 
 
@@ -68,37 +74,37 @@ def test_labels_agree_with_single_measurements(periodic):
 )
 def test_labels_agree_with_regimes(excitation, inhibition, begin):
     grid = {EXCITATION: [excitation, 31], INHIBITION: [inhibition, 2]}
-    regimes = dd.regimes(line(101, excitation, inhibition), "u")
+    regimes = dd.regimes(line(51, excitation, inhibition), "u")
     words, up = regimes.words, regimes.thresholds.detection
     # regimes tests memory and selection with 1.2 times the detection threshold
-    found = dd.regime_map(line(), grid, strength=1.2 * up.after).words[0, 0]
-    assert found.startswith(begin)
-    assert ("selective (two inputs, one peak)" in words) == ("selective" in found)
-    assert words[0].startswith("self-sustained") == found.startswith("self-sustained")
-    assert words[0].startswith("unbounded") == found.startswith("unbounded")
+    word = dd.regime_map(line(51), grid, strength=1.2 * up.after).words[0, 0]
+    assert word.startswith(begin)
+    assert ("selective (two inputs, one peak)" in words) == ("selective" in word)
+    assert words[0].startswith("self-sustained") == word.startswith("self-sustained")
+    assert words[0].startswith("unbounded") == word.startswith("unbounded")
 
 
 def node_label(excitation: float, level: float, strength: float) -> RegimeLabel:
     """Return the label of a node from the roots of -u + h + s + w g(u), with g the logistic function."""
     u = np.linspace(-15, 40, 550_001)
     drive = level - u + excitation / (1 + np.exp(-4 * u))
-    rest = u[(u >= level) & (drive <= 0)].min()  # the first root above the start
-    if rest > 0:
+    resting = u[(u >= level) & (drive <= 0)].min()  # the first root above the start
+    if resting > 0:
         return RegimeLabel.ACTIVE
-    driven = u[(u >= rest) & (drive + strength <= 0)].min()
+    driven = u[(u >= resting) & (drive + strength <= 0)].min()
     if driven <= 0:
         return RegimeLabel.SILENT
-    left = u[(u <= driven) & (drive >= 0)].max()  # the first root below it
-    return RegimeLabel.SUSTAINED if left > 0 else RegimeLabel.DRIVEN
+    decayed = u[(u <= driven) & (drive >= 0)].max()  # the first root below it
+    return RegimeLabel.SUSTAINED if decayed > 0 else RegimeLabel.DRIVEN
 
 
 def test_a_node_follows_its_closed_form():
     grid = {EXCITATION: (1, 12, 12), "u.resting_level": (-9.2, -1.2, 17)}
-    found = dd.regime_map(node(), grid, strength=6.0, precision="float64")
-    levels = found.values[1]
-    known = [[node_label(w, h, 6.0) for h in levels] for w in found.values[0]]
-    assert found.labels.tolist() == known
-    assert len(np.unique(found.labels)) == 4
+    regime_map = dd.regime_map(node(), grid, strength=6.0, precision="float64")
+    levels = regime_map.values[1]
+    expected = [[node_label(w, h, 6.0) for h in levels] for w in regime_map.values[0]]
+    assert regime_map.labels.tolist() == expected
+    assert len(np.unique(regime_map.labels)) == 4
 
 
 def test_the_border_of_silence_is_the_fold_that_continuation_finds():
@@ -108,9 +114,9 @@ def test_the_border_of_silence_is_the_fold_that_continuation_finds():
     branch = dd.continuation(model, "u.resting_level", (-7, -2), finer=False)
     fold = next(b for b in branch.bifurcations if b.instability == "detection").value
     grid = {"u.resting_level": (fold - 0.1, fold + 0.1, 41), INHIBITION: [0.1, 0.2]}
-    found = dd.regime_map(model, grid, strength=strength, sigma=5)
-    first = int((found.labels[:, 0] != RegimeLabel.SILENT).argmax())
-    below, above = found.values[0][first - 1 : first + 1]
+    regime_map = dd.regime_map(model, grid, strength=strength, sigma=5)
+    first = int((regime_map.labels[:, 0] != RegimeLabel.SILENT).argmax())
+    below, above = regime_map.values[0][first - 1 : first + 1]
     assert above - below == pytest.approx(0.005)
     assert below - 0.005 <= fold <= above
 
@@ -132,21 +138,21 @@ def test_single_precision_has_the_labels_of_double_precision():
 
 def test_a_width_is_rebuilt_in_each_cell():
     grid = {"u.kernel.0.sigma": [3, 5, 8], INHIBITION: [0.1, 0.8]}
-    found = dd.regime_map(line(51, 12), grid, sigma=5)
-    for i, width in enumerate(found.values[0]):
-        for j, inhibition in enumerate(found.values[1]):
+    regime_map = dd.regime_map(line(51, 12), grid, sigma=5)
+    for i, width in enumerate(regime_map.values[0]):
+        for j, inhibition in enumerate(regime_map.values[1]):
             model = line(51, 12, float(inhibition))
             model.set("u.kernel.0.sigma", float(width))
             memory = dd.outlives(dd.isolate(model, "u", sigma=5), 6.0)
-            assert memory.outlives == ("self-sustained" in found.words[i, j])
+            assert memory.outlives == ("self-sustained" in regime_map.words[i, j])
 
 
 def test_a_field_that_does_not_settle_has_a_label():
     """A strong inhibition with a long Euler step makes the activation alternate."""
     model = line(51, 12, 0.2)
-    found = dd.regime_map(model, {INHIBITION: [0.1, 3], EXCITATION: [12, 13]}, dt=18, limit=50)
-    assert (found.labels[1] == RegimeLabel.RESTLESS).all()
-    assert not (found.labels[0] == RegimeLabel.RESTLESS).any()
+    regime_map = dd.regime_map(model, {INHIBITION: [0.1, 3], EXCITATION: [12, 13]}, dt=18, limit=50)
+    assert (regime_map.labels[1] == RegimeLabel.RESTLESS).all()
+    assert not (regime_map.labels[0] == RegimeLabel.RESTLESS).any()
 
 
 def test_document_parameters_and_kept_inputs_are_mapped():
@@ -155,14 +161,16 @@ def test_document_parameters_and_kept_inputs_are_mapped():
     model.add(dd.Boost("boost", u.axes, amplitude=0.0)) >> u
     model.parameter("strength", 0.1)
     model.link(INHIBITION, "strength")
-    found = dd.regime_map(model, {"strength": [0.1, 0.6], "boost.amplitude": [-9, 0, 9]}, inputs=["boost"])
-    assert found.words[0].tolist() == ["silent", "input-driven", "active at rest"]
-    assert found.at == (0.1, 0.0) and found.about["inputs"] == ["boost"]
+    regime_map = dd.regime_map(
+        model, {"strength": [0.1, 0.6], "boost.amplitude": [-9, 0, 9]}, inputs=["boost"]
+    )
+    assert regime_map.words[0].tolist() == ["silent", "input-driven", "active at rest"]
+    assert regime_map.at == (0.1, 0.0) and regime_map.about["inputs"] == ["boost"]
 
 
 def test_the_threshold_may_be_mapped():
-    found = dd.regime_map(line(), {"u.sigmoid.threshold": [-4, 0, 4], INHIBITION: [0.1, 0.2]})
-    assert found.words[:, 0].tolist()[1:] == ["input-driven", "silent"]
+    regime_map = dd.regime_map(line(), {"u.sigmoid.threshold": [-4, 0, 4], INHIBITION: [0.1, 0.2]})
+    assert regime_map.words[:, 0].tolist()[1:] == ["input-driven", "silent"]
 
 
 def test_noise_is_off():
@@ -174,7 +182,7 @@ def test_noise_is_off():
 
 
 @pytest.mark.parametrize(
-    ("given", "says"),
+    ("numbers", "says"),
     [
         ((1, 1, 5), "do not grow"),
         ((2, 1, 5), "do not grow"),
@@ -188,9 +196,9 @@ def test_noise_is_off():
         (3.0, "expected numbers"),
     ],
 )
-def test_values_that_are_no_axis_are_answered(given, says):
+def test_values_that_are_no_axis_are_answered(numbers, says):
     with pytest.raises(ParameterError, match=says):
-        dd.regime_map(line(), {EXCITATION: given, INHIBITION: [0.1, 0.2]})
+        dd.regime_map(line(), {EXCITATION: numbers, INHIBITION: [0.1, 0.2]})
 
 
 @pytest.mark.parametrize(
@@ -237,13 +245,13 @@ def test_other_mistakes_are_answered():
 
 
 def test_a_map_survives_its_file(tmp_path):
-    found = dd.regime_map(line(31), {EXCITATION: (1, 30, 9), INHIBITION: (0, 1.5, 9)})
-    found.save(tmp_path / "map.nc")
-    again = dd.analysis.RegimeMap.load(tmp_path / "map.nc")
-    assert again.data() == found.data()
-    assert (again.computed == found.computed).all() and again.labels.dtype == np.uint8
-    assert again.provenance["made_by"]["deodar"] == dd.__version__
-    assert again.document == found.document == line(31).document
+    regime_map = dd.regime_map(line(31), {EXCITATION: (1, 30, 9), INHIBITION: (0, 1.5, 9)})
+    regime_map.save(tmp_path / "map.nc")
+    loaded = dd.analysis.RegimeMap.load(tmp_path / "map.nc")
+    assert loaded.data() == regime_map.data()
+    assert (loaded.computed == regime_map.computed).all() and loaded.labels.dtype == np.uint8
+    assert loaded.provenance["made_by"]["deodar"] == dd.__version__
+    assert loaded.document == regime_map.document == line(31).document
     record = dd.load_record(tmp_path / "map.nc")
     assert record["regime_map"].attrs["flag_meanings"].split()[0] == "silent"
     dd.save_record(dd.simulate(line(31), 10), tmp_path / "run.nc")
@@ -252,12 +260,14 @@ def test_a_map_survives_its_file(tmp_path):
 
 
 def test_progress_counts_cells():
-    told: list[tuple[int, int]] = []
-    found = dd.regime_map(
+    reports: list[tuple[int, int]] = []
+    regime_map = dd.regime_map(
         line(31),
         {EXCITATION: (1, 30, 9), INHIBITION: (0, 1.5, 9)},
-        on=dd.Resources(progress=lambda *now: told.append(now)),
+        on=dd.Resources(progress=lambda *counts: reports.append(counts)),
     )
-    assert told[-1] == (int(found.computed.sum()),) * 2
-    assert [done for done, _ in told] == sorted(done for done, _ in told)
-    assert "cells over u.kernel.0.amplitude" in repr(found) and set(found.words.ravel()) <= set(WORDS)
+    assert reports[-1] == (int(regime_map.computed.sum()),) * 2
+    assert [done for done, _ in reports] == sorted(done for done, _ in reports)
+    assert "cells over u.kernel.0.amplitude" in repr(regime_map) and set(regime_map.words.ravel()) <= set(
+        WORDS
+    )

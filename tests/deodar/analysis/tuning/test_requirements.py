@@ -35,7 +35,7 @@ def margins(model, parameters, values, requirements, **options) -> np.ndarray:
 
 
 def test_on_off_requirements_are_met_by_the_fields_of_which_it_is_known():
-    wanted = {
+    requirements = {
         "remembers": dd.remembers(),
         "forgets": dd.forgets(),
         "selects": dd.selects(),
@@ -52,7 +52,7 @@ def test_on_off_requirements_are_met_by_the_fields_of_which_it_is_known():
     }
     # some contradict each other: one request each
     met = {name: set() for name in FIELDS}
-    for kind, requirement in wanted.items():
+    for kind, requirement in requirements.items():
         found = margins(
             line(101), [EXCITATION, INHIBITION], list(FIELDS.values()), [requirement], strength=6, sigma=5
         )
@@ -66,14 +66,17 @@ def test_on_off_requirements_are_met_by_the_fields_of_which_it_is_known():
 def test_thresholds_of_a_field_lie_where_they_are_computed():
     model = line(101)
     up, down = 4.326958, 3.049414
-    wanted = [
+    requirements = [
         dd.detects(up + 0.02, within=0.05),
         dd.detects(up + 0.02, within=0.01),
         dd.reverse(down - 0.02, within=0.05),
         dd.reverse(down - 0.02, within=0.01),
     ]
     options = {"strength": 6.0, "sigma": 5, "precision": "float64"}
-    signs = [margins(model, [INHIBITION], [[0.1]], [one], **options)[0, 0] >= 0 for one in wanted]
+    signs = [
+        margins(model, [INHIBITION], [[0.1]], [requirement], **options)[0, 0] >= 0
+        for requirement in requirements
+    ]
     assert signs == [True, False, True, False]
 
 
@@ -83,33 +86,38 @@ def test_width_and_amplitude_are_those_of_peaks():
     isolated.settle()
     peak = isolated.peaks()[0]
     width, height = peak.width[0], peak.amplitude
-    wanted = [
+    requirements = [
         dd.peak_width(width, within=0.5),
         dd.peak_width(width + 0.25, within=0.5, strength=6.0),
         dd.peak_amplitude(height, within=0.1),
         dd.peak_amplitude(height + 0.2, within=0.1, strength=6.0),
     ]
     options = {"strength": 6.0, "sigma": 5, "precision": "float64"}
-    found = [margins(line(101), [INHIBITION], [[0.1]], [one], **options)[0, 0] for one in wanted]
-    assert found == pytest.approx([1, 0.5, 1, -1], abs=5e-3)
+    reached = [
+        margins(line(101), [INHIBITION], [[0.1]], [requirement], **options)[0, 0]
+        for requirement in requirements
+    ]
+    assert reached == pytest.approx([1, 0.5, 1, -1], abs=5e-3)
 
 
 def test_the_forgetting_threshold_lies_where_it_is_measured():
     model = line(101, 22.0, 0.4)
     isolated = dd.isolate(model, "u", sigma=5, precision="float64")
-    value = dd.forgetting(isolated, 6.0, accuracy=1e-3).value
+    forgotten = dd.forgetting(isolated, 6.0, accuracy=1e-3).value
     options = {"strength": 6.0, "sigma": 5, "precision": "float64"}
-    wanted = [dd.forgets(value + 0.02, within=0.05), dd.forgets(value + 0.1, within=0.05)]
-    found = [margins(model, [INHIBITION], [[0.4]], [one], **options)[0, 0] for one in wanted]
-    assert found[0] >= 0 > found[1]
+    requirements = [dd.forgets(forgotten + 0.02, within=0.05), dd.forgets(forgotten + 0.1, within=0.05)]
+    reached = [
+        margins(model, [INHIBITION], [[0.4]], [requirement], **options)[0, 0] for requirement in requirements
+    ]
+    assert reached[0] >= 0 > reached[1]
 
 
 def test_thresholds_of_a_node_are_those_of_the_closed_form():
     up, down = node_folds()
-    wanted = [dd.detects(up, 0.02), dd.reverse(down, 0.02)]
-    found = margins(node(), ["u.resting_level"], [[-5], [-4.9], [-5.1]], wanted, precision="float64")
-    assert (found[0] >= 0).all()
-    assert (found[1:] < 0).all()
+    requirements = [dd.detects(up, 0.02), dd.reverse(down, 0.02)]
+    reached = margins(node(), ["u.resting_level"], [[-5], [-4.9], [-5.1]], requirements, precision="float64")
+    assert (reached[0] >= 0).all()
+    assert (reached[1:] < 0).all()
 
 
 def test_the_time_of_relaxation_is_that_of_the_closed_form():
@@ -126,18 +134,18 @@ def test_the_time_of_relaxation_is_that_of_the_closed_form():
 
 def test_a_margin_grows_towards_where_the_requirement_is_met():
     # excitation that does not suffice for a memory: the peak outlasts its input longer
-    found = margins(line(101), [EXCITATION], [[5], [8], [10]], [dd.remembers()], strength=6, sigma=5)[:, 0]
-    assert (found < 0).all() and (np.diff(found) > 0).all()
+    reached = margins(line(101), [EXCITATION], [[5], [8], [10]], [dd.remembers()], strength=6, sigma=5)[:, 0]
+    assert (reached < 0).all() and (np.diff(reached) > 0).all()
 
 
 def test_a_field_that_is_not_finite_meets_nothing():
-    wanted = [dd.rests(), dd.peak_width(5, within=100), dd.peak_amplitude(0, within=1e9, strength=1.0)]
-    found = margins(line(31), ["u.resting_level"], [[np.inf], [-5]], wanted)
-    assert (found[0] < 0).all() and found[1, 0] == 1
+    requirements = [dd.rests(), dd.peak_width(5, within=100), dd.peak_amplitude(0, within=1e9, strength=1.0)]
+    reached = margins(line(31), ["u.resting_level"], [[np.inf], [-5]], requirements)
+    assert (reached[0] < 0).all() and reached[1, 0] == 1
 
 
 @pytest.mark.parametrize(
-    ("call", "said"),
+    ("call", "message"),
     [
         (lambda: dd.detects(3, within=0), "within is 0; expected a finite number above 0"),
         (lambda: dd.detects(float("nan"), within=1), "at is nan; expected a finite number"),
@@ -150,11 +158,16 @@ def test_a_field_that_is_not_finite_meets_nothing():
         (lambda: dd.selects(dd.isolate(line(31), "u")), "strength is Isolated"),
     ],
 )
-def test_values_that_are_none_are_refused(call, said):
-    with pytest.raises(ParameterError, match=said):
+def test_values_that_are_none_are_refused(call, message):
+    with pytest.raises(ParameterError, match=message):
         call()
 
 
 def test_a_requirement_is_shown_as_it_is_typed():
-    shown = [dd.detects(3, within=0.2), dd.remembers(), dd.forgets(-1, within=0.1), dd.selects(strength=4)]
-    assert [eval(f"dd.{one!r}") for one in shown] == shown
+    requirements = [
+        dd.detects(3, within=0.2),
+        dd.remembers(),
+        dd.forgets(-1, within=0.1),
+        dd.selects(strength=4),
+    ]
+    assert [eval(f"dd.{requirement!r}") for requirement in requirements] == requirements

@@ -16,21 +16,21 @@ from tests.deodar.analysis.maps.test_regime_map import EXCITATION, INHIBITION, l
 LEVEL, WIDTH = "u.resting_level", "u.kernel.0.sigma"
 
 
-def fine(samples: int = 41) -> dd.Model:
+def fine(samples: int = 33) -> dd.Model:
     """Return a field whose peaks have widths that change smoothly."""
     x = dd.Axis("x", 0, 40, samples)
     model = dd.Model("fine")
     kernel = [dd.Gaussian(20, 3, normalized=True)]
-    given = {"tau": 20, "resting_level": -4, "kernel": kernel, "global_inhibition": 1.0}
-    model.add(dd.Field("u", [x], quadrature="cell", **given))
+    options = {"tau": 20, "resting_level": -4, "kernel": kernel, "global_inhibition": 1.0}
+    model.add(dd.Field("u", [x], quadrature="cell", **options))
     return model
 
 
 @pytest.fixture(scope="module")
 def tuned():
-    wanted = [dd.detects(3.0, within=0.2), dd.remembers(), dd.selects(), dd.peak_width(8, within=0.5)]
+    requirements = [dd.detects(3.0, within=0.2), dd.remembers(), dd.selects(), dd.peak_width(8, within=0.5)]
     bounds = {LEVEL: (-6, -2), EXCITATION: (5, 40), WIDTH: (1.5, 8), INHIBITION: (0.1, 2)}
-    return dd.tune(fine(), [LEVEL, EXCITATION, WIDTH, INHIBITION], wanted, bounds=bounds, sigma=4)
+    return dd.tune(fine(), [LEVEL, EXCITATION, WIDTH, INHIBITION], requirements, bounds=bounds, sigma=4)
 
 
 def test_all_requirements_are_met_and_stated_values_exact(tuned):
@@ -42,20 +42,20 @@ def test_all_requirements_are_met_and_stated_values_exact(tuned):
 
 
 def test_the_result_says_how_it_was_measured(tuned):
-    data = tuned.data()
-    assert data["met"] and data["not_exact"] is None and data["precision"] == "float32"
-    assert data["strength"] == pytest.approx(3.6) and data["places"] == [10.0, 30.0]
-    assert (data["sigma"], data["dt"]) == ([4.0], 2.0)
-    assert data["bounds"][WIDTH] == [1.5, 8.0] and data["candidates"] >= 512
+    summary = tuned.data()
+    assert summary["met"] and summary["not_exact"] is None and summary["precision"] == "float32"
+    assert summary["strength"] == pytest.approx(3.6) and summary["places"] == [10.0, 30.0]
+    assert (summary["sigma"], summary["dt"]) == ([4.0], 2.0)
+    assert summary["bounds"][WIDTH] == [1.5, 8.0] and summary["candidates"] >= 512
     # plain data, and a sentence for each requirement
     assert repr(tuned).startswith("<Tuned u: meets all requirements") and repr(tuned).count("  met") == 4
 
 
 def test_regimes_measures_the_same(tuned):
-    found = dd.regimes(tuned.model, "u", sigma=4, accuracy=1e-3, precision="float64")
-    assert found.detection == pytest.approx(3, abs=3e-3)
-    assert found.self_sustained and found.selection.selects
-    assert found.memory.driven[0].width[0] == pytest.approx(8, abs=0.02)
+    measured = dd.regimes(tuned.model, "u", sigma=4, accuracy=1e-3, precision="float64")
+    assert measured.detection == pytest.approx(3, abs=3e-3)
+    assert measured.self_sustained and measured.selection.selects
+    assert measured.memory.driven[0].width[0] == pytest.approx(8, abs=0.02)
 
 
 def test_the_model_that_was_given_stays_as_it_is(tuned):
@@ -68,8 +68,8 @@ def test_the_derivative_of_a_value_is_that_of_differences(tuned):
     for path in (LEVEL, WIDTH):
         folds = []
         for sign in (-1, 1):
-            other = dd.isolate(tuned.model, "u", sigma=4).session.document
-            model = dd.Model(document=other)
+            document = dd.isolate(tuned.model, "u", sigma=4).session.document
+            model = dd.Model(document=document)
             model.set(path.replace("u.", "field."), tuned.values[path] * (1 + sign * step))
             branch = dd.continuation(model, "input.amplitude", (0, 4), even=["x"], finer=False)
             folds += [b.value for b in branch.bifurcations if b.instability == "detection"]
@@ -86,77 +86,77 @@ def test_the_region_is_one_in_which_all_are_met(tuned):
     for move, inside in ((0.9 * alone[LEVEL][1], True), (1.5 * alone[LEVEL][1], False)):
         moved = dd.Model(document=tuned.model.document)
         moved.set(LEVEL, tuned.values[LEVEL] + move * abs(tuned.values[LEVEL]))
-        found = dd.regimes(moved, "u", sigma=4)
-        assert (abs(found.detection - 3) <= 0.2 and found.self_sustained) == inside
+        measured = dd.regimes(moved, "u", sigma=4)
+        assert (abs(measured.detection - 3) <= 0.2 and measured.self_sustained) == inside
 
 
 def test_folds_of_a_node_are_reached_exactly():
-    wanted = [dd.detects(3.5, within=0.1), dd.reverse(1.0, within=0.1)]
-    found = dd.tune(node(), [LEVEL, EXCITATION], wanted, seed=3)
-    assert found.met and len(found.exact) == 2
-    level, excitation = found.values[LEVEL], found.values[EXCITATION]
+    requirements = [dd.detects(3.5, within=0.1), dd.reverse(1.0, within=0.1)]
+    tuned = dd.tune(node(), [LEVEL, EXCITATION], requirements, seed=3)
+    assert tuned.met and len(tuned.exact) == 2
+    level, excitation = tuned.values[LEVEL], tuned.values[EXCITATION]
     folds = np.array(node_folds(excitation)) - 5 - level
     assert folds == pytest.approx([3.5, 1.0], abs=1e-8)
 
 
 def test_equal_seeds_give_equal_results():
-    wanted = [dd.detects(3.5, within=0.1), dd.forgets()]
-    found = [dd.tune(node(), [LEVEL, EXCITATION], wanted, seed=seed) for seed in (1, 1, 2)]
-    assert found[0].data() == found[1].data()
-    assert found[0].values != found[2].values
+    requirements = [dd.detects(3.5, within=0.1), dd.forgets()]
+    tuned = [dd.tune(node(), [LEVEL, EXCITATION], requirements, seed=seed) for seed in (1, 1, 2)]
+    assert tuned[0].data() == tuned[1].data()
+    assert tuned[0].values != tuned[2].values
 
 
 def test_a_field_of_a_whole_architecture_is_measured_alone():
     model = line(31)
     v = model.add(dd.Field("v", tau=20, resting_level=-5, kernel=[dd.Gaussian(6.0)]))
     model.add(dd.Boost("s", amplitude=3.0)) >> v
-    found = dd.tune(model, ["v.resting_level"], [dd.detects(3.2, within=0.05)], field="v")
-    assert found.met and found.field == "v" and len(found.model.document.entries) == 3
-    assert -5 - found.values["v.resting_level"] == pytest.approx(3.2 - node_folds()[0], abs=1e-6)
+    tuned = dd.tune(model, ["v.resting_level"], [dd.detects(3.2, within=0.05)], field="v")
+    assert tuned.met and tuned.field == "v" and len(tuned.model.document.entries) == 3
+    assert -5 - tuned.values["v.resting_level"] == pytest.approx(3.2 - node_folds()[0], abs=1e-6)
 
 
 def test_a_document_parameter_moves_all_it_drives():
     model = node()
     model.parameter("level", -5.0)
     model.link(LEVEL, "level")
-    found = dd.tune(model, ["level"], [dd.detects(3.2, within=0.05)])
-    assert found.met and found.model.get("level") == found.model.get(LEVEL) == found.values["level"]
+    tuned = dd.tune(model, ["level"], [dd.detects(3.2, within=0.05)])
+    assert tuned.met and tuned.model.get("level") == tuned.model.get(LEVEL) == tuned.values["level"]
 
 
 def test_what_is_not_reached_is_said():
     # a node without enough excitation has no memory at its resting level
-    wanted = [dd.detects(3.5, within=0.1), dd.remembers()]
+    requirements = [dd.detects(3.5, within=0.1), dd.remembers()]
     bounds = {LEVEL: (-6, -4), EXCITATION: (1, 3)}
-    found = dd.tune(node(), [LEVEL, EXCITATION], wanted, bounds=bounds, budget=300)
-    assert not found.met and found.missed and found.tolerated == 0
-    assert found.unreachable == ("remembers()",)
-    assert "NOT MET: remembers()" in repr(found)
-    assert "no candidate met remembers()" in repr(found)
+    tuned = dd.tune(node(), [LEVEL, EXCITATION], requirements, bounds=bounds, budget=300)
+    assert not tuned.met and tuned.missed and tuned.tolerated == 0
+    assert tuned.unreachable == ("remembers()",)
+    assert "NOT MET: remembers()" in repr(tuned)
+    assert "no candidate met remembers()" in repr(tuned)
 
 
 def test_a_pair_that_no_candidate_meets_is_named():
     # with one free parameter: detection at 3.5 needs another level than an amplitude of 7
-    wanted = [dd.detects(3.5, within=0.1), dd.peak_amplitude(7, within=0.5, strength=8.0)]
-    found = dd.tune(node(), [LEVEL], wanted, budget=400)
-    assert not found.met
-    ((first, second, best),) = found.conflicts
-    assert (first, second) == tuple(str(one) for one in wanted) and best < 0
-    assert f"no candidate met both {first} and {second}" in repr(found)
+    requirements = [dd.detects(3.5, within=0.1), dd.peak_amplitude(7, within=0.5, strength=8.0)]
+    tuned = dd.tune(node(), [LEVEL], requirements, budget=400)
+    assert not tuned.met
+    ((first, second, best),) = tuned.conflicts
+    assert (first, second) == tuple(str(requirement) for requirement in requirements) and best < 0
+    assert f"no candidate met both {first} and {second}" in repr(tuned)
 
 
 @pytest.mark.parametrize("after", [1, 30])
 def test_an_interrupt_returns_the_best_so_far(after):
     calls = []
 
-    def stop(what, candidates, margin):
+    def stop(stage, candidates, margin):
         calls.append(margin)
         if len(calls) == after:
             raise KeyboardInterrupt
 
-    wanted = [dd.detects(3.5, within=1e-4), dd.reverse(1.0, within=1e-4)]
-    found = dd.tune(node(), [LEVEL, EXCITATION], wanted, on=dd.Resources(progress=stop))
-    assert found.interrupted and "interrupted" in repr(found)
-    assert min(found.margins.values()) == pytest.approx(calls[-1], abs=1e-3)
+    requirements = [dd.detects(3.5, within=1e-4), dd.reverse(1.0, within=1e-4)]
+    tuned = dd.tune(node(), [LEVEL, EXCITATION], requirements, on=dd.Resources(progress=stop))
+    assert tuned.interrupted and "interrupted" in repr(tuned)
+    assert min(tuned.margins.values()) == pytest.approx(calls[-1], abs=1e-3)
 
 
 def test_without_the_package_the_error_says_how_to_install_it(monkeypatch):
@@ -182,14 +182,14 @@ class WrongShape(dd.Requirement):
 
 
 def test_users_write_their_own_requirements():
-    found = dd.tune(node(), [LEVEL, EXCITATION], [dd.detects(3.5, within=0.1), LowRest(-4.2)])
-    assert found.met and found.values[LEVEL] < -4.2
+    tuned = dd.tune(node(), [LEVEL, EXCITATION], [dd.detects(3.5, within=0.1), LowRest(-4.2)])
+    assert tuned.met and tuned.values[LEVEL] < -4.2
     with pytest.raises(AnalysisError, match="has the shape"):
         dd.tune(node(), [LEVEL], [WrongShape()])
 
 
 @pytest.mark.parametrize(
-    ("wanted", "said"),
+    ("requirements", "message"),
     [
         ([dd.detects(3, within=0.1), dd.reverse(4, within=0.1)], "contradicts"),
         ([dd.detects(3, within=0.1), dd.detects(4, within=0.1)], "contradicts"),
@@ -202,13 +202,13 @@ def test_users_write_their_own_requirements():
         ([dd.peak_amplitude(8, within=1), dd.peak_amplitude(12, within=1)], "contradicts"),
     ],
 )
-def test_requirements_that_contradict_each_other_are_refused(wanted, said):
-    with pytest.raises(AnalysisError, match=said):
-        dd.tune(line(31), [LEVEL], wanted)
+def test_requirements_that_contradict_each_other_are_refused(requirements, message):
+    with pytest.raises(AnalysisError, match=message):
+        dd.tune(line(31), [LEVEL], requirements)
 
 
 @pytest.mark.parametrize(
-    ("model", "arguments", "error", "said"),
+    ("model", "arguments", "error", "message"),
     [
         (line(31), ([LEVEL], []), ParameterError, "no requirement is given"),
         (line(31), ([], [dd.rests()]), ParameterError, "expected one path or more"),
@@ -223,13 +223,13 @@ def test_requirements_that_contradict_each_other_are_refused(wanted, said):
         (node(), ([LEVEL], [dd.selects()]), AnalysisError, "has no meaning on a node"),
     ],
 )
-def test_bad_input_is_refused(model, arguments, error, said):
-    with pytest.raises(error, match=said):
+def test_bad_input_is_refused(model, arguments, error, message):
+    with pytest.raises(error, match=message):
         dd.tune(model, *arguments)
 
 
 @pytest.mark.parametrize(
-    ("bounds", "said"),
+    ("bounds", "message"),
     [
         ({LEVEL: (-1, -5)}, "the lower one first"),
         ({LEVEL: (float("nan"), 1)}, "expected finite numbers"),
@@ -237,8 +237,8 @@ def test_bad_input_is_refused(model, arguments, error, said):
         ({"u.taus": (1, 2)}, "is not among the parameters"),
     ],
 )
-def test_bounds_that_are_none_are_refused(bounds, said):
-    with pytest.raises(ParameterError, match=said):
+def test_bounds_that_are_none_are_refused(bounds, message):
+    with pytest.raises(ParameterError, match=message):
         dd.tune(line(31), [LEVEL], [dd.rests()], bounds=bounds)
 
 
