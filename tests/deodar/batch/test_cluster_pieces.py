@@ -32,8 +32,8 @@ def address():
             host="127.0.0.1",
             dashboard_address="127.0.0.1:0",
             memory_limit=0,
-        ) as made:
-            yield made.scheduler_address
+        ) as cluster:
+            yield cluster.scheduler_address
 
 
 @pytest.fixture(autouse=True)
@@ -44,9 +44,9 @@ def one_core(monkeypatch):
 
 def simulated(model=None, out=None, trials=7, sweep=None, **used):
     on = dd.Resources(**{"batch": 2} | used)
-    made = decider() if model is None else model
+    simulated_model = decider() if model is None else model
     return dd.simulate(
-        made, 100, record=["u.activation"], every=10, trials=trials, sweep=sweep, out=out, on=on
+        simulated_model, 100, record=["u.activation"], every=10, trials=trials, sweep=sweep, out=out, on=on
     )
 
 
@@ -58,19 +58,19 @@ def test_a_batch_on_a_cluster_has_the_same_bits(address):
 
 def test_a_record_is_written_by_the_caller(tmp_path, address):
     written = simulated(cluster=address, out=dd.Output(tmp_path / "there.zarr", snapshots=10.0))
-    here = simulated(out=tmp_path / "here.zarr")
-    np.testing.assert_array_equal(written["u.activation"].values, here["u.activation"].values)
+    local = simulated(out=tmp_path / "here.zarr")
+    np.testing.assert_array_equal(written["u.activation"].values, local["u.activation"].values)
     assert written.sizes["trial"] == 7
 
 
 def test_copies_that_diverge_are_named(tmp_path, address):
-    given = {"sweep": {"g.factor": [0.1, 1e6, 0.3]}, "trials": None}
+    options = {"sweep": {"g.factor": [0.1, 1e6, 0.3]}, "trials": None}
     for out in (None, tmp_path / "there.zarr"):
         with pytest.warns(RunWarning, match="1 of 3 copies are NaN"):
-            data = simulated(test_diverged.model(), cluster=address, out=out, **given)
-        assert (data.diverged.values != "").tolist() == [False, True, False]
-        assert np.isnan(data["u.activation"].values[1]).all()
-        assert np.isfinite(data["u.activation"].values[::2]).all()
+            record = simulated(test_diverged.model(), cluster=address, out=out, **options)
+        assert (record.diverged.values != "").tolist() == [False, True, False]
+        assert np.isnan(record["u.activation"].values[1]).all()
+        assert np.isfinite(record["u.activation"].values[::2]).all()
 
 
 def test_what_a_cluster_cannot_compute_is_refused(address):
@@ -87,7 +87,7 @@ def test_what_a_cluster_cannot_compute_is_refused(address):
 # ------------------------------------------------------------------------------------------------ continuing
 
 
-def stopped(out, after=150, **given):
+def stopped(out, after=150, **options):
     """Write a run of four pieces that stops after some of its 400 steps."""
 
     def progress(done):
@@ -95,42 +95,42 @@ def stopped(out, after=150, **given):
             raise KeyboardInterrupt
 
     with pytest.raises(Interrupted):
-        simulated(out=dd.Output(out, snapshots=20.0), progress=progress, **given)
+        simulated(out=dd.Output(out, snapshots=20.0), progress=progress, **options)
     return out
 
 
 @pytest.mark.parametrize("begun", ["here", "in workers"])
 def test_a_stopped_run_continues_on_a_cluster_with_the_same_bits(tmp_path, address, begun):
-    given = {} if begun == "here" else {"workers": 2}
-    path = stopped(tmp_path / "there.zarr", **given)
+    options = {} if begun == "here" else {"workers": 2}
+    path = stopped(tmp_path / "there.zarr", **options)
     assert np.isnan(dd.open_record(path)["u.activation"].values).any()
     done: list[int] = []
-    found = dd.resume(path, on=dd.Resources(cluster=address, progress=done.append))
+    resumed = dd.resume(path, on=dd.Resources(cluster=address, progress=done.append))
     whole = simulated(out=tmp_path / "here.zarr")
-    assert found["u.activation"].values.tobytes() == whole["u.activation"].values.tobytes()
-    assert about(found)["complete"] is True and about(found)["workers"] == given.get("workers")
+    assert resumed["u.activation"].values.tobytes() == whole["u.activation"].values.tobytes()
+    assert about(resumed)["complete"] is True and about(resumed)["workers"] == options.get("workers")
     assert done[-1] == 400  # the missing pieces may all arrive at once, before the first call
 
 
 def test_a_run_that_began_on_a_cluster_continues_on_new_workers_and_here(tmp_path, address):
     whole = simulated(out=tmp_path / "here.zarr")["u.activation"].values
-    for name, given in (("new workers", {"cluster": "local:2"}), ("this process", {})):
+    for name, options in (("new workers", {"cluster": "local:2"}), ("this process", {})):
         path = stopped(tmp_path / f"{name}.zarr", after=100, cluster=address)
-        assert dd.resume(path, on=dd.Resources(**given))["u.activation"].values.tobytes() == whole.tobytes()
+        assert dd.resume(path, on=dd.Resources(**options))["u.activation"].values.tobytes() == whole.tobytes()
 
 
 def test_only_the_missing_pieces_of_a_run_are_given_to_workers(tmp_path, address, monkeypatch):
-    path, given = stopped(tmp_path / "there.zarr"), []
+    path, tasks = stopped(tmp_path / "there.zarr"), []
     real = ClusterPool.give
 
-    def give(self, key, function, *arguments, **how):
-        given.append((key, arguments[2].state))
-        real(self, key, function, *arguments, **how)
+    def give(self, key, function, *arguments, **options):
+        tasks.append((key, arguments[2].state))
+        real(self, key, function, *arguments, **options)
 
     monkeypatch.setattr(ClusterPool, "give", give)
     dd.resume(path, on=dd.Resources(cluster=address))
-    assert [key for key, _ in given] == [1, 2, 3]
-    assert [state is not None for _, state in given] == [True, False, False], "piece 1 has a state"
+    assert [key for key, _ in tasks] == [1, 2, 3]
+    assert [state is not None for _, state in tasks] == [True, False, False], "piece 1 has a state"
 
 
 def test_versions_and_machine_of_the_workers_are_compared_with_the_record(tmp_path, address, monkeypatch):
@@ -141,8 +141,8 @@ def test_versions_and_machine_of_the_workers_are_compared_with_the_record(tmp_pa
         dd.resume(path, on=dd.Resources(cluster=address))
     heard: list[str] = []
 
-    def accept(found):
-        heard.extend(one.what for one in found)
+    def accept(differences):
+        heard.extend(difference.what for difference in differences)
         return True
 
     assert about(dd.resume(path, accept=accept, on=dd.Resources(cluster=address)))["complete"] is True
@@ -155,27 +155,30 @@ def test_versions_and_machine_of_the_workers_are_compared_with_the_record(tmp_pa
 
 def test_a_run_in_one_piece_continues_here(tmp_path, monkeypatch):
     monkeypatch.setattr(ClusterPool, "__enter__", lambda self: pytest.fail("no worker is needed"))
-    given = {"trials": 2}
+    options = {"trials": 2}
 
     def progress(done):
         if done >= 50:
             raise KeyboardInterrupt
 
     with pytest.raises(Interrupted):
-        simulated(out=tmp_path / "there.zarr", progress=progress, **given)
-    found = dd.resume(tmp_path / "there.zarr", on=dd.Resources(cluster="local:2"))
-    assert found["u.activation"].values.tobytes() == simulated(**given)["u.activation"].values.tobytes()
+        simulated(out=tmp_path / "there.zarr", progress=progress, **options)
+    resumed = dd.resume(tmp_path / "there.zarr", on=dd.Resources(cluster="local:2"))
+    assert resumed["u.activation"].values.tobytes() == simulated(**options)["u.activation"].values.tobytes()
 
 
 def test_what_a_cluster_cannot_continue_is_refused(tmp_path, address, monkeypatch):
     path = stopped(tmp_path / "there.zarr")
     with pytest.raises(WorkerError, match="a record states one machine"):
         dd.resume(path, on=dd.Resources(cluster=Cluster(address, mixed=True)))
-    asked = repeat.request
+    request = repeat.request
     monkeypatch.setattr(
         repeat,
         "request",
-        lambda *given: (asked(*given)[0], asked(*given)[1] | {"on": dd.Resources("gpu", batch=2)}),
+        lambda *arguments: (
+            request(*arguments)[0],
+            request(*arguments)[1] | {"on": dd.Resources("gpu", batch=2)},
+        ),
     )
     with pytest.raises(WorkerError, match="one core each, and the run has device = gpu"):
         dd.resume(path, on=dd.Resources(cluster=address))

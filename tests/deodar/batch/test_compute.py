@@ -12,10 +12,10 @@ AMPLITUDES = [0.0, 1.0, 2.0, 3.0, 4.0]
 
 @pytest.fixture(scope="module")
 def model() -> dd.Model:
-    made = dd.Model("pieces")
-    n = made.add(dd.Field("n", [], tau=10, resting_level=-5, noise=0.2))
-    made.add(dd.Boost("b", [])) >> n
-    return made
+    model = dd.Model("pieces")
+    n = model.add(dd.Field("n", [], tau=10, resting_level=-5, noise=0.2))
+    model.add(dd.Boost("b", [])) >> n
+    return model
 
 
 @pytest.mark.parametrize("batch", [2, 4])

@@ -15,7 +15,7 @@ from deodar import cores
 MODEL = "m = dd.Model('m'); m.add(dd.Field('u', [dd.Axis('x', 0, 1, samples=11)])); "
 
 
-def told(code: str, nproc: str | None = None) -> dict[str, object]:
+def printed_by(code: str, nproc: str | None = None) -> dict[str, object]:
     """Return the JSON that a new process prints after `code`."""
     environment = {k: v for k, v in os.environ.items() if k != "NPROC"} | ({"NPROC": nproc} if nproc else {})
     code = "import json, os, sys, deodar as dd; from deodar.compiler.device import cores; found = {}\n" + code
@@ -39,9 +39,9 @@ try:
 except dd.errors.CoresError as error:
     found['says'] = str(error)
 """
-    found = told(code)
-    assert found["nproc"] == "1" and found["cores"] == 1
-    assert "already started with 1 cores" in str(found["says"]) and "NPROC=3" in str(found["says"])
+    seen = printed_by(code)
+    assert seen["nproc"] == "1" and seen["cores"] == 1
+    assert "already started with 1 cores" in str(seen["says"]) and "NPROC=3" in str(seen["says"])
 
 
 def test_use_cores_sets_the_environment_until_jax_starts(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -60,19 +60,19 @@ def test_use_cores_sets_the_environment_until_jax_starts(monkeypatch: pytest.Mon
 def test_the_number_of_cores_sets_the_number_of_threads() -> None:
     """XLA names its threads after their pool; with one core it has fewer of them."""
     if not os.path.isdir("/proc/self/task"):  # only Linux lists threads; elsewhere the number is checked
-        assert told("dd.use_cores(2)")["nproc"] == "2"
+        assert printed_by("dd.use_cores(2)")["nproc"] == "2"
         return
     code = (
         "import jax; dd.use_cores({}); before = len(os.listdir('/proc/self/task')); jax.devices(); x ="
         " jax.numpy.ones(3) + 1\n"
     )
     code += "found['threads'] = len(os.listdir('/proc/self/task')) - before"
-    few, many = (int(str(told(code.format(n))["threads"])) for n in (1, 8))
+    few, many = (int(str(printed_by(code.format(n))["threads"])) for n in (1, 8))
     assert many - few >= 7
 
 
 def test_importing_deodar_does_not_set_the_number_of_cores() -> None:
-    assert told("import deodar.batch.simulate, deodar.batch.workers")["nproc"] is None
+    assert printed_by("import deodar.batch.simulate, deodar.batch.workers")["nproc"] is None
 
 
 def test_the_command_line_uses_one_core_by_default() -> None:
@@ -80,11 +80,13 @@ def test_the_command_line_uses_one_core_by_default() -> None:
         "from deodar.cli import main; main(['elements', '--json']); from deodar.cli import _options;"
         " _options.use_cores({})"
     )
-    assert told(run.format("None"))["nproc"] == "1"
-    assert told(run.format("None"), nproc="2")["nproc"] == "2"
-    assert told(run.format("3"))["cores"] == 3
+    assert printed_by(run.format("None"))["nproc"] == "1"
+    assert printed_by(run.format("None"), nproc="2")["nproc"] == "2"
+    assert printed_by(run.format("3"))["cores"] == 3
     assert (
-        told("import jax; jax.devices(); from deodar.cli import _options; _options.use_cores(None)")["nproc"]
+        printed_by("import jax; jax.devices(); from deodar.cli import _options; _options.use_cores(None)")[
+            "nproc"
+        ]
         is None
     )
 
@@ -101,6 +103,6 @@ def test_a_record_states_the_number_of_cores(monkeypatch: pytest.MonkeyPatch) ->
 
     model = dd.Model("m")
     model.add(dd.Field("u", []))
-    made = about(dd.simulate(model, 5))
-    assert made["made_by"]["cores"] == str(cores.cores()) and cores_of(made) == cores.cores()
+    provenance = about(dd.simulate(model, 5))
+    assert provenance["made_by"]["cores"] == str(cores.cores()) and cores_of(provenance) == cores.cores()
     assert cores_of({}) == 1 and cores_of({"made_by": {"cores": "many"}}) == 1

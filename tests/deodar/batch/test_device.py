@@ -20,10 +20,10 @@ from tests import host_devices
 
 
 def model() -> dd.Model:
-    made = dd.Model("small")
+    model = dd.Model("small")
     axes = [dd.Axis("x", 0, 30, samples=31), dd.Axis("y", 0, 30, samples=31)]
-    made.add(dd.Field("u", axes, kernel=[dd.Gaussian(2.0, 4, normalized=True)], noise=0.3))
-    return made
+    model.add(dd.Field("u", axes, kernel=[dd.Gaussian(2.0, 4, normalized=True)], noise=0.3))
+    return model
 
 
 SECOND = """

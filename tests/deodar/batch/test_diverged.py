@@ -25,11 +25,11 @@ def model() -> Model:
     """Return a field that grows without bound through a loop if its gain is large, and an independent
     field.
     """
-    made = dd.Model("runaway")
-    u = made.add(dd.Field("u", [X], tau=10, sigmoid=dd.Logistic(beta=1), noise=0.1, resting_level=1.0))
-    u["activation"] >> made.add(dd.Gain(1.0, name="g")) >> u
-    made.add(dd.Field("v", [X], tau=10, noise=0.1))
-    return made
+    model = dd.Model("runaway")
+    u = model.add(dd.Field("u", [X], tau=10, sigmoid=dd.Logistic(beta=1), noise=0.1, resting_level=1.0))
+    u["activation"] >> model.add(dd.Gain(1.0, name="g")) >> u
+    model.add(dd.Field("v", [X], tau=10, noise=0.1))
+    return model
 
 
 def run(gains: list[float], steps: int = 60, **others: object) -> object:
@@ -40,62 +40,62 @@ def test_a_diverged_point_is_nan_with_its_reason_and_the_others_are_kept() -> No
     says = (
         "1 of 3 copies are NaN; the coordinate 'diverged' gives the reasons, the first is: g became infinite"
     )
-    with pytest.warns(RunWarning, match=says) as told:
-        data = run([0.1, 1e6, 0.3])
-    assert len(told) == 1 and told[0].filename == __file__
-    assert [bool(text) for text in data["diverged"].values] == [False, True, False]
-    reason = data["diverged"].sel({"g.factor": 1e6}).item()
+    with pytest.warns(RunWarning, match=says) as warned:
+        record = run([0.1, 1e6, 0.3])
+    assert len(warned) == 1 and warned[0].filename == __file__
+    assert [bool(text) for text in record["diverged"].values] == [False, True, False]
+    reason = record["diverged"].sel({"g.factor": 1e6}).item()
     assert (
         reason.startswith("g became infinite or undefined in step ")
         and "dt 1)" in reason
-        and "diverged" in repr(data)
+        and "diverged" in repr(record)
     )
     good = run([0.1, 0.2, 0.3])
     for path in RECORD:
-        assert np.isnan(data[path].values[1]).all(), "at all times, and in elements that it does not reach"
-        np.testing.assert_array_equal(data[path].values[[0, 2]], good[path].values[[0, 2]])
+        assert np.isnan(record[path].values[1]).all(), "at all times, and in elements that it does not reach"
+        np.testing.assert_array_equal(record[path].values[[0, 2]], good[path].values[[0, 2]])
     assert "diverged" not in good.coords and "diverged" not in good.attrs
 
 
 def test_the_reason_names_the_first_step() -> None:
     alone = [_error(gain) for gain in (1e3, 1e9)]
     with pytest.warns(RunWarning):
-        data = run([0.1, 1e3, 1e9])
-    assert data["diverged"].values.tolist() == ["", *alone] and alone[0] != alone[1]
+        record = run([0.1, 1e3, 1e9])
+    assert record["diverged"].values.tolist() == ["", *alone] and alone[0] != alone[1]
 
 
 def _error(gain: float) -> str:
-    made = model()
-    made.set("g.factor", gain)
+    runaway = model()
+    runaway.set("g.factor", gain)
     with pytest.raises(NotFinite) as caught:
-        dd.simulate(made, 60)
+        dd.simulate(runaway, 60)
     return caught.value.problems[0].what
 
 
 @pytest.mark.parametrize("batch", [{"batch": 2}, {"batch": 2, "workers": 2}])
 def test_diverged_points_of_all_trials_are_nan_in_pieces_and_workers(batch: dict[str, int]) -> None:
     with pytest.warns(RunWarning, match="4 of 8 copies"):
-        data = run([0.1, 1e6, 0.3, 1e7], trials=[3, 1], on=dd.Resources(**batch))
-    assert data["diverged"].dims == ("g.factor", "trial")
-    assert [[bool(text) for text in row] for row in data["diverged"].values] == [
+        record = run([0.1, 1e6, 0.3, 1e7], trials=[3, 1], on=dd.Resources(**batch))
+    assert record["diverged"].dims == ("g.factor", "trial")
+    assert [[bool(text) for text in row] for row in record["diverged"].values] == [
         [False] * 2,
         [True] * 2,
         [False] * 2,
         [True] * 2,
     ]
     assert (
-        np.isfinite(data["u.activation"].values[[0, 2]]).all()
-        and np.isnan(data["u.activation"].values[[1, 3]]).all()
+        np.isfinite(record["u.activation"].values[[0, 2]]).all()
+        and np.isnan(record["u.activation"].values[[1, 3]]).all()
     )
 
 
 def test_a_copy_diverges_if_a_recorded_coupling_is_not_finite() -> None:
-    made = model()
-    made.add(Boost("b", amplitude=1.0)) >> made.add(dd.Gain(1.0, name="h"))
-    made["h"] >> made.add(dd.Gain(1e38, name="i"))
+    runaway = model()
+    runaway.add(Boost("b", amplitude=1.0)) >> runaway.add(dd.Gain(1.0, name="h"))
+    runaway["h"] >> runaway.add(dd.Gain(1e38, name="i"))
     with pytest.warns(RunWarning, match=r"1 of 2 copies.*i\.output became infinite"):
-        data = dd.simulate(made, 5, record=["i.output"], sweep={"h.factor": [1.0, 1e6]})
-    assert np.isfinite(data["i.output"].values[0]).all() and np.isnan(data["i.output"].values[1]).all()
+        record = dd.simulate(runaway, 5, record=["i.output"], sweep={"h.factor": [1.0, 1e6]})
+    assert np.isfinite(record["i.output"].values[0]).all() and np.isnan(record["i.output"].values[1]).all()
 
 
 def test_a_single_run_and_a_batch_of_which_nothing_is_left_raise() -> None:
@@ -105,27 +105,27 @@ def test_a_single_run_and_a_batch_of_which_nothing_is_left_raise() -> None:
         {"sweep": {"g.factor": [1e6, 1e7]}},
         {"trials": 4, "on": dd.Resources(batch=2)},
     ):
-        made = model()
-        made.set("g.factor", 1e6)
+        runaway = model()
+        runaway.set("g.factor", 1e6)
         with pytest.raises(NotFinite, match="g became infinite") as caught:
-            dd.simulate(made, 10**9 - 1, **others)  # type: ignore[arg-type]
+            dd.simulate(runaway, 10**9 - 1, **others)  # type: ignore[arg-type]
         assert caught.value.paths == ("g",)
 
 
 @pytest.mark.parametrize("name", ["r.zarr", "r.nc"])
 def test_reasons_of_divergence_are_saved_and_repeated(tmp_path: Path, name: str) -> None:
     with pytest.warns(RunWarning):
-        data = run([0.1, 1e6])
-    files.save_record(data, tmp_path / name)
+        record = run([0.1, 1e6])
+    files.save_record(record, tmp_path / name)
     read = files.load_record(tmp_path / name)
     assert (
-        read["diverged"].values.tolist() == data["diverged"].values.tolist()
-        and read.attrs["diverged"] == data.attrs["diverged"]
+        read["diverged"].values.tolist() == record["diverged"].values.tolist()
+        and read.attrs["diverged"] == record.attrs["diverged"]
     )
     with pytest.warns(RunWarning):
         done = repeat(read, dd.simulate)
     assert done.same_bits and all(gap == 0 for gap in done.largest.values())
-    assert json.loads(data.attrs["deodar"])["complete"] and about(read)["sweep"] == {"g.factor": [0.1, 1e6]}
+    assert json.loads(record.attrs["deodar"])["complete"] and about(read)["sweep"] == {"g.factor": [0.1, 1e6]}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert not compare(data, run([0.1, 0.2])).same_bits
+        assert not compare(record, run([0.1, 0.2])).same_bits

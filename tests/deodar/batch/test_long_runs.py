@@ -30,11 +30,11 @@ def test_a_step_that_is_much_too_small_is_announced() -> None:
                 r"1e\+10 steps of dt = 1e-09: a smaller number may be meant; the noise .* after 4.29e\+09"
                 r" steps"
             ),
-        ) as told,
+        ) as warned,
         pytest.raises(Interrupted),
     ):
         dd.simulate(small(), 10, dt=1e-9, on=dd.Resources(progress=stop))
-    assert [t.filename for t in told] == [__file__]
+    assert [t.filename for t in warned] == [__file__]
 
 
 def test_a_run_below_1e9_steps_issues_no_warning() -> None:
@@ -50,7 +50,7 @@ def test_progress_without_a_terminal_is_printed_as_lines(
     monkeypatch.setattr(progress, "LINE_AFTER", 0.0)
     with pytest.warns(RunWarning, match="500 steps"):
         dd.simulate(small(), 500)
-    assert "simulating: " in (told := capsys.readouterr().err) and "of 500 steps after" in told
+    assert "simulating: " in (complaint := capsys.readouterr().err) and "of 500 steps after" in complaint
     with pytest.warns(RunWarning, match="500 steps"):
         dd.simulate(small(), 500, on=dd.Resources(progress=False))
     assert capsys.readouterr().err == ""

@@ -26,9 +26,9 @@ def faults(trials: int, points: int, workers: int, batch: int | None) -> Iterato
     whole = SimulationRequest(100.0)
     requests = pieces.requests(whole, range(trials), {"a": [float(k) for k in range(points)]})
     jobs = [(r.trials, (r.sweep or {})["a"]) for r in requests if isinstance(r.trials, list)]
-    found = [(t, a) for job in jobs for t in job[0] for a in job[1]]
-    if len(jobs) != pieces.count or not len(found) == len(set(found)) == trials * points:
-        yield f"{len(found)} copies, {len(set(found))} different ones, in {len(jobs)} pieces"
+    copies = [(t, a) for job in jobs for t in job[0] for a in job[1]]
+    if len(jobs) != pieces.count or not len(copies) == len(set(copies)) == trials * points:
+        yield f"{len(copies)} copies, {len(set(copies))} different ones, in {len(jobs)} pieces"
     sizes = [len(job[0]) * len(job[1]) for job in jobs]
     if max(sizes) != pieces.batch or sizes[:-1] != [pieces.batch] * (len(jobs) - 1):
         yield f"sizes {sizes}"
@@ -59,18 +59,22 @@ def test_an_invalid_batch_is_refused(wrong: object) -> None:
 
 def part(trials: list[int], times: int, whole: bool) -> PieceResult:
     values = np.multiply.outer(np.array(trials, float), np.ones(times))
-    data = xarray.Dataset({"u": (("trial", "time"), values)}, {"trial": trials, "time": np.arange(times)})
-    data.attrs[KEY] = json.dumps({"trials": trials, "dt": 1.0})
-    return PieceResult(data, whole)
+    part_record = xarray.Dataset(
+        {"u": (("trial", "time"), values)}, {"trial": trials, "time": np.arange(times)}
+    )
+    part_record.attrs[KEY] = json.dumps({"trials": trials, "dt": 1.0})
+    return PieceResult(part_record, whole)
 
 
 def test_complete_pieces_are_joined_to_one_record() -> None:
     pieces = Pieces("trial", 6, 2, 1)
-    data = joined(
+    record = joined(
         pieces, [part([0, 1], 3, True), part([2, 3], 3, True), part([4, 5], 3, True)], {"trials": [*range(6)]}
     )
-    assert data["trial"].values.tolist() == [*range(6)] and np.array_equal(data["u"].values[:, 2], range(6))
-    assert json.loads(data.attrs[KEY]) == {"trials": [*range(6)], "dt": 1.0, "batch": 2, "complete": True}
+    assert record["trial"].values.tolist() == [*range(6)] and np.array_equal(
+        record["u"].values[:, 2], range(6)
+    )
+    assert json.loads(record.attrs[KEY]) == {"trials": [*range(6)], "dt": 1.0, "batch": 2, "complete": True}
 
 
 def test_complete_pieces_of_an_interrupted_run_are_kept() -> None:
@@ -90,11 +94,11 @@ def test_without_a_complete_piece_the_longest_one_is_kept(
     times: tuple[int, ...], trials: list[int], kept: int
 ) -> None:
     parts = [part([2 * k, 2 * k + 1], n, False) for k, n in enumerate(times)]
-    data = joined(Pieces("trial", 6, 2, 1), parts, {})
+    record = joined(Pieces("trial", 6, 2, 1), parts, {})
     assert (
-        data["trial"].values.tolist() == trials
-        and data.sizes["time"] == kept
-        and json.loads(data.attrs[KEY])["complete"] is False
+        record["trial"].values.tolist() == trials
+        and record.sizes["time"] == kept
+        and json.loads(record.attrs[KEY])["complete"] is False
     )
 
 

@@ -14,9 +14,9 @@ PLACE = Path("nowhere.zarr")
 
 
 def model() -> dd.Model:
-    made = dd.Model("m")
-    made.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=11)]))
-    return made
+    model = dd.Model("m")
+    model.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=11)]))
+    return model
 
 
 @pytest.mark.parametrize(

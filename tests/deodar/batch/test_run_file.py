@@ -62,10 +62,10 @@ CASES: dict[str, dict[str, Any]] = {
 
 @pytest.mark.parametrize("case", CASES)
 def test_a_record_in_a_file_equals_the_one_in_memory(case: str, tmp_path: Path) -> None:
-    given = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES[case]}
-    here = dd.simulate(model(), 40, **given)
-    there = dd.simulate(model(), 40, out=tmp_path / "run", **given)
-    assert files.load_record(tmp_path / "run").identical(here) and there.load().identical(here)
+    options = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES[case]}
+    memory = dd.simulate(model(), 40, **options)
+    stored = dd.simulate(model(), 40, out=tmp_path / "run", **options)
+    assert files.load_record(tmp_path / "run").identical(memory) and stored.load().identical(memory)
     assert dd.load(tmp_path / "run" / "model.json").document == model().document
 
 
@@ -89,26 +89,26 @@ def test_a_wall_clock_that_is_set_back_delays_no_state(
 
 @pytest.mark.parametrize("case", [case for case in CASES if case not in ("workers", "end")])
 def test_a_stopped_run_is_resumed_to_the_same_record(case: str, tmp_path: Path) -> None:
-    given = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES[case]}
-    here = dd.simulate(model(), 40, **given)
+    options = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES[case]}
+    memory = dd.simulate(model(), 40, **options)
     steps = 40 * (3 if case == "pieces" else 1)
     for k, after in enumerate((steps // 4, steps // 2, 3 * steps // 4)):
         with pytest.raises(Interrupted) as caught:
             if k:
                 dd.resume(tmp_path / "run", on=dd.Resources(progress=stopping(after)))
             else:
-                dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, after))
+                dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, after))
         assert about(caught.value.data)["complete"] is False
-    assert dd.resume(tmp_path / "run").load().identical(here)
+    assert dd.resume(tmp_path / "run").load().identical(memory)
 
 
 def test_a_run_that_is_stopped_before_its_only_sample_leaves_nothing_to_resume(tmp_path: Path) -> None:
-    given = {"seed": 3, **CASES["end"]}
+    options = {"seed": 3, **CASES["end"]}
     with pytest.raises(Interrupted) as caught:
-        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 10))
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, 10))
     assert caught.value.data is None and not list(tmp_path.iterdir())
-    there = dd.simulate(model(), 40, out=tmp_path / "run", **given)
-    assert there.load().identical(dd.simulate(model(), 40, **given))
+    stored = dd.simulate(model(), 40, out=tmp_path / "run", **options)
+    assert stored.load().identical(dd.simulate(model(), 40, **options))
 
 
 @pytest.fixture
@@ -143,11 +143,11 @@ def sent_here(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("sent_here")
 def test_pieces_of_workers_are_resumed_from_states_of_their_own(tmp_path: Path) -> None:
-    given: dict[str, Any] = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES["workers"]}
-    here = dd.simulate(model(), 40, **given | {"on": dd.Resources(batch=2)})
+    options: dict[str, Any] = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES["workers"]}
+    memory = dd.simulate(model(), 40, **options | {"on": dd.Resources(batch=2)})
     record = tmp_path / "run" / "record.zarr"
     with pytest.raises(Interrupted) as caught:
-        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 20))
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, 20))
     activation = caught.value.data["u.activation"].values
     assert np.isfinite(activation[:2, :4]).all() and about(caught.value.data)["complete"] is False
     assert checkpoint.read(record / run_file.PIECE_CHECKPOINT.format(0))[0]["steps"] == 20
@@ -163,16 +163,16 @@ def test_pieces_of_workers_are_resumed_from_states_of_their_own(tmp_path: Path) 
     assert sorted(p.name for p in record.glob("state*")) == ["state-1.npz", "state.npz"]
     resumed = dd.resume(tmp_path / "run").load()
     assert [p.name for p in record.glob("state*")] == ["state.npz"]
-    for name in here.variables:
-        assert resumed[name].values.tobytes() == here[name].values.tobytes()
+    for name in memory.variables:
+        assert resumed[name].values.tobytes() == memory[name].values.tobytes()
 
 
 @pytest.mark.usefixtures("sent_here")
 def test_a_run_killed_before_a_worker_reports_its_end_is_resumed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
-    here = dd.simulate(model(), 40, **given | {"on": dd.Resources(batch=2)})
+    options: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
+    memory = dd.simulate(model(), 40, **options | {"on": dd.Resources(batch=2)})
     receive = RunOutput.receive
 
     def killed(out: RunOutput, number: int, message: PieceMessage, beside: bool) -> None:
@@ -183,21 +183,21 @@ def test_a_run_killed_before_a_worker_reports_its_end_is_resumed(
     with monkeypatch.context() as changed:
         changed.setattr(RunOutput, "receive", killed)
         with pytest.raises(InterruptedError):
-            dd.simulate(model(), 40, out=dd.Output(tmp_path / "run", snapshots=20), **given)
+            dd.simulate(model(), 40, out=dd.Output(tmp_path / "run", snapshots=20), **options)
     assert checkpoint.read(tmp_path / "run/record.zarr/state-0.npz")[0]["steps"] == 40
     resumed = dd.resume(tmp_path / "run").load()
-    assert resumed["u.activation"].values.tobytes() == here["u.activation"].values.tobytes()
+    assert resumed["u.activation"].values.tobytes() == memory["u.activation"].values.tobytes()
 
 
 @pytest.mark.usefixtures("sent_here")
 def test_the_cores_of_this_process_do_not_matter_to_a_run_in_workers(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
+    options: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
     with monkeypatch.context() as elsewhere:
         elsewhere.setattr("deodar.recording.provenance.cores", lambda: 1)
         with pytest.raises(Interrupted):
-            dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 20))
+            dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, 20))
     monkeypatch.setattr("deodar.recording.provenance.cores", lambda: 7)
     assert about(dd.resume(tmp_path / "run"))["complete"] is True
 
@@ -206,25 +206,25 @@ def test_the_cores_of_this_process_do_not_matter_to_a_run_in_workers(
 def test_samples_of_workers_after_their_states_are_dropped_where_differences_are_accepted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
+    options: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
     state = tmp_path / "run" / "record.zarr" / run_file.PIECE_CHECKPOINT.format(1)
     with monkeypatch.context() as elsewhere:
         elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
         with pytest.raises(Interrupted):
-            dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 50))
+            dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, 50))
         early = state.read_bytes()
         with pytest.raises(Interrupted):
             dd.resume(tmp_path / "run", on=dd.Resources(progress=stopping(70)))
     state.write_bytes(early)
     assert finite(tmp_path / "run", 6) == 4
     with pytest.raises(Interrupted):
-        dd.resume(tmp_path / "run", accept=lambda found: True, on=dd.Resources(progress=stopping(56)))
+        dd.resume(tmp_path / "run", accept=lambda differences: True, on=dd.Resources(progress=stopping(56)))
     assert finite(tmp_path / "run", 3) == 4 and finite(tmp_path / "run", 6) == 2
 
 
 def test_a_run_in_a_world_is_resumed(tmp_path: Path) -> None:
-    given = {"record": ["eyes", "u", "left.output"], "every": 32, "seed": 4}
-    here = dd.simulate(driving(), 1600, world=dd.Arena("blocks"), **given)
+    options = {"record": ["eyes", "u", "left.output"], "every": 32, "seed": 4}
+    memory = dd.simulate(driving(), 1600, world=dd.Arena("blocks"), **options)
     with pytest.raises(Interrupted):
         dd.simulate(
             driving(),
@@ -232,49 +232,49 @@ def test_a_run_in_a_world_is_resumed(tmp_path: Path) -> None:
             world=dd.Arena("blocks"),
             out=tmp_path / "run",
             on=dd.Resources(progress=stopping(40)),
-            **given,
+            **options,
         )
-    assert dd.resume(tmp_path / "run").load().identical(here)
+    assert dd.resume(tmp_path / "run").load().identical(memory)
 
 
 def test_a_complete_run_becomes_longer(tmp_path: Path) -> None:
-    given = {"record": ["u"], "every": 5, "seed": 3}
-    dd.simulate(model(), 20, out=tmp_path / "run", **given)
+    options = {"record": ["u"], "every": 5, "seed": 3}
+    dd.simulate(model(), 20, out=tmp_path / "run", **options)
     with pytest.raises(RecordError, match="is complete"):
         dd.resume(tmp_path / "run")
     with pytest.raises(RecordError, match="shorter"):
         dd.resume(tmp_path / "run", duration=10)
     longer = dd.resume(tmp_path / "run", duration=40)
-    assert longer.load().identical(dd.simulate(model(), 40, **given))
+    assert longer.load().identical(dd.simulate(model(), 40, **options))
 
 
 def test_a_run_that_is_made_longer_remembers_it_when_it_is_stopped(tmp_path: Path) -> None:
-    given = {"record": ["u"], "every": 5, "seed": 3}
-    dd.simulate(model(), 20, out=tmp_path / "run", **given)
+    options = {"record": ["u"], "every": 5, "seed": 3}
+    dd.simulate(model(), 20, out=tmp_path / "run", **options)
     with pytest.raises(Interrupted):
         dd.resume(tmp_path / "run", duration=60, on=dd.Resources(progress=stopping(30)))
     stated = about(dd.open_record(tmp_path / "run"))
     assert stated["complete"] is False and stated["duration"] == 60
-    assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 60, **given))
+    assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 60, **options))
 
 
 def test_a_resumed_run_that_is_stopped_keeps_the_samples_that_were_there(tmp_path: Path) -> None:
-    given = {"record": ["u"], "every": 1, "seed": 3}
+    options = {"record": ["u"], "every": 1, "seed": 3}
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 30))
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, 30))
     before = dd.open_record(tmp_path / "run").sizes["time"]
     (tmp_path / "run" / "record.zarr" / run_file.CHECKPOINT).unlink()
     with pytest.raises(Interrupted):
         dd.resume(tmp_path / "run", on=dd.Resources(progress=stopping(5)))
-    found = files.load_record(tmp_path / "run")
-    assert found.sizes["time"] == before
-    assert found.drop_attrs().identical(dd.simulate(model(), before - 1, **given).drop_attrs())
+    stored = files.load_record(tmp_path / "run")
+    assert stored.sizes["time"] == before
+    assert stored.drop_attrs().identical(dd.simulate(model(), before - 1, **options).drop_attrs())
 
 
 def test_a_record_that_was_saved_is_not_resumed(tmp_path: Path) -> None:
-    data = dd.simulate(model(), 20, record="u", every=5)
+    record = dd.simulate(model(), 20, record="u", every=5)
     for name in ("run.zarr", "run.nc"):
-        dd.save_record(data, tmp_path / name)
+        dd.save_record(record, tmp_path / name)
         with pytest.raises(RecordError, match="cannot be resumed"):
             dd.resume(tmp_path / name, duration=40)
 
@@ -308,11 +308,11 @@ def test_a_run_with_conditions_alone_states_where_it_ended(
 
 
 def test_a_stop_before_the_first_step_samples_once(tmp_path: Path) -> None:
-    given = {"record": ["n", "u.output,when=peak"], "every": 10, "seed": 3}
+    options = {"record": ["n", "u.output,when=peak"], "every": 10, "seed": 3}
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 0))
-    found, whole = dd.resume(tmp_path / "run"), dd.simulate(model(), 40, out=tmp_path / "whole", **given)
-    assert found["u.output.time"].values.tolist() == whole["u.output.time"].values.tolist()
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, 0))
+    resumed, whole = dd.resume(tmp_path / "run"), dd.simulate(model(), 40, out=tmp_path / "whole", **options)
+    assert resumed["u.output.time"].values.tolist() == whole["u.output.time"].values.tolist()
 
 
 def test_a_run_in_pieces_does_not_become_longer(tmp_path: Path) -> None:
@@ -322,11 +322,11 @@ def test_a_run_in_pieces_does_not_become_longer(tmp_path: Path) -> None:
 
 
 def test_a_run_that_was_killed_before_its_first_state_begins_again(tmp_path: Path) -> None:
-    given = {"record": ["u"], "every": 5, "seed": 3}
+    options = {"record": ["u"], "every": 5, "seed": 3}
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 10))
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, 10))
     (tmp_path / "run" / "record.zarr" / run_file.CHECKPOINT).unlink()
-    assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 40, **given))
+    assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 40, **options))
 
 
 def test_other_versions_are_an_error_unless_accepted(
@@ -358,44 +358,46 @@ def test_samples_after_the_stored_state_are_dropped_where_differences_are_accept
     case: str, accepted: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The state of the run is that of a step before its last samples, as after a kill."""
-    given: dict[str, Any] = {"record": "u", "every": 5, "seed": 3, **CASES[case]}
+    options: dict[str, Any] = {"record": "u", "every": 5, "seed": 3, **CASES[case]}
     path, pieces = tmp_path / "run", 2 if case == "pieces" else 1
     with monkeypatch.context() as elsewhere:
         if accepted:
             elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
         with pytest.raises(Interrupted):
-            dd.simulate(model(), 40, out=path, **stopped(given, 40 * (pieces - 1) + 10))
+            dd.simulate(model(), 40, out=path, **stopped(options, 40 * (pieces - 1) + 10))
         state = (path / "record.zarr" / run_file.CHECKPOINT).read_bytes()
         with pytest.raises(Interrupted):
             dd.resume(path, on=dd.Resources(progress=stopping(40 * (pieces - 1) + 30)))
     (path / "record.zarr" / run_file.CHECKPOINT).write_bytes(state)
     later = finite(path, 6)
     with pytest.raises(Interrupted):
-        dd.resume(path, accept=lambda found: True, on=dd.Resources(progress=stopping(40 * (pieces - 1) + 16)))
+        dd.resume(
+            path, accept=lambda differences: True, on=dd.Resources(progress=stopping(40 * (pieces - 1) + 16))
+        )
     assert finite(path, 3) == later
     assert finite(path, 6) == (later - (2 if pieces == 2 else 1) if accepted else later)
 
 
 def test_copies_that_diverge_are_nan_in_the_file(tmp_path: Path) -> None:
     diverging = model()
-    given = {"record": ["u"], "every": 5, "sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0]}}
+    options = {"record": ["u"], "every": 5, "sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0]}}
     with pytest.warns(dd.errors.RunWarning):
-        here = dd.simulate(diverging, 40, **given)
+        memory = dd.simulate(diverging, 40, **options)
     with pytest.warns(dd.errors.RunWarning):
-        there = dd.simulate(diverging, 40, out=tmp_path / "run", **given)
-    assert there.load().identical(here) and np.isnan(there["u.activation"].values[1]).all()
+        stored = dd.simulate(diverging, 40, out=tmp_path / "run", **options)
+    assert stored.load().identical(memory) and np.isnan(stored["u.activation"].values[1]).all()
 
 
 def test_copies_that_diverged_before_a_stop_are_nan_after_it(tmp_path: Path) -> None:
     amplitudes = {"sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0, 1.5]}, "on": dd.Resources(batch=2)}
-    given: dict[str, Any] = {"record": ["u"], "every": 5, **amplitudes}
+    options: dict[str, Any] = {"record": ["u"], "every": 5, **amplitudes}
     with pytest.warns(dd.errors.RunWarning):
-        here = dd.simulate(model(), 40, **given)
+        memory = dd.simulate(model(), 40, **options)
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 60))
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(options, 60))
     with pytest.warns(dd.errors.RunWarning):
-        there = dd.resume(tmp_path / "run")
-    assert there.load().identical(here) and np.isnan(there["u.activation"].values[1]).all()
+        resumed = dd.resume(tmp_path / "run")
+    assert resumed.load().identical(memory) and np.isnan(resumed["u.activation"].values[1]).all()
 
 
 def test_a_batch_whose_copies_all_diverge_before_its_only_sample_is_nan_in_the_file(tmp_path: Path) -> None:

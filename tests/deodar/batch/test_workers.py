@@ -46,14 +46,14 @@ def small() -> dd.Model:
 
 def children() -> list[psutil.Process]:
     """Worker processes of this one."""
-    found = []
+    processes = []
     for child in psutil.Process().children():
         try:
             if "spawn_main" in " ".join(child.cmdline()):
-                found.append(child)
+                processes.append(child)
         except psutil.NoSuchProcess:
             continue
-    return found
+    return processes
 
 
 def test_the_results_do_not_depend_on_the_split() -> None:
@@ -61,22 +61,24 @@ def test_the_results_do_not_depend_on_the_split() -> None:
 
     def run(**split: int) -> dict[str, np.ndarray]:
         on = dd.Resources(**split)
-        data = dd.simulate(model, 60, record=RECORD, every=20, seed=4, trials=5, precision="float64", on=on)
+        record = dd.simulate(model, 60, record=RECORD, every=20, seed=4, trials=5, precision="float64", on=on)
         assert (
-            data.sizes["trial"] == 5 and about(data)["complete"] and about(data)["trials"] == [0, 1, 2, 3, 4]
+            record.sizes["trial"] == 5
+            and about(record)["complete"]
+            and about(record)["trials"] == [0, 1, 2, 3, 4]
         )
-        return {path: data[path].values for path in RECORD}
+        return {path: record[path].values for path in RECORD}
 
     whole = run()
     for split in ({"batch": 2}, {"workers": 2}):
-        other = run(**split)
+        values = run(**split)
         for path in RECORD:
-            assert np.abs(other[path] - whole[path]).max() <= 1e-10 * max(1.0, np.abs(whole[path]).max()), (
+            assert np.abs(values[path] - whole[path]).max() <= 1e-10 * max(1.0, np.abs(whole[path]).max()), (
                 split,
                 path,
             )
         # the same noise, to the last bit
-        assert np.array_equal(other["xi.output"], whole["xi.output"]), split
+        assert np.array_equal(values["xi.output"], whole["xi.output"]), split
     assert np.abs(whole["u.activation"][0] - whole["u.activation"][1]).max() > 0.1
     assert not children()
 
@@ -89,9 +91,9 @@ def test_a_sweep_is_split_along_its_longest_entry_and_repeated_to_the_bit() -> N
         whole.drop_attrs().coords
     )
     assert np.abs(split["u.activation"] - whole["u.activation"]).max() <= 1e-4
-    made = about(split)
-    assert made["batch"] == 8 and made["sweep"] == sweep  # pieces of 2 values and of 1, times 4
-    assert made["workers"] == 2 and made["made_by"]["cores"] == "1"
+    provenance = about(split)
+    assert provenance["batch"] == 8 and provenance["sweep"] == sweep  # pieces of 2 values and of 1, times 4
+    assert provenance["workers"] == 2 and provenance["made_by"]["cores"] == "1"
     done = repeat(split, dd.simulate)
     assert done.same_bits and not done.differences
 
@@ -133,7 +135,7 @@ def test_ctrl_c_stops_all_workers_and_returns_the_complete_pieces() -> None:
     presser.start()
     steps, most = 20_000, 400
 
-    def told(done: int) -> None:
+    def watch(done: int) -> None:
         # at least two of the pieces are more than half way, so the first of them soon complete
         if done >= steps:
             seen.set()
@@ -145,14 +147,14 @@ def test_ctrl_c_stops_all_workers_and_returns_the_complete_pieces() -> None:
             trials=most,
             record=["u.activation"],
             every=steps // 10,
-            on=dd.Resources(workers=2, batch=1, progress=told),
+            on=dd.Resources(workers=2, batch=1, progress=watch),
         )
     presser.join()
-    data = caught.value.data
+    record = caught.value.data
     assert (
-        1 <= data.sizes["trial"] < most
-        and about(data)["complete"] is False
-        and about(data)["trials"] == [*range(most)]
+        1 <= record.sizes["trial"] < most
+        and about(record)["complete"] is False
+        and about(record)["trials"] == [*range(most)]
     )
     assert not children() and signal.getsignal(signal.SIGINT) is before
 
@@ -160,50 +162,50 @@ def test_ctrl_c_stops_all_workers_and_returns_the_complete_pieces() -> None:
 def test_a_second_ctrl_c_ends_the_workers_at_once() -> None:
     before = signal.getsignal(signal.SIGINT)
 
-    def told(done: int) -> None:
+    def watch(done: int) -> None:
         os.kill(os.getpid(), signal.SIGINT)
         os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt):
-        dd.simulate(small(), 50_000_000, trials=2, on=dd.Resources(workers=2, progress=told))
+        dd.simulate(small(), 50_000_000, trials=2, on=dd.Resources(workers=2, progress=watch))
     assert not children() and signal.getsignal(signal.SIGINT) is before
 
 
-@pytest.mark.parametrize("how", ["stops", "fails", "dies"])
-def test_no_thread_or_process_of_the_pool_remains_after_the_call(how: str) -> None:
+@pytest.mark.parametrize("ending", ["stops", "fails", "dies"])
+def test_no_thread_or_process_of_the_pool_remains_after_the_call(ending: str) -> None:
     """No thread and no process remains that could read a closed pipe, however the run ends."""
     before, seen = set(threading.enumerate()), []
 
-    def told(done: int) -> None:
+    def watch(done: int) -> None:
         seen.extend(children())
-        if how == "stops":
+        if ending == "stops":
             raise KeyboardInterrupt
-        if how == "fails":
+        if ending == "fails":
             raise ValueError("enough")
         seen[0].kill()
 
     with pytest.raises(
-        {"stops": dd.errors.Interrupted, "fails": ValueError, "dies": dd.errors.WorkerError}[how]
+        {"stops": dd.errors.Interrupted, "fails": ValueError, "dies": dd.errors.WorkerError}[ending]
     ):
-        dd.simulate(small(), 50_000_000, trials=2, on=dd.Resources(workers=2, progress=told))
+        dd.simulate(small(), 50_000_000, trials=2, on=dd.Resources(workers=2, progress=watch))
     assert len({child.pid for child in seen}) == 2 and not children() and set(threading.enumerate()) == before
 
 
 def test_ctrl_c_without_workers_returns_the_complete_pieces() -> None:
-    def told(done: int) -> None:
+    def watch(done: int) -> None:
         if done > 3 * 1000:
             raise KeyboardInterrupt
 
     with pytest.raises(dd.errors.Interrupted, match="3 of 10 pieces") as caught:
-        dd.simulate(small(), 1000, trials=10, on=dd.Resources(batch=1, progress=told))
+        dd.simulate(small(), 1000, trials=10, on=dd.Resources(batch=1, progress=watch))
     assert caught.value.data["trial"].values.tolist() == [0, 1, 2]
 
 
 def test_a_worker_that_dies_raises_a_worker_error() -> None:
     def kill() -> None:
-        while not (found := children()):
+        while not (processes := children()):
             time.sleep(0.05)
-        found[0].kill()
+        processes[0].kill()
 
     killer = threading.Thread(target=kill)
     killer.start()
@@ -215,15 +217,15 @@ def test_a_worker_that_dies_raises_a_worker_error() -> None:
 
 def test_a_worker_that_has_worked_for_long_is_replaced(monkeypatch: pytest.MonkeyPatch) -> None:
     def pids(count: int) -> list[int]:
-        found: list[int] = []
+        processes: list[int] = []
         with pool.Pool(1) as workers:
             for k in range(count):
                 workers.give(k, os.getpid)
                 while not (done := workers.wait(1.0)):
                     pass
-                found.append(done[0][1])
+                processes.append(done[0][1])
                 assert len(children()) == 1
-        return found
+        return processes
 
     assert len(set(pids(3))) == 1
     monkeypatch.setattr(pool, "LONGEST", 0.0)

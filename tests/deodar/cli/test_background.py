@@ -44,6 +44,6 @@ def test_a_live_run_in_the_background_of_a_script_ends_with_sigterm_and_says_so(
             time.sleep(0.05)
     finally:
         process.terminate()
-        _, told = process.communicate(timeout=600)
+        _, complaint = process.communicate(timeout=600)
     assert process.returncode == 1
-    assert re.search(r"stopped at [0-9.]+ of 600000 ms", told.replace("\n", " ")), told
+    assert re.search(r"stopped at [0-9.]+ of 600000 ms", complaint.replace("\n", " ")), complaint

@@ -60,9 +60,9 @@ def test_json_of_a_valid_document_has_no_problems(tmp_path: Path, capsys: pytest
 
 def test_json_lists_the_problems_of_a_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["check", str(_bad(tmp_path / "m.json")), "--json"]) == 1
-    found = json.loads(capsys.readouterr().out)["problems"]
-    assert [p["where"] for p in found] == ["v", "loose"]
-    assert all(set(p) == {"severity", "where", "what", "fix"} and p["fix"] for p in found)
+    problems = json.loads(capsys.readouterr().out)["problems"]
+    assert [p["where"] for p in problems] == ["v", "loose"]
+    assert all(set(p) == {"severity", "where", "what", "fix"} and p["fix"] for p in problems)
 
 
 def test_json_of_a_file_that_cannot_be_read_lists_its_problems_too(
@@ -109,6 +109,6 @@ def test_strict_counts_warnings_as_problems(tmp_path: Path, capsys: pytest.Captu
     assert cli.main(["check", str(path), "--strict"]) == 1
     assert capsys.readouterr().out.startswith("warning: left: ")
     assert cli.main(["check", str(path), "--strict", "--json"]) == 1
-    (found,) = json.loads(capsys.readouterr().out)["problems"]
-    assert found["severity"] == "warning" and found["where"] == "left"
+    (problem,) = json.loads(capsys.readouterr().out)["problems"]
+    assert problem["severity"] == "warning" and problem["where"] == "left"
     assert cli.main(["check", str(_good(tmp_path / "good.json")), "--strict"]) == 0

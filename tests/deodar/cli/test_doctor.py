@@ -19,16 +19,16 @@ def test_doctor_prints_versions_device_and_cache_folder(
     (tmp_path / "kept").write_bytes(b"x" * 2**20)
     monkeypatch.setenv("DEODAR_CACHE", str(tmp_path))
     assert main(["doctor", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["packages"]["jax"] == importlib.metadata.version("jax") and found["missing"] == []
-    assert found["device"].startswith("cpu") and found["compiled_programs"] == {
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["packages"]["jax"] == importlib.metadata.version("jax") and answer["missing"] == []
+    assert answer["device"].startswith("cpu") and answer["compiled_programs"] == {
         "folder": str(tmp_path),
         "count": 1,
         "mib": 1.0,
         "writable": True,
     }
     total = psutil.virtual_memory().total / 2**30
-    assert 0 < found["memory_gib"]["free"] <= found["memory_gib"]["total"] == pytest.approx(total, abs=0.06)
+    assert 0 < answer["memory_gib"]["free"] <= answer["memory_gib"]["total"] == pytest.approx(total, abs=0.06)
     assert main(["doctor"]) == 0
     page = capsys.readouterr().out
     assert "1 compiled programs" in page and "extra      test: installed" in page
@@ -55,11 +55,13 @@ def test_a_missing_package_is_printed_with_the_line_to_type(
     )
 
 
-@pytest.mark.parametrize(("more", "advice"), [([], device.INSTALL), (["gpu:0"], "Choose one with --device")])
+@pytest.mark.parametrize(
+    ("options", "advice"), [([], device.INSTALL), (["gpu:0"], "Choose one with --device")]
+)
 def test_the_line_of_devices_states_how_to_choose_or_install_one(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, more: list[str], advice: str
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, options: list[str], advice: str
 ) -> None:
-    names, cpu = ["cpu:0", *more], device.find()
+    names, cpu = ["cpu:0", *options], device.find()
     monkeypatch.setattr(device, "names", lambda: names)
     monkeypatch.setattr(device, "find", lambda name=None: cpu)
     main(["doctor"])

@@ -11,7 +11,7 @@ from deodar.cli import main
 
 
 @pytest.fixture
-def here(tmp_path, monkeypatch):
+def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     model = dd.Model("node")
     u = model.add(dd.Field("u"))
@@ -20,8 +20,8 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_draw_writes_a_picture_and_prints_its_path(here, capsys):
-    assert main(["draw", "node.json"]) == 0 and (here / "node-architecture-001.svg").read_text(
+def test_draw_writes_a_picture_and_prints_its_path(folder, capsys):
+    assert main(["draw", "node.json"]) == 0 and (folder / "node-architecture-001.svg").read_text(
         encoding="utf-8"
     ).startswith("<svg")
     assert main(["draw", "node.json", "-o", "a.pdf", "--width", "3.5"]) == 0
@@ -30,15 +30,15 @@ def test_draw_writes_a_picture_and_prints_its_path(here, capsys):
         "Drew node.json into a.pdf, 3.5 x "
     )
     assert main(["draw", "node.json", "-o", "b.svg", "--no-legend", "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
+    answer = json.loads(capsys.readouterr().out)
     assert (
-        said["out"] == "b.svg"
-        and len(said["inches"]) == 2
-        and "inhibition" not in (here / "b.svg").read_text(encoding="utf-8")
+        answer["out"] == "b.svg"
+        and len(answer["inches"]) == 2
+        and "inhibition" not in (folder / "b.svg").read_text(encoding="utf-8")
     )
 
 
-def test_draw_replaces_no_file_without_force(here, capsys):
+def test_draw_replaces_no_file_without_force(folder, capsys):
     assert main(["draw", "node.json", "-o", "a.svg"]) == 0
     assert main(["draw", "node.json", "-o", "a.svg"]) == 1 and "exists already" in capsys.readouterr().err
     assert main(["draw", "node.json", "-o", "a.svg", "--force"]) == 0

@@ -33,7 +33,7 @@ def test_the_list_is_printed_as_json(capsys: pytest.CaptureFixture[str]) -> None
     assert cli.main(["elements", "--json"]) == 0
     listed = json.loads(capsys.readouterr().out)
     assert list(listed) == list(registry.ROOMS)
-    assert sorted(name for found in listed.values() for name in found) == sorted(KINDS)
+    assert sorted(name for kinds in listed.values() for name in kinds) == sorted(KINDS)
 
 
 def test_each_kind_is_printed_with_equation_and_reference(capsys: pytest.CaptureFixture[str]) -> None:
@@ -50,16 +50,16 @@ def test_the_page_shows_default_range_and_unit_of_every_parameter(capsys: pytest
         table = capsys.readouterr().out.split("Values:")[-1].splitlines()
         rows = {line.split()[0]: line for line in table if line.strip()}
         for p in (p for p in parameters(cls) if p.name != "name"):
-            wanted = (p.cost, p.unit, "" if p.lower is None else f"{p.lower:g}", *p.choices)
-            missing += [f"{kind}.{p.name}: {word}" for word in wanted if word not in rows[p.name]]
+            expected = (p.cost, p.unit, "" if p.lower is None else f"{p.lower:g}", *p.choices)
+            missing += [f"{kind}.{p.name}: {word}" for word in expected if word not in rows[p.name]]
     assert len(PARTS) > 60 and not missing, missing
 
 
 def test_a_kind_as_json_is_its_schema(capsys: pytest.CaptureFixture[str]) -> None:
     for kind in PARTS:
         assert cli.main(["elements", kind, "--json"]) == 0
-        found = json.loads(capsys.readouterr().out)
-        assert (found["title"], found["properties"]["kind"]) == (kind, {"const": kind})
+        answer = json.loads(capsys.readouterr().out)
+        assert (answer["title"], answer["properties"]["kind"]) == (kind, {"const": kind})
 
 
 def test_worlds_and_other_kinds_outside_of_documents_have_a_schema(

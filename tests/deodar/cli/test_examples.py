@@ -15,7 +15,7 @@ from deodar.recording import files
 
 
 @pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -54,29 +54,29 @@ def test_the_script_that_writes_the_examples_is_not_an_example() -> None:
     assert not {"make", "pictures"} & set(examples.scripts())
 
 
-def test_a_document_is_copied_with_its_arrays(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_document_is_copied_with_its_arrays(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["examples", "copy", "spa"]) == 0
-    assert sorted(p.suffix for p in here.iterdir()) == [".json", ".npz"]
+    assert sorted(p.suffix for p in folder.iterdir()) == [".json", ".npz"]
     assert dd.load("spa.json").document == dd.load("example:spa").document
     assert "deodar studio spa.json" in told(capsys)
 
 
-def test_a_script_is_copied_with_the_documents_it_reads(here: Path) -> None:
+def test_a_script_is_copied_with_the_documents_it_reads(folder: Path) -> None:
     assert main(["examples", "copy", "choices", "mine"]) == 0
-    assert sorted(p.name for p in (here / "mine").iterdir()) == ["choices.py", "selection.json"]
+    assert sorted(p.name for p in (folder / "mine").iterdir()) == ["choices.py", "selection.json"]
 
 
-def test_a_second_example_is_copied_into_the_same_folder(here: Path) -> None:
+def test_a_second_example_is_copied_into_the_same_folder(folder: Path) -> None:
     assert main(["examples", "copy", "selection", "mine"]) == 0
     assert main(["examples", "copy", "spa", "mine"]) == 0
-    assert sorted(p.suffix for p in (here / "mine").iterdir()) == [".json", ".json", ".npz"]
-    assert dd.load(here / "mine" / "spa.json").document == dd.load("example:spa").document
+    assert sorted(p.suffix for p in (folder / "mine").iterdir()) == [".json", ".json", ".npz"]
+    assert dd.load(folder / "mine" / "spa.json").document == dd.load("example:spa").document
 
 
-def test_a_copy_does_not_replace_an_existing_file(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (here / "spa.json").write_text("mine")
+def test_a_copy_does_not_replace_an_existing_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "spa.json").write_text("mine")
     assert main(["examples", "copy", "spa"]) == 1
-    assert "exists already" in told(capsys) and [p.name for p in here.iterdir()] == ["spa.json"]
+    assert "exists already" in told(capsys) and [p.name for p in folder.iterdir()] == ["spa.json"]
     assert main(["examples", "copy", "spa", "--force", "--json"]) == 0
     assert len(json.loads(capsys.readouterr().out)["files"]) == 2 and dd.load("spa.json").name
 
@@ -111,20 +111,20 @@ def test_an_unknown_example_is_an_error_that_states_what_to_type(
 
 
 def test_a_file_of_the_folder_is_suggested_before_an_example(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    dd.save(dd.Model("m"), here / "selections.json")
+    dd.save(dd.Model("m"), folder / "selections.json")
     assert main(["run", "selektions.json", "--duration", "5"]) == 1
     assert "Did you mean 'selections.json'?" in told(capsys)
 
 
 def test_an_example_runs_for_the_duration_in_its_notes(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["run", "example:selection", "--every", "100", "--record", "u.activation", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["out"] == "selection-001"
-    assert float(files.load_record(here / "selection-001")["time"][-1]) == 600
+    assert float(files.load_record(folder / "selection-001")["time"][-1]) == 600
     assert main(["run", "example:selection", "--duration", "20", "--out", "short"]) == 0
 
 

@@ -65,23 +65,23 @@ def test_an_experiment_writes_a_table_a_dataset_and_its_design(file, capsys, tmp
     lines = (tmp_path / "when-001" / "trials.csv").read_text().splitlines()
     assert lines[0] == "trial,noise,outcome,awaited,duration,decided,low" and len(lines) == 17
     assert call("--out", "when-001") == 0  # nothing is left to be run
-    again = cli.main(["experiment", "when-001/experiment.json", "--out", "again", "--no-progress"])
-    assert again == 0 and load_results(tmp_path / "again").identical(load_results(tmp_path / "when-001"))
+    status = cli.main(["experiment", "when-001/experiment.json", "--out", "again", "--no-progress"])
+    assert status == 0 and load_results(tmp_path / "again").identical(load_results(tmp_path / "when-001"))
 
 
 def test_the_model_may_be_an_example(file, capsys, tmp_path):
-    data = json.loads((tmp_path / "when.json").read_text())
-    data |= {
+    document = json.loads((tmp_path / "when.json").read_text())
+    document |= {
         "model": "example:node",
         "limit": 20,
         "factors": {},
         "conditions": {"decided": {"kind": "Crosses", "of": "u.activation"}},
     }
-    (tmp_path / "when.json").write_text(json.dumps(data))
+    (tmp_path / "when.json").write_text(json.dumps(document))
     assert call("--trials", "2", "--json") == 0
     assert json.loads(capsys.readouterr().out)["trials"] == 2
-    data["model"] = "example:nod"
-    (tmp_path / "when.json").write_text(json.dumps(data))
+    document["model"] = "example:nod"
+    (tmp_path / "when.json").write_text(json.dumps(document))
     assert call() != 0
     assert "node" in capsys.readouterr().err
 
@@ -110,8 +110,8 @@ def test_the_same_call_resumes_an_interrupted_experiment(file, capsys, tmp_path,
 
 def test_options_replace_trials_and_seed_and_json_reports_the_outcomes(file, capsys, tmp_path):
     assert call("--trials", "2", "--seed", "5", "--json", "--out", "few") == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["trials"] == 4 and sum(told["outcomes"].values()) == 4 and told["out"] == "few"
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["trials"] == 4 and sum(answer["outcomes"].values()) == 4 and answer["out"] == "few"
     assert json.loads((tmp_path / "few" / "experiment.json").read_text())["seed"] == 5
     assert call("--out", "few") == 1
     assert "holds runs of another experiment: seed, trials differ" in capsys.readouterr().err
@@ -126,9 +126,9 @@ def test_check_runs_no_trial(file, capsys, tmp_path):
 
 
 def test_errors_are_reported_before_a_run(file, capsys, tmp_path):
-    data = json.loads(file.read_text())
-    data["conditions"]["decided"]["of"] = "v.activation"
-    file.write_text(json.dumps(data))
+    document = json.loads(file.read_text())
+    document["conditions"]["decided"]["of"] = "v.activation"
+    file.write_text(json.dumps(document))
     assert call("--out", "none") == 1
     assert (
         "conditions.decided: nothing is called 'v.activation'. Did you mean 'u.activation'?"
@@ -158,12 +158,12 @@ def test_very_many_steps_in_total_need_yes(file, capsys, tmp_path, monkeypatch):
     monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
     assert call("--out", "out") == 1 and not (tmp_path / "out").exists()
-    told = capsys.readouterr().err.replace("\n", " ")
+    error = capsys.readouterr().err.replace("\n", " ")
     assert re.search(
         r"deodar experiment: 16 trials of at most 400 steps of dt = 1 take about \S+ \w+ on this machine",
-        told,
+        error,
     )
-    assert "cannot ask for confirmation" in told and "--yes" in told
+    assert "cannot ask for confirmation" in error and "--yes" in error
     assert call("--out", "out", "--yes") == 0
     assert "16 trials of at most 400 steps" in capsys.readouterr().err
     assert call("--out", "out") == 0, "nothing is left to be run"
@@ -185,10 +185,10 @@ def test_a_full_disk_keeps_complete_trials_and_states_how_to_resume(file, capsys
             ),
         )
         assert call("--out", "out") == 1
-    told = capsys.readouterr().err
+    error = capsys.readouterr().err
     assert (
-        "trials.csv: cannot be written: No space left on device" in told
-        and "Resume with: deodar experiment when.json --out out" in told
+        "trials.csv: cannot be written: No space left on device" in error
+        and "Resume with: deodar experiment when.json --out out" in error
     )
     assert (
         not (tmp_path / "out" / "trials.csv").exists() and load_results(tmp_path / "out").sizes["trial"] == 16
@@ -197,13 +197,13 @@ def test_a_full_disk_keeps_complete_trials_and_states_how_to_resume(file, capsys
 
 
 def test_options_of_a_cluster_need_one_and_exclude_workers(file, capsys):
-    for given, says in (
+    for arguments, says in (
         (["--trust-network"], "--trust-network needs --cluster ADDRESS"),
         (["--patience", "5"], "--patience needs --cluster ADDRESS"),
         (["--cluster", "local:2", "--workers", "2"], "--workers and --cluster exclude each other"),
     ):
         with pytest.raises(SystemExit) as end:
-            call(*given)
+            call(*arguments)
         assert end.value.code == 2 and says in capsys.readouterr().err
     assert call("--cluster", "tcp://10.0.0.5:8786") == 1
     assert "--trust-network" in capsys.readouterr().err
@@ -213,9 +213,9 @@ def test_an_error_of_a_cluster_says_how_to_resume(file, capsys, monkeypatch):
     monkeypatch.setattr(scheduler, "CONNECT_SECONDS", 0.3)
     assert call("--out", "out") == 0
     assert call("--out", "out", "--cluster", "tcp://127.0.0.1:9", "--patience", "5") == 1
-    told = capsys.readouterr().err
-    assert "no scheduler of Dask answers at tcp://127.0.0.1:9" in told and "What is done is kept." in told
-    assert "--out out --cluster tcp://127.0.0.1:9 --patience 5" in told
+    error = capsys.readouterr().err
+    assert "no scheduler of Dask answers at tcp://127.0.0.1:9" in error and "What is done is kept." in error
+    assert "--out out --cluster tcp://127.0.0.1:9 --patience 5" in error
 
 
 def test_parts_are_followed_and_merged(file, capsys, monkeypatch):
@@ -223,9 +223,9 @@ def test_parts_are_followed_and_merged(file, capsys, monkeypatch):
     monkeypatch.setattr(following, "QUIET_SECONDS", 0.0)
     assert call("--trials", "0:8", "--out", "first") == 0
     assert call("--follow", "first") == 1
-    told = capsys.readouterr()
-    assert "8 of 16 trials (50 %); slowest: noise 2, median" in told.out
-    assert "no process runs it" in told.err
+    printed = capsys.readouterr()
+    assert "8 of 16 trials (50 %); slowest: noise 2, median" in printed.out
+    assert "no process runs it" in printed.err
     assert call("--follow", "first", "--trials", "0:8") == 0
     assert cli.main(["experiment", "merge", "first", "--out", "half"]) == 1
     assert "Trials without a row, as --trials names them: 8:16" in capsys.readouterr().out
@@ -267,16 +267,16 @@ def test_rows_of_another_machine_are_followed_where_its_lock_is_not_seen(file, c
     def writes():
         for row in rows[3:10]:
             time.sleep(0.15)
-            with far.open("a", encoding="utf-8") as more:
-                more.write(row)
+            with far.open("a", encoding="utf-8") as appended:
+                appended.write(row)
 
     thread = threading.Thread(target=writes)
     thread.start()
     assert call("--follow", "far") == 1
     thread.join()
-    told = capsys.readouterr()
-    assert "9 of 16 trials" in told.out
-    first, last = told.err.splitlines()
+    printed = capsys.readouterr()
+    assert "9 of 16 trials" in printed.out
+    first, last = printed.err.splitlines()
     assert first.endswith("no process of this machine runs it; rows of another one are awaited for 0.5 s")
     assert last.endswith("no process runs it; the call that began it resumes it")
 
@@ -299,9 +299,9 @@ def test_a_plan_prints_pieces_memory_and_time(file, capsys, tmp_path, monkeypatc
     assert re.search(r"stored: \d+ bytes for a row of each trial, [0-9.]+ kB in total", out)
     assert "  1 worker: at most" in out and "  4 workers: at most" in out
     assert call("--plan", "--json") == 0
-    found = json.loads(capsys.readouterr().out)
-    assert list(found["times"]) == ["1", "2", "4"] and found["pieces"] == [4] * 4
-    assert found["stored"] == 16 * found["row"]
+    answer = json.loads(capsys.readouterr().out)
+    assert list(answer["times"]) == ["1", "2", "4"] and answer["pieces"] == [4] * 4
+    assert answer["stored"] == 16 * answer["row"]
     with pytest.raises(SystemExit):
         cli.main(["plan", "when.json", "--cluster", "--devices", "8"])
     assert "--devices is for a model, and --cluster plans an experiment" in capsys.readouterr().err

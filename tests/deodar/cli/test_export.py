@@ -18,7 +18,7 @@ from tests.deodar.recording.models import record
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     files.save_record(record(trials=2), "run.zarr")
     return tmp_path
@@ -34,7 +34,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     ],
 )
 def test_values_are_written_in_each_format(
-    here: Path, arguments: list[str], written: str, capsys: pytest.CaptureFixture[str]
+    folder: Path, arguments: list[str], written: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert (
         main(
@@ -51,12 +51,12 @@ def test_values_are_written_in_each_format(
         assert rows[0].startswith("time,") and len(rows) == 1 + 3 + 3 * 11
 
 
-def test_values_are_thinned(here: Path) -> None:
+def test_values_are_thinned(folder: Path) -> None:
     assert main(["export", "run.zarr", "n.activation", "--every", "10", "--out", "a.nc"]) == 0
     assert files.load_record("a.nc").equals(record(trials=2)[["n.activation"]].sel(time=[0, 10, 20]))
 
 
-def test_videos_are_written_in_each_format(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_videos_are_written_in_each_format(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     plot = ["export", "run.zarr", "u.activation", "--trial", "0", "--width", "200"]
     assert main([*plot, "--kind", "snapshot", "--out", "u.gif", "--every", "10", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {
@@ -76,7 +76,7 @@ def test_videos_are_written_in_each_format(here: Path, capsys: pytest.CaptureFix
     assert Path("figure-export-001.gif").exists()
 
 
-def test_the_world_is_shown_with_the_path(here: Path) -> None:
+def test_the_world_is_shown_with_the_path(folder: Path) -> None:
     model = straight()
     model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
     files.save_record(dd.simulate(model, 40, record="pose.output", world=room()), "drive.zarr")
@@ -107,9 +107,9 @@ def test_the_world_is_shown_with_the_path(here: Path) -> None:
     ],
 )
 def test_invalid_calls_of_export_are_errors_and_write_nothing(
-    here: Path, arguments: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]
+    folder: Path, arguments: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    before = sorted(here.iterdir())
+    before = sorted(folder.iterdir())
     if status == 2:
         with pytest.raises(SystemExit) as ended:
             main(["export", *arguments])
@@ -118,4 +118,4 @@ def test_invalid_calls_of_export_are_errors_and_write_nothing(
         assert main(["export", *arguments]) == 1
     error = capsys.readouterr().err
     assert says in error and "Traceback" not in error, error
-    assert sorted(here.iterdir()) == before
+    assert sorted(folder.iterdir()) == before

@@ -24,9 +24,9 @@ DOCUMENT = """{"deodar": 1, "axes": {"x": {"lower": 0, "upper": 9, "samples": 10
  "connections": [{"source": "b.output", "target": "d.input"}]}"""
 
 
-def call(here: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+def call(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "deodar", *arguments], cwd=here, capture_output=True, text=True, timeout=600
+        [sys.executable, "-m", "deodar", *arguments], cwd=folder, capture_output=True, text=True, timeout=600
     )
 
 

@@ -12,19 +12,19 @@ from deodar.cli import main
 
 
 @pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
-def test_a_document_is_packed_and_unpacked(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_document_is_packed_and_unpacked(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["pack", "example:spa"]) == 0
-    assert [p.name for p in here.iterdir()] == ["spa.deodar"]
+    assert [p.name for p in folder.iterdir()] == ["spa.deodar"]
     assert "deodar studio spa.deodar" in capsys.readouterr().out
     assert main(["pack", "spa.deodar", "--unpack", "--out", "apart", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["out"] == str(Path("apart") / "spa.json")
-    assert sorted(p.suffix for p in (here / "apart").iterdir()) == [".json", ".npz"]
-    assert dd.load(here / "apart" / "spa.json").document == dd.load("example:spa").document
+    assert sorted(p.suffix for p in (folder / "apart").iterdir()) == [".json", ".npz"]
+    assert dd.load(folder / "apart" / "spa.json").document == dd.load("example:spa").document
 
 
 @pytest.mark.parametrize(
@@ -37,19 +37,19 @@ def test_a_document_is_packed_and_unpacked(here: Path, capsys: pytest.CaptureFix
     ],
 )
 def test_invalid_calls_of_pack_are_errors(
-    words: list[str], status: int, says: str, here: Path, capsys: pytest.CaptureFixture[str]
+    words: list[str], status: int, says: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (here / "there.deodar").write_bytes(b"mine")
+    (folder / "there.deodar").write_bytes(b"mine")
     try:
         found = main(words)
     except SystemExit as stopped:
         found = int(stopped.code or 0)
     assert (found, says in " ".join(capsys.readouterr().err.split())) == (status, True)
-    assert (here / "there.deodar").read_bytes() == b"mine"
+    assert (folder / "there.deodar").read_bytes() == b"mine"
 
 
-def test_commands_open_a_package(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_commands_open_a_package(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["pack", "example:node"]) == 0
     assert main(["check", "node.deodar"]) == 0
     assert main(["run", "node.deodar", "--duration", "5", "--out", "run"]) == 0
-    assert dd.load(here / "run" / "model.json").document == dd.load("example:node").document
+    assert dd.load(folder / "run" / "model.json").document == dd.load("example:node").document

@@ -14,10 +14,10 @@ from deodar import cli
 @pytest.fixture
 def volume(tmp_path: Path) -> Path:
     """Return the file of a field over three axes of 32 samples."""
-    made, path = dd.Model("volume"), tmp_path / "volume.json"
+    model, path = dd.Model("volume"), tmp_path / "volume.json"
     axes = [dd.Axis(name, 0, 32, samples=32, periodic=True) for name in "xyz"]
-    made.add(dd.Field("u", axes, kernel=[dd.Gaussian(12, 3, normalized=True)]))
-    dd.save(made, path)
+    model.add(dd.Field("u", axes, kernel=[dd.Gaussian(12, 3, normalized=True)]))
+    dd.save(model, path)
     return path
 
 
@@ -38,15 +38,15 @@ def test_the_plan_of_several_devices_states_axis_traffic_and_memory(
     assert text.startswith("8 devices divide the axis x: 32 samples, 4 on each\n  u: waves, ")
     assert "\ntraffic: " in text and "\nmemory: at most about " in text
     assert cli.main(["plan", str(volume), "--devices", "8", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert (found["axis"], found["samples"], found["devices"]) == ("x", 32, 8)
-    assert found["bytes"] == sum(e["bytes"] for e in found["elements"]) and f"{found['bytes']:,}" in text
+    answer = json.loads(capsys.readouterr().out)
+    assert (answer["axis"], answer["samples"], answer["devices"]) == ("x", 32, 8)
+    assert answer["bytes"] == sum(e["bytes"] for e in answer["elements"]) and f"{answer['bytes']:,}" in text
     assert cli.main(["plan", str(volume), "--devices", "2", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["memory"] > found["memory"]
+    assert json.loads(capsys.readouterr().out)["memory"] > answer["memory"]
 
 
 @pytest.mark.parametrize(
-    ("given", "text"),
+    ("arguments", "text"),
     [
         (["--devices", "7"], "u: no axis can be divided into 7 equal parts"),
         (["--devices", "0"], "devices is 0; expected a number of devices"),
@@ -55,7 +55,7 @@ def test_the_plan_of_several_devices_states_axis_traffic_and_memory(
     ],
 )
 def test_what_cannot_be_divided_is_an_error(
-    given: list[str], text: str, volume: Path, capsys: pytest.CaptureFixture[str]
+    arguments: list[str], text: str, volume: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert cli.main(["plan", str(volume), *given]) == 1
+    assert cli.main(["plan", str(volume), *arguments]) == 1
     assert text in capsys.readouterr().err

@@ -20,7 +20,7 @@ from tests.deodar.recording.models import record, x, y
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     files.save_record(record(trials=3), "small.zarr")
     deep = dd.Model("deep")
@@ -42,7 +42,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     ],
 )
 def test_each_kind_of_figure_is_drawn(
-    here: Path, arguments: list[str], kind: str, capsys: pytest.CaptureFixture[str]
+    folder: Path, arguments: list[str], kind: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["plot", *arguments, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
@@ -51,9 +51,9 @@ def test_each_kind_of_figure_is_drawn(
         assert min(picture.size) > 300 and len(np.unique(np.asarray(picture.convert("L")))) > 5
 
 
-def test_vector_graphics_hold_real_text_and_units(here: Path) -> None:
+def test_vector_graphics_hold_real_text_and_units(folder: Path) -> None:
     assert main(["plot", "small.zarr", "-o", "all.svg"]) == 0
-    text = (here / "all.svg").read_text()
+    text = (folder / "all.svg").read_text()
     assert "time (ms)" in text and "x (deg)" in text and "activation" in text
     assert (
         main(["plot", "small.zarr", "-o", "all.svg"]) == 1
@@ -62,15 +62,15 @@ def test_vector_graphics_hold_real_text_and_units(here: Path) -> None:
 
 
 @pytest.mark.parametrize("reduce", ["maximum", "integral"])
-def test_a_projection_is_labelled_with_its_reduction(here: Path, reduce: str) -> None:
+def test_a_projection_is_labelled_with_its_reduction(folder: Path, reduce: str) -> None:
     assert main(["plot", "deep.zarr", "--axes", "x", "z", "--reduce", reduce, "-o", "deep.svg"]) == 0
-    assert f"{reduce} over y of " in (here / "deep.svg").read_text()
+    assert f"{reduce} over y of " in (folder / "deep.svg").read_text()
 
 
-def test_the_same_record_gives_the_same_file(here: Path) -> None:
+def test_the_same_record_gives_the_same_file(folder: Path) -> None:
     for name in ("a.svg", "b.svg"):
         assert main(["plot", "small.zarr", "u.activation", "--trial", "1", "-o", name]) == 0
-    assert (here / "a.svg").read_bytes() == (here / "b.svg").read_bytes()
+    assert (folder / "a.svg").read_bytes() == (folder / "b.svg").read_bytes()
 
 
 @pytest.mark.parametrize(
@@ -85,17 +85,17 @@ def test_the_same_record_gives_the_same_file(here: Path) -> None:
     ],
 )
 def test_invalid_calls_of_plot_are_errors_and_write_nothing(
-    here: Path, arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+    folder: Path, arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    before = sorted(here.iterdir())
+    before = sorted(folder.iterdir())
     assert main(["plot", *arguments]) == 1
     error = capsys.readouterr().err
     assert says in error and "Traceback" not in error, error
-    assert sorted(here.iterdir()) == before
+    assert sorted(folder.iterdir()) == before
 
 
 def test_a_path_is_drawn_in_its_arena_and_as_an_animation(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     model = straight()
     model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
@@ -132,8 +132,8 @@ def test_a_growing_record_is_drawn_until_it_is_complete(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     whole = record(record=["n.activation"])
-    made = json.loads(whole.attrs["deodar"])
-    growing = whole.assign_attrs(deodar=json.dumps(made | {"complete": False}))
+    provenance = json.loads(whole.attrs["deodar"])
+    growing = whole.assign_attrs(deodar=json.dumps(provenance | {"complete": False}))
     stages = [growing.isel(time=slice(0, n)) for n in (0, 3, 3, 4)] + [whole]
     figures: list[bytes | None] = []
 
@@ -179,10 +179,11 @@ def test_following_ends_when_the_run_was_killed(
         words = ["plot", "run.zarr", "--kind", "time_course", "--follow", "--interval", "0.03"]
         assert main([*words, "-o", "n.svg"]) == 0
     assert len(rounds) > 5, "a writer that lives is waited for"
-    said = capsys.readouterr()
-    assert "Drew n.activation into n.svg" in said.out
+    printed = capsys.readouterr()
+    assert "Drew n.activation into n.svg" in printed.out
     assert (
-        "run.zarr is incomplete, and no process writes it any more" in said.err and "--resume" not in said.err
+        "run.zarr is incomplete, and no process writes it any more" in printed.err
+        and "--resume" not in printed.err
     )
     (tmp_path / "run.zarr" / CHECKPOINT).touch()
     assert main([*words, "-o", "again.svg"]) == 0
@@ -193,7 +194,7 @@ def test_following_ends_when_the_run_was_killed(
 
 
 def test_following_ends_with_ctrl_c(
-    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def stop(seconds: float) -> None:
         raise KeyboardInterrupt

@@ -15,7 +15,7 @@ LEVEL, EXCITATION = "u.resting_level", "u.kernel.0.amplitude"
 
 
 @pytest.fixture
-def here(tmp_path, monkeypatch):
+def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     dd.save(node(), "node.json")
     return tmp_path
@@ -28,12 +28,12 @@ def same(figure, name: str) -> bool:
         return expected.read() == drawn.read()
 
 
-def test_a_branch_of_the_command_is_drawn_again(here, capsys):
+def test_a_branch_of_the_command_is_drawn_again(folder, capsys):
     assert (
         main(["continuation", "node.json", "s.amplitude", "0", "8", "--one-grid", "--out", "branch.nc"]) == 0
     )
-    said = capsys.readouterr().out
-    assert "Branch: branch.nc" in said and "Figure" not in said and not list(here.glob("*.png"))
+    printed = capsys.readouterr().out
+    assert "Branch: branch.nc" in printed and "Figure" not in printed and not list(folder.glob("*.png"))
     assert main(["plot", "branch.nc", "-o", "branch.svg"]) == 0
     assert capsys.readouterr().out == "Drew the branch of branch.nc into branch.svg\n"
     branch = dd.continuation(node(), "s.amplitude", (0, 8), finer=False)
@@ -42,47 +42,47 @@ def test_a_branch_of_the_command_is_drawn_again(here, capsys):
     assert json.loads(capsys.readouterr().out) == {"out": "output.svg", "kinds": {"branch.nc": "branch"}}
     assert same(dd.bifurcation_diagram(branch, shown="u.output"), "output.svg")
     assert main(["plot", "branch.nc"]) == 0
-    assert (here / "branch-plot-001.png").exists()
+    assert (folder / "branch-plot-001.png").exists()
 
 
-def test_the_command_writes_a_figure_and_every_branch_beside_it(here, capsys):
+def test_the_command_writes_a_figure_and_every_branch_beside_it(folder, capsys):
     dd.save(rivals(101), "rivals.json")
     call = ["continuation", "rivals.json", "u.global_inhibition", "0.32", "0.45", "--one-grid", "--switch"]
     assert main([*call, "-o", "all.svg", "--save", "all.zarr", "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert said["files"] == ["all.zarr", *(f"all-{k}.zarr" for k in range(2, len(said["switched"]) + 2))]
-    assert len(said["switched"]) == 2 * len(said["bifurcations"]) == 2
-    assert main(["plot", *said["files"], "-o", "again.svg"]) == 0
-    assert (here / "again.svg").read_bytes() == (here / "all.svg").read_bytes()
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["files"] == ["all.zarr", *(f"all-{k}.zarr" for k in range(2, len(answer["switched"]) + 2))]
+    assert len(answer["switched"]) == 2 * len(answer["bifurcations"]) == 2
+    assert main(["plot", *answer["files"], "-o", "again.svg"]) == 0
+    assert (folder / "again.svg").read_bytes() == (folder / "all.svg").read_bytes()
 
 
-def test_a_map_is_drawn_again_with_loci_on_it(here, capsys):
+def test_a_map_is_drawn_again_with_loci_on_it(folder, capsys):
     grid = ["1", "12", "9", LEVEL, "-9.2", "-1.2", "9", "--strength", "6"]
     assert main(["map", "node.json", EXCITATION, *grid, "--out", "map.zarr"]) == 0
-    assert not list(here.glob("*.png"))
-    found = dd.analysis.RegimeMap.load("map.zarr")
+    assert not list(folder.glob("*.png"))
+    regime_map = dd.analysis.RegimeMap.load("map.zarr")
     assert main(["plot", "map.zarr", "-o", "map.svg"]) == 0
-    assert same(dd.regime_map_figure(found), "map.svg")
-    loci = dd.regime_loci(found)
+    assert same(dd.regime_map_figure(regime_map), "map.svg")
+    loci = dd.regime_loci(regime_map)
     names = [str(curve.save(f"line-{k}.nc")) for k, curve in enumerate(loci)]
     capsys.readouterr()
     assert main(["plot", names[0], "map.zarr", *names[1:], "-o", "both.svg"]) == 0
-    assert same(dd.regime_map_figure(found, loci), "both.svg")
+    assert same(dd.regime_map_figure(regime_map, loci), "both.svg")
     assert main(["plot", *names, "-o", "loci.svg"]) == 0
     assert same(dd.locus_figure(*loci), "loci.svg")
     assert capsys.readouterr().out.splitlines()[-1].startswith("Drew the locus of line-0.nc and the locus of")
 
 
-def test_mistakes_are_answered(here, capsys):
+def test_mistakes_are_answered(folder, capsys):
     dd.continuation(node(), "s.amplitude", (0, 8), finer=False).save("branch.nc")
     dd.save_record(dd.simulate(node(), 10), "run.nc")
-    for more, said in (
+    for options, message in (
         (["--at", "5"], "--at is for records of runs; branch.nc holds a branch"),
         (["u.output", "u.activation"], "one port is drawn, not 2"),
     ):
         with pytest.raises(SystemExit, match="2"):
-            main(["plot", "branch.nc", *more])
-        assert said in capsys.readouterr().err
+            main(["plot", "branch.nc", *options])
+        assert message in capsys.readouterr().err
     assert main(["plot", "branch.nc", "run.nc"]) == 1
     assert "not drawn together: branch, a run" in capsys.readouterr().err
     assert main(["plot", "branch.nc", "u.outptu"]) == 1

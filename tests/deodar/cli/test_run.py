@@ -25,13 +25,13 @@ from tests.deodar.recording.models import model
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     dd.save(model(), "small.json")
     return tmp_path
 
 
-def test_a_document_is_run_and_recorded(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_document_is_run_and_recorded(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert (
         main(
             [
@@ -51,16 +51,16 @@ def test_a_document_is_run_and_recorded(here: Path, capsys: pytest.CaptureFixtur
         == 0
     )
     assert "deodar plot small-001" in capsys.readouterr().out.splitlines()[-1]
-    data = files.load_record(here / "small-001")
-    assert data["u.activation"].shape == (5, 11) and about(data)["seed"] == 3
-    assert dd.load(here / "small-001" / "model.json").document == model().document
+    record = files.load_record(folder / "small-001")
+    assert record["u.activation"].shape == (5, 11) and about(record)["seed"] == 3
+    assert dd.load(folder / "small-001" / "model.json").document == model().document
     expected = dd.simulate(model(), 20, record=["u.activation"], every=5, seed=3)["u.activation"]
-    assert np.array_equal(expected.values, data["u.activation"].values)
-    assert main(["run", "small.json", "--duration", "5"]) == 0 and (here / "small-002").is_dir()
+    assert np.array_equal(expected.values, record["u.activation"].values)
+    assert main(["run", "small.json", "--duration", "5"]) == 0 and (folder / "small-002").is_dir()
 
 
 def test_warnings_of_the_check_are_printed_and_do_not_prevent_the_run(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     lonely, x = dd.Model("lonely"), dd.Axis("x", 0, 10, 11)
     fields = [lonely.add(dd.Field(name, [x])) for name in "abcd"]
@@ -72,7 +72,9 @@ def test_warnings_of_the_check_are_printed_and_do_not_prevent_the_run(
     assert lines[-1] == "deodar run: warning: 1 more; type: deodar check lonely.json"
 
 
-def test_options_set_step_parameters_sweep_and_format(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_options_set_step_parameters_sweep_and_format(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     call = [
         "run",
         "small.json",
@@ -89,13 +91,13 @@ def test_options_set_step_parameters_sweep_and_format(here: Path, capsys: pytest
     ]
     assert main([*call, "--precision", "float64", "--format", "netcdf", "--out", "out", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
-    data = files.load_record(here / "out" / "record.nc")
+    record = files.load_record(folder / "out" / "record.nc")
     assert (
-        data["u.activation"].dtype == np.float64
-        and data.sizes["trial"] == 2
-        and data.sizes["s.amplitude"] == 3
+        record["u.activation"].dtype == np.float64
+        and record.sizes["trial"] == 2
+        and record.sizes["s.amplitude"] == 3
     )
-    assert dd.load(here / "out" / "model.json").get("u.tau") == 7 and answer["out"] == "out"
+    assert dd.load(folder / "out" / "model.json").get("u.tau") == 7 and answer["out"] == "out"
 
 
 @pytest.mark.parametrize(
@@ -107,27 +109,27 @@ def test_options_set_step_parameters_sweep_and_format(here: Path, capsys: pytest
     ],
 )  # fmt: skip
 def test_a_list_of_points_is_read_from_a_file_and_run_again(
-    here: Path, capsys: pytest.CaptureFixture[str], name: str, text: str
+    folder: Path, capsys: pytest.CaptureFixture[str], name: str, text: str
 ) -> None:
-    (here / name).write_text(text)
+    (folder / name).write_text(text)
     call = ["run", "small.json", "--duration", "4", "--points", name, "--own-noise", "--trials", "2"]
     assert main([*call, "--out", "out", "--json"]) == 0
     capsys.readouterr()
-    data = files.load_record(here / "out" / "record.zarr")
-    assert dict(data["u.activation"].sizes)["point"] == 3 and data.sizes["trial"] == 2
-    assert data["u.tau"].values.tolist() == [7, 9, 11]
+    record = files.load_record(folder / "out" / "record.zarr")
+    assert dict(record["u.activation"].sizes)["point"] == 3 and record.sizes["trial"] == 2
+    assert record["u.tau"].values.tolist() == [7, 9, 11]
     assert main(["run", "out/record.zarr", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["repetition"]["same_bits"] is True
 
 
-def test_a_record_is_repeated_and_compared(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_record_is_repeated_and_compared(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "20", "--every", "5", "--out", "first"]) == 0
     assert main(["run", "first", "--out", "second"]) == 0
     assert "same bits" in capsys.readouterr().out
     assert (
-        files.load_record(here / "first")
+        files.load_record(folder / "first")
         .drop_attrs()
-        .identical(files.load_record(here / "second").drop_attrs())
+        .identical(files.load_record(folder / "second").drop_attrs())
     )
     assert main(["run", "first/record.zarr", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["repetition"]["same_bits"] is True
@@ -153,28 +155,28 @@ def test_a_record_is_repeated_and_compared(here: Path, capsys: pytest.CaptureFix
     ],
 )
 def test_invalid_calls_of_run_are_errors_and_write_nothing(
-    here: Path, arguments: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]
+    folder: Path, arguments: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    before = sorted(here.iterdir())
+    before = sorted(folder.iterdir())
     try:
         code = main(["run", *arguments])
     except SystemExit as stopped:
         code = int(stopped.code or 0)
     error = capsys.readouterr().err
     assert code == status and says in error and "Traceback" not in error, error
-    assert sorted(here.iterdir()) == before
+    assert sorted(folder.iterdir()) == before
 
 
-def test_force_replaces_only_what_a_run_wrote(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_force_replaces_only_what_a_run_wrote(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = ["run", "small.json", "--duration", "5", "--out", "out"]
     assert main(call) == 0 and main(call) == 1
     assert "--force" in capsys.readouterr().err
-    (here / "out" / "notes.txt").write_text("mine")
-    assert main([*call, "--force"]) == 0 and (here / "out" / "notes.txt").read_text() == "mine"
+    (folder / "out" / "notes.txt").write_text("mine")
+    assert main([*call, "--force"]) == 0 and (folder / "out" / "notes.txt").read_text() == "mine"
 
 
 def test_ctrl_c_writes_the_record_so_far(
-    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     chunk, calls = Run._chunk, []
 
@@ -199,16 +201,16 @@ def test_ctrl_c_writes_the_record_so_far(
     ]
     assert main(call) == 1 and len(calls) == 3
     assert "incomplete" in capsys.readouterr().err
-    data = files.load_record(here / "cut")
+    record = files.load_record(folder / "cut")
     assert (
-        about(data)["complete"] is False
-        and 1 <= data.sizes["time"] < 1001
-        and np.isfinite(data["n.activation"].values).all()
+        about(record)["complete"] is False
+        and 1 <= record.sizes["time"] < 1001
+        and np.isfinite(record["n.activation"].values).all()
     )
 
 
 def test_a_live_run_follows_the_wall_clock_and_prints_its_meter(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     began = time.perf_counter()
     assert main(["run", "small.json", "--live", "--duration", "100", "--speed", "0.5", "--json"]) == 0
@@ -224,11 +226,11 @@ def test_a_live_run_follows_the_wall_clock_and_prints_its_meter(
         == 0
     )
     assert "as fast as possible" in capsys.readouterr().out
-    assert sorted(p.name for p in here.iterdir()) == ["small.json"], "nothing is recorded"
+    assert sorted(p.name for p in folder.iterdir()) == ["small.json"], "nothing is recorded"
 
 
 def test_ctrl_c_ends_a_live_run_with_its_meter(
-    here: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     due, calls = Pace.due, iter(range(20))
 
@@ -239,12 +241,12 @@ def test_ctrl_c_ends_a_live_run_with_its_meter(
 
     monkeypatch.setattr(Pace, "due", pressed)
     assert main(["run", "small.json", "--live", "--duration", "1000000", "--json"]) == 1
-    said = capsys.readouterr()
-    meter = json.loads(said.out)["meter"]
-    assert meter["complete"] is False and 0 < meter["steps"] < 1000000 and "stopped at" in said.err
+    printed = capsys.readouterr()
+    meter = json.loads(printed.out)["meter"]
+    assert meter["complete"] is False and 0 < meter["steps"] < 1000000 and "stopped at" in printed.err
 
 
-def test_cost_prints_the_time_of_each_element(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_cost_prints_the_time_of_each_element(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--cost", "--duration", "10", "--json"]) == 0
     cost = json.loads(capsys.readouterr().out)["cost"]
     assert {"u", "n", "s"} <= {row["path"] for row in cost["elements"]} and cost["step_us"] > 0
@@ -264,7 +266,7 @@ def test_cost_prints_the_time_of_each_element(here: Path, capsys: pytest.Capture
     ],
 )
 def test_options_that_a_live_run_does_not_have_are_errors(
-    here: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], status: int, says: str
+    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], status: int, says: str
 ) -> None:
     try:
         got = main(["run", "small.json", *arguments])
@@ -275,7 +277,11 @@ def test_options_that_a_live_run_does_not_have_are_errors(
 
 @pytest.mark.parametrize(("answer", "status"), [("y\n", 0), ("no\n", 1), ("", 1)])
 def test_a_very_long_run_asks_for_confirmation(
-    here: Path, answer: str, status: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    folder: Path,
+    answer: str,
+    status: int,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     class Keyboard(io.StringIO):
         def isatty(self) -> bool:
@@ -286,32 +292,32 @@ def test_a_very_long_run_asks_for_confirmation(
     monkeypatch.setattr(sys, "stdin", Keyboard(answer))
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     assert main(["run", "small.json", "--duration", "40", "--no-progress", "--out", "out"]) == status
-    told = capsys.readouterr().err
+    error = capsys.readouterr().err
     assert (
-        re.search(r"40 steps of dt = 1 take about \S+ \w+ on this machine", told)
-        and "Begin? [y/N]" in told
-        and "RunWarning" not in told
+        re.search(r"40 steps of dt = 1 take about \S+ \w+ on this machine", error)
+        and "Begin? [y/N]" in error
+        and "RunWarning" not in error
     )
-    assert (here / "out").is_dir() == (status == 0) and ("was not confirmed" in told) == (status == 1)
+    assert (folder / "out").is_dir() == (status == 0) and ("was not confirmed" in error) == (status == 1)
     assert main(["run", "small.json", "--duration", "39", "--out", "shorter"]) == 0
     assert "on this machine" not in capsys.readouterr().err
 
 
 def test_without_a_terminal_a_very_long_run_needs_yes(
-    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(simulate, "LONG_STEPS", 40)
     monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
     call = ["run", "small.json", "--duration", "40", "--out", "out"]
-    assert main(call) == 1 and not (here / "out").exists()
-    assert "cannot ask for confirmation" in (told := capsys.readouterr().err) and "--yes" in told
-    assert main([*call, "--yes"]) == 0 and (here / "out").is_dir()
+    assert main(call) == 1 and not (folder / "out").exists()
+    assert "cannot ask for confirmation" in (complaint := capsys.readouterr().err) and "--yes" in complaint
+    assert main([*call, "--yes"]) == 0 and (folder / "out").is_dir()
     assert "steps of dt = 1 take about" in capsys.readouterr().err
 
 
 def test_a_very_long_record_is_not_repeated_without_yes(
-    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert (
         main(
@@ -334,14 +340,14 @@ def test_a_very_long_record_is_not_repeated_without_yes(
     monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
     capsys.readouterr()
-    assert main(["run", "first", "--out", "second"]) == 1 and not (here / "second").exists()
+    assert main(["run", "first", "--out", "second"]) == 1 and not (folder / "second").exists()
     assert re.search(
         "40 steps of dt = 1 take about .* cannot ask for confirmation.* --yes",
         capsys.readouterr().err.replace("\n", " "),
     )
     assert main(["run", "first", "--out", "second", "--yes"]) == 0
-    told = capsys.readouterr()
-    assert "same bits" in told.out and "deodar run: 40 steps of dt = 1 take about" in told.err
+    printed = capsys.readouterr()
+    assert "same bits" in printed.out and "deodar run: 40 steps of dt = 1 take about" in printed.err
 
 
 def test_an_estimated_duration_is_printed_in_words() -> None:
@@ -355,11 +361,13 @@ def test_an_estimated_duration_is_printed_in_words() -> None:
     ]
 
 
-def test_a_diverged_point_of_a_sweep_is_reported_once(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    made = model()
-    made["u"]["activation"] >> made.add(dd.Gain(0.0, name="g")) >> made["u"]
-    dd.save(made, "loop.json")
+def test_a_diverged_point_of_a_sweep_is_reported_once(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    diverging = model()
+    diverging["u"]["activation"] >> diverging.add(dd.Gain(0.0, name="g")) >> diverging["u"]
+    dd.save(diverging, "loop.json")
     assert main(["run", "loop.json", "--duration", "60", "--sweep", "g.factor=0.1,1e9", "--out", "out"]) == 0
-    told = capsys.readouterr().err
-    assert told.count("deodar run: warning: 1 of 2 copies are NaN") == 1 and "RunWarning" not in told
-    assert files.load_record(here / "out")["diverged"].values.tolist()[0] == ""
+    error = capsys.readouterr().err
+    assert error.count("deodar run: warning: 1 of 2 copies are NaN") == 1 and "RunWarning" not in error
+    assert files.load_record(folder / "out")["diverged"].values.tolist()[0] == ""

@@ -19,7 +19,7 @@ WANTED = {
 
 
 @pytest.fixture(autouse=True)
-def here(tmp_path, monkeypatch):
+def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     dd.save(node(), "node.json")
     write(WANTED)
@@ -33,12 +33,12 @@ def write(content) -> None:
 
 def test_it_prints_what_was_found_and_writes_the_document(capsys):
     assert main(["tune", "node.json", "wanted.json", "--out", "tuned.json"]) == 0
-    said = capsys.readouterr()
-    lines = said.out.splitlines()
-    assert lines[0] == "u meets all requirements" and not said.err
+    printed = capsys.readouterr()
+    lines = printed.out.splitlines()
+    assert lines[0] == "u meets all requirements" and not printed.err
     assert lines[1].startswith("Measured alone, without noise, with inputs of 6;")
-    assert "detects(at=3.5, within=0.1)   at 3.5 (exact)" in said.out and "met" in lines[3]
-    assert "All at once may move by" in said.out and lines[-1] == "Document: tuned.json"
+    assert "detects(at=3.5, within=0.1)   at 3.5 (exact)" in printed.out and "met" in lines[3]
+    assert "All at once may move by" in printed.out and lines[-1] == "Document: tuned.json"
     model = dd.load("tuned.json")
     up = dd.regimes(model, "u", accuracy=1e-3).detection
     assert up == pytest.approx(3.5, abs=4e-3) and model.get(LEVEL) != -5
@@ -50,17 +50,17 @@ def test_it_prints_what_was_found_and_writes_the_document(capsys):
 def test_json_has_the_same_and_the_status_says_whether_it_is_met(capsys):
     write(WANTED | {"parameters": {LEVEL: [-8, -7]}, "budget": 50})
     assert main(["tune", "node.json", "wanted.json", "--json", "--seed", "4"]) == 1
-    said = json.loads(capsys.readouterr().out)
-    assert said["met"] is False and said["seed"] == 4 and said["document"] is None
-    assert said["margins"]["detects(at=3.5, within=0.1)"] < 0
-    assert said["unreachable"] == ["detects(at=3.5, within=0.1)"]
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["met"] is False and answer["seed"] == 4 and answer["document"] is None
+    assert answer["margins"]["detects(at=3.5, within=0.1)"] < 0
+    assert answer["unreachable"] == ["detects(at=3.5, within=0.1)"]
     write(WANTED | {"parameters": {LEVEL: [-8, -7]}, "budget": 50})
     assert main(["tune", "node.json", "wanted.json"]) == 1
     assert "No candidate met detects(at=3.5, within=0.1)." in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "message"),
     [
         ([], "expected an object"),
         (WANTED | {"parameter": {}}, "Did you mean 'parameters'"),
@@ -76,10 +76,10 @@ def test_json_has_the_same_and_the_status_says_whether_it_is_met(capsys):
         (WANTED | {"parameters": {LEVEL: [1]}}, "expected (low, high)"),
     ],
 )
-def test_mistakes_of_the_file_are_answered(content, said, capsys):
+def test_mistakes_of_the_file_are_answered(content, message, capsys):
     write(content)
     assert main(["tune", "node.json", "wanted.json"]) == 1
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_a_missing_file_is_answered(capsys):

@@ -27,9 +27,9 @@ def pair() -> dd.Model:
 
 def built() -> Executable:
     """Return an executable that has compiled its step."""
-    made = executable(pair())
-    made.chunk(())
-    return made
+    program = executable(pair())
+    program.chunk(())
+    return program
 
 
 @pytest.fixture(autouse=True)
@@ -49,17 +49,17 @@ def test_a_second_process_reads_the_program_from_the_cache(place: Path) -> None:
     assert first.compiled == len(list(place.iterdir())) == 1, "the start is evaluated, not compiled"
     second = built()
     assert second.compiled == 0 and second.traced == first.traced == 3
-    fresh, kept = dd.Session(pair()), dd.Session(pair())
+    fresh, cached = dd.Session(pair()), dd.Session(pair())
     fresh.step(20)
-    kept.step(20)
-    assert np.array_equal(fresh.read("v.activation"), kept.read("v.activation"))
+    cached.step(20)
+    assert np.array_equal(fresh.read("v.activation"), cached.read("v.activation"))
 
 
 def test_programs_that_read_different_elements_are_distinguished(place: Path) -> None:
     s = dd.Session(pair())
     assert (s.read("u.activation") == -1).all() and (s.read("v.activation") == -2).all()
-    again = dd.Session(pair())
-    assert (again.read("v.activation") == -2).all() and (again.read("u.activation") == -1).all()
+    session = dd.Session(pair())
+    assert (session.read("v.activation") == -2).all() and (session.read("u.activation") == -1).all()
 
 
 def test_damaged_files_are_replaced(place: Path) -> None:

@@ -76,9 +76,9 @@ def readings() -> dd.Model:
 
 def test_elements_with_an_external_input_are_fed_by_their_ids() -> None:
     model = readings()
-    made = executable(model)
-    assert [g.rows for g in made.plan.groups] == [1, 1]
-    assert set(made.blind()) == {e.id for e in model.document.entries}
+    program = executable(model)
+    assert [g.rows for g in program.plan.groups] == [1, 1]
+    assert set(program.blind()) == {e.id for e in model.document.entries}
     assert np.array_equal(dd.Session(model).read("a.output"), np.ones(11))
 
 

@@ -31,5 +31,5 @@ def test_a_graph_of_sixty_fields_and_three_hundred_couplings_runs() -> None:
 
 
 def test_the_largest_graph_of_the_benchmarks_runs() -> None:
-    data = dd.simulate(graphs.line_fields(100), 3)
-    assert len(data.data_vars) == 60 and all(np.isfinite(v.values).all() for v in data.data_vars.values())
+    record = dd.simulate(graphs.line_fields(100), 3)
+    assert len(record.data_vars) == 60 and all(np.isfinite(v.values).all() for v in record.data_vars.values())

@@ -79,10 +79,10 @@ def evaluated(function: Callable[..., Any], *args: Any) -> list[np.ndarray] | No
     return host.evaluate(traced.jaxpr, jax.tree.leaves(args))
 
 
-def agree(found: list[np.ndarray], expected: Any) -> None:
-    wanted: list[Array] = jax.tree.leaves(expected)
-    assert len(found) == len(wanted)
-    for a, b in zip(found, wanted, strict=True):
+def agree(arrays: list[np.ndarray], expected: Any) -> None:
+    expected_arrays: list[Array] = jax.tree.leaves(expected)
+    assert len(arrays) == len(expected_arrays)
+    for a, b in zip(arrays, expected_arrays, strict=True):
         assert a.dtype == b.dtype and a.shape == b.shape
         np.testing.assert_allclose(a, b, rtol=3e-5, atol=3e-6 * max(1.0, float(np.abs(b).max(initial=0))))
 
@@ -90,9 +90,9 @@ def agree(found: list[np.ndarray], expected: Any) -> None:
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_values_are_those_of_the_compiled_function(name: str) -> None:
     function, args = FUNCTIONS[name]
-    found = evaluated(function, *args)
-    assert found is not None
-    agree(found, jax.jit(function)(*args))
+    leaves = evaluated(function, *args)
+    assert leaves is not None
+    agree(leaves, jax.jit(function)(*args))
 
 
 def test_a_function_with_an_unknown_primitive_is_left_to_the_compiler() -> None:
@@ -106,14 +106,14 @@ def test_a_function_with_an_unknown_primitive_is_left_to_the_compiler() -> None:
 def test_every_element_starts_as_compiled(kind: str, precision: str) -> None:
     document = build.around(build.any_example(kind)).document
     batch = Batch(points=None, trials=2)
-    made = Executable(ProgramRequest(document, precision, batch, find()))
-    values = made.values(document)
+    program = Executable(ProgramRequest(document, precision, batch, find()))
+    values = program.values(document)
     arguments = values, np.uint32(5), np.arange(2, dtype=np.uint32)
-    with made._settings():
-        for function, args in ((made.program.prepare, (values,)), (made._start, arguments)):
-            found = evaluated(function, *args)
-            if found is not None:
-                agree(found, jax.jit(function)(*args))
+    with program._settings():
+        for function, args in ((program.program.prepare, (values,)), (program._start, arguments)):
+            leaves = evaluated(function, *args)
+            if leaves is not None:
+                agree(leaves, jax.jit(function)(*args))
 
 
 def test_nearly_all_kinds_start_without_a_compiled_function() -> None:

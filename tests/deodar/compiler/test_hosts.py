@@ -225,62 +225,64 @@ def free_port() -> str:
 
 def test_two_hosts_compute_what_one_computes(tmp_path: Path) -> None:
     port = free_port()
-    both = [started(VALUES, host, 2, port, str(tmp_path)) for host in (1, 0)]
-    for status, out, err in (*ended(both), *ended([started(VALUES, -1, 4, port, str(tmp_path))])):
+    processes = [started(VALUES, host, 2, port, str(tmp_path)) for host in (1, 0)]
+    for status, out, err in (*ended(processes), *ended([started(VALUES, -1, 4, port, str(tmp_path))])):
         assert (status, out) == (0, "good\n"), err
-    first, second, one = (np.load(tmp_path / f"found{k}.npz") for k in (0, 1, -1))
-    assert first["trials"].tobytes() == one["alone"].tobytes() == first["alone"].tobytes()
-    for name in one:
+    first, second, alone = (np.load(tmp_path / f"found{k}.npz") for k in (0, 1, -1))
+    assert first["trials"].tobytes() == alone["alone"].tobytes() == first["alone"].tobytes()
+    for name in alone:
         assert first[name].tobytes() == second[name].tobytes(), name
-        assert np.abs(one[name]).max() > 0.1, name
+        assert np.abs(alone[name]).max() > 0.1, name
         if name in ("waves", "halo", "session", "restored"):
-            assert np.abs(first[name] - one[name]).max() < 1e-4, name
+            assert np.abs(first[name] - alone[name]).max() < 1e-4, name
         else:
-            assert first[name].tobytes() == one[name].tobytes(), name
+            assert first[name].tobytes() == alone[name].tobytes(), name
 
 
 @pytest.mark.parametrize(
-    ("how", "status", "text"),
+    ("signal_name", "status", "text"),
     [
         ("SIGKILL", -9, "HostsError host 1 has ended"),
         ("SIGINT", 0, "Interrupted stopped at"),
     ],
 )
 def test_the_end_of_one_host_is_an_error_on_the_other(
-    how: str, status: int, text: str, tmp_path: Path
+    signal_name: str, status: int, text: str, tmp_path: Path
 ) -> None:
     port, out = free_port(), str(tmp_path / "night.zarr")
-    there, here = ended([started(ENDING, host, 2, port, how, "4", out) for host in (1, 0)])
-    assert here[0] == 0 and here[1].startswith(text), here[2]
-    assert there[0] == status, there[2]
-    if how == "SIGINT":
-        data = dd.open_record(out)
-        assert about(data)["complete"] is False and data.sizes["time"] > 10
+    second, first = ended([started(ENDING, host, 2, port, signal_name, "4", out) for host in (1, 0)])
+    assert first[0] == 0 and first[1].startswith(text), first[2]
+    assert second[0] == status, second[2]
+    if signal_name == "SIGINT":
+        record = dd.open_record(out)
+        assert about(record)["complete"] is False and record.sizes["time"] > 10
 
 
-@pytest.mark.parametrize(("how", "seconds"), [("SIGKILL", 1.0), ("SIGSTOP", 3.0)])
-def test_a_divided_field_of_which_a_host_ends_or_stops_ends_on_the_others(how: str, seconds: float) -> None:
+@pytest.mark.parametrize(("signal_name", "seconds"), [("SIGKILL", 1.0), ("SIGSTOP", 3.0)])
+def test_a_divided_field_of_which_a_host_ends_or_stops_ends_on_the_others(
+    signal_name: str, seconds: float
+) -> None:
     port = free_port()
-    there, here = (started(ENDING, host, 2, port, how, "0") for host in (1, 0))
+    second, first = (started(ENDING, host, 2, port, signal_name, "0") for host in (1, 0))
     try:
-        assert there.stdout is not None and there.stdout.readline() == "now\n"
+        assert second.stdout is not None and second.stdout.readline() == "now\n"
         began = time.monotonic()
-        _, err = here.communicate(timeout=LIMIT)
+        _, err = first.communicate(timeout=LIMIT)
         taken = time.monotonic() - began
     finally:
-        there.kill()
-        here.kill()
-        there.communicate()
-    assert here.returncode == 1, err
+        second.kill()
+        first.kill()
+        second.communicate()
+    assert first.returncode == 1, err
     assert err.splitlines()[-1] == "deodar: host 1 has ended, so this process ends", err
     assert taken < seconds + 4 * host_link.BEAT
 
 
 def test_an_error_of_one_host_ends_the_session_of_the_others_with_its_reason() -> None:
     port = free_port()
-    there, here = ended([started(SESSION, host, 2, port) for host in (1, 0)])
-    assert there[:2] == (0, "OSError the disk is gone\n"), there[2]
-    assert here[1].startswith("HostsError host 1 has ended the run: OSError: the disk is gone"), here[2]
+    second, first = ended([started(SESSION, host, 2, port) for host in (1, 0)])
+    assert second[:2] == (0, "OSError the disk is gone\n"), second[2]
+    assert first[1].startswith("HostsError host 1 has ended the run: OSError: the disk is gone"), first[2]
 
 
 def test_the_command_runs_on_the_hosts_of_slurm_and_the_first_one_writes(tmp_path: Path) -> None:
@@ -294,7 +296,7 @@ def test_the_command_runs_on_the_hosts_of_slurm_and_the_first_one_writes(tmp_pat
         "JAX_COORDINATOR_PORT": port,
         "PYTHONWARNINGS": "ignore",
     }
-    both = [
+    processes = [
         started(
             "import sys; from deodar.cli import main; sys.exit(main(sys.argv[2:]))",
             host,
@@ -306,14 +308,14 @@ def test_the_command_runs_on_the_hosts_of_slurm_and_the_first_one_writes(tmp_pat
         )
         for host in (1, 0)
     ]
-    there, here = ended(both)
-    assert here[0] == there[0] == 0, here[2] + there[2]
-    assert json.loads(here[1])["complete"] is True and there[1] == ""
-    data = dd.open_record(tmp_path / "night")
-    assert data.sizes["trial"] == 4
+    second, first = ended(processes)
+    assert first[0] == second[0] == 0, first[2] + second[2]
+    assert json.loads(first[1])["complete"] is True and second[1] == ""
+    record = dd.open_record(tmp_path / "night")
+    assert record.sizes["trial"] == 4
     alone = dd.simulate(dd.load("example:selection"), 20, trials=4, precision="float64")
     for name in alone.data_vars:
-        assert np.abs(data[name].values - alone[name].values).max() < 1e-10, name
+        assert np.abs(record[name].values - alone[name].values).max() < 1e-10, name
 
 
 @contextlib.contextmanager
@@ -337,17 +339,17 @@ def linked(timeout: float = 5.0, count: int = 2) -> Generator[list[HostLinks]]:
             links.close()
 
 
-def at_once(links: Sequence[HostLinks], *said: tuple[str, object]) -> list[object]:
+def at_once(links: Sequence[HostLinks], *messages: tuple[str, object]) -> list[object]:
     """Return what an exchange gives each host, or the text of its error."""
     answers: list[object] = [None] * len(links)
 
     def host(k: int) -> None:
         try:
-            answers[k] = links[k].exchange(*said[k])
+            answers[k] = links[k].exchange(*messages[k])
         except HostsError as error:
             answers[k] = str(error)
 
-    threads = [threading.Thread(target=host, args=(k,)) for k in range(len(said))]
+    threads = [threading.Thread(target=host, args=(k,)) for k in range(len(messages))]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -358,9 +360,9 @@ def at_once(links: Sequence[HostLinks], *said: tuple[str, object]) -> list[objec
 def test_hosts_exchange_what_they_say() -> None:
     with linked() as links:
         assert at_once(links, ("a", 1), ("a", [2.5, "x"])) == [[1, [2.5, "x"]]] * 2
-        here, there = at_once(links, ("a", 1), ("b", 1))
-        assert str(here).startswith("host 1 is at 'b' of its script, host 0 at 'a'")
-        assert str(there).startswith("host 0 is at 'a' of its script, host 1 at 'b'")
+        first, second = at_once(links, ("a", 1), ("b", 1))
+        assert str(first).startswith("host 1 is at 'b' of its script, host 0 at 'a'")
+        assert str(second).startswith("host 0 is at 'a' of its script, host 1 at 'b'")
         assert at_once(links, ("a", 1), ("a", 2)) == [[1, 2]] * 2
 
 
@@ -380,8 +382,8 @@ def test_an_error_of_a_run_on_a_device_of_one_host_concerns_no_other(
     with linked() as links:
         monkeypatch.setattr(hosts, "_joined", [links[index]])
         with pytest.raises(UnknownName):
-            made = dd.load("example:selection")
-            dd.simulate(made, 1, record=["missing"], on=dd.Resources(device="cpu:0", devices=1))
+            model = dd.load("example:selection")
+            dd.simulate(model, 1, record=["missing"], on=dd.Resources(device="cpu:0", devices=1))
         assert not links[index].failed
         assert at_once(links, ("a", 1), ("a", 2)) == [[1, 2]] * 2
 
@@ -423,8 +425,8 @@ def test_a_stranger_at_the_port_does_not_end_the_first_host(
     resets: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(host_link, "HELLO_SECONDS", 0.2)
-    address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
-    first = threading.Thread(target=lambda: found.update({0: meet(address, 2, 0, 10.0)[0]}))
+    address, links = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
+    first = threading.Thread(target=lambda: links.update({0: meet(address, 2, 0, 10.0)[0]}))
     first.start()
     with reached(address) as stranger:
         if resets:
@@ -432,11 +434,11 @@ def test_a_stranger_at_the_port_does_not_end_the_first_host(
             stranger.close()
         else:
             assert stranger.recv(1) == b"", "who says nothing is sent away"
-    found[1] = meet(address, 2, 1, 10.0)[0]
+    links[1] = meet(address, 2, 1, 10.0)[0]
     first.join()
-    for link in found.values():
+    for link in links.values():
         link.close()
-    assert len(found) == 2
+    assert len(links) == 2
 
 
 @pytest.mark.parametrize("resets", [True, False])
@@ -448,12 +450,12 @@ def test_a_host_that_ends_while_it_waits_may_be_started_again(resets: bool) -> N
 
     threads = [threading.Thread(target=host, args=(k,)) for k in (0, 1, 2)]
     threads[0].start()
-    about = {"hosts": 3, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
+    greeting = {"hosts": 3, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
     with reached(address) as dead:
-        dead.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+        dead.sendall(f"{json.dumps({'host': 1, 'about': greeting})}\n".encode())
         time.sleep(0.1)
         with reached(address) as second:  # refused, because host 1 still waits
-            second.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+            second.sendall(f"{json.dumps({'host': 1, 'about': greeting})}\n".encode())
             assert b"host 1 is not one of 3, or has come already" in second.recv(1000)
         if resets:
             dead.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
@@ -505,11 +507,11 @@ def test_a_port_for_jax_that_cannot_be_reached_is_named_on_all_hosts(monkeypatch
 
 def test_a_host_that_ends_before_jax_starts_is_named() -> None:
     address = f"127.0.0.1:{free_port()}"
-    about = {"hosts": 2, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
+    greeting = {"hosts": 2, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
 
     def host() -> None:
         with reached(address) as dead:
-            dead.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+            dead.sendall(f"{json.dumps({'host': 1, 'about': greeting})}\n".encode())
             assert b"port" in dead.recv(1000)
 
     thread = threading.Thread(target=host)
@@ -535,16 +537,16 @@ def test_an_error_of_jax_at_its_start_closes_the_links(monkeypatch: pytest.Monke
     monkeypatch.setattr(jax.distributed, "initialize", initialize)
     monkeypatch.setattr(jax.config, "update", lambda *_: None)  # pyright: ignore
     monkeypatch.setattr("jax._src.xla_bridge.backends_are_initialized", lambda: False)
-    address, found = f"127.0.0.1:{free_port()}", list[HostLinks]()
-    other = threading.Thread(target=lambda: found.append(meet(address, 2, 0, 10.0)[0]))
-    other.start()
+    address, links = f"127.0.0.1:{free_port()}", list[HostLinks]()
+    thread = threading.Thread(target=lambda: links.append(meet(address, 2, 0, 10.0)[0]))
+    thread.start()
     with pytest.raises(HostsError, match="JAX has not started on the hosts: RuntimeError: no port"):
         dd.join_hosts(address, 2, 1, timeout=10)
-    other.join()
-    found[0].begin()
+    thread.join()
+    links[0].begin()
     with pytest.raises(HostsError, match="host 1 has ended"):
-        found[0].exchange("a", 1)
-    found[0].close()
+        links[0].exchange("a", 1)
+    links[0].close()
     assert hosts.count() == 1
 
 
@@ -565,7 +567,7 @@ def test_hosts_that_differ_are_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "text"),
+    ("arguments", "text"),
     [
         (("node1", 2, 0), "expected HOST:PORT of the first host"),
         (("node1:7007", 2, 2), "count and index are 2 and 2"),
@@ -573,9 +575,9 @@ def test_hosts_that_differ_are_refused() -> None:
         (("auto", 2, 0), "count and index need the address"),
     ],
 )
-def test_arguments_that_are_not_valid_are_named(given: tuple[object, ...], text: str) -> None:
+def test_arguments_that_are_not_valid_are_named(arguments: tuple[object, ...], text: str) -> None:
     with pytest.raises(ParameterError, match=text):
-        dd.join_hosts(*given)  # pyright: ignore[reportArgumentType]
+        dd.join_hosts(*arguments)  # pyright: ignore[reportArgumentType]
     with pytest.raises(HostsError, match=r"Call dd.join_hosts\(...\) before the first run"):
         dd.simulate(dd.load("example:selection"), 1)
         dd.join_hosts("node1:7007", 2, 0)

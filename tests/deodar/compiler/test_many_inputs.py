@@ -27,11 +27,11 @@ def inputs(*counts: int) -> dd.Model:
     return model
 
 
-def entries(found: Plan) -> int:
+def entries(plan: Plan) -> int:
     """Return the count of numbers in all tables."""
     return sum(
         r.table.size + sum(rows.size + block.size for rows, block in r.more)
-        for reads in found.reads.values()
+        for reads in plan.reads.values()
         for r in reads
     )
 
@@ -54,11 +54,11 @@ def test_the_order_of_summation_is_that_of_a_row_alone() -> None:
     few, many = (plan(inputs(*counts).document) for counts in ((5 * COLUMNS,), (5 * COLUMNS, 2, 9 * COLUMNS)))
     values = np.float32(10.0) ** np.random.default_rng(2).uniform(-4, 4, 9 * COLUMNS).astype(np.float32)
 
-    def summed(found: Plan) -> float:
-        [read] = next(reads for (g, port), reads in found.reads.items() if port == "input" and reads)
+    def summed(plan: Plan) -> float:
+        [read] = next(reads for (g, port), reads in plan.reads.items() if port == "input" and reads)
         source, row = (
-            found.groups[read.source[0]],
-            found.row[next(n.id for g in found.groups for n in g.nodes if n.path == "u0")][1],
+            plan.groups[read.source[0]],
+            plan.row[next(n.id for g in plan.groups for n in g.nodes if n.path == "u0")][1],
         )
         ordered = np.array([values[int(n.path[1:])] for n in source.nodes], np.float32)
         return float(gather(jnp.asarray(ordered), read)[row])
@@ -67,8 +67,8 @@ def test_the_order_of_summation_is_that_of_a_row_alone() -> None:
 
 
 def test_neither_tables_nor_programs_grow_with_rows_times_inputs() -> None:
-    found = plan(inputs(2000, *[1] * 200).document)
-    assert entries(found) < 4 * 2200 + 201 * COLUMNS
+    planned = plan(inputs(2000, *[1] * 200).document)
+    assert entries(planned) < 4 * 2200 + 201 * COLUMNS
 
     def equations(count: int) -> int:
         [read] = next(

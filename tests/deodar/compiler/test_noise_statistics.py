@@ -24,15 +24,15 @@ def drawn():
         model.add(Noise(name, [LINE]))
     seen = []
     for seed in (0, 1):
-        data = dd.simulate(model, STEPS, seed=seed, trials=2, record=["a", "b"])
-        seen.append([data[f"{name}.output"].values[:, :-1] * np.sqrt(LINE.step) for name in "ab"])
+        record = dd.simulate(model, STEPS, seed=seed, trials=2, record=["a", "b"])
+        seen.append([record[f"{name}.output"].values[:, :-1] * np.sqrt(LINE.step) for name in "ab"])
     return np.array(seen, dtype=np.float64)
 
 
-def within(value, expected, deviation):
+def within(number, expected, deviation):
     """Five standard errors: a sound generator fails one time in two million."""
-    assert abs(value - expected) < 5 * deviation, (
-        f"{value} is {abs(value - expected) / deviation:.1f} standard errors from {expected}"
+    assert abs(number - expected) < 5 * deviation, (
+        f"{number} is {abs(number - expected) / deviation:.1f} standard errors from {expected}"
     )
 
 
@@ -83,16 +83,16 @@ def test_euler_increments_have_the_variance_of_their_step(every):
     """Per step of a part: q^2 k dt / (tau^2 cell), for a field's own noise and for a source in its input."""
     dt, tau, q, steps = 0.5, 12.0, 0.7, 3000
     model = dd.Model("increments")
-    own = dd.Field("own", [LINE], tau=tau, resting_level=0, noise=q)
+    field = dd.Field("own", [LINE], tau=tau, resting_level=0, noise=q)
     fed = dd.Field("fed", [LINE], tau=tau, resting_level=0)
-    model.add(own, ticks=every)
+    model.add(field, ticks=every)
     model.connect(model.add(Noise("n", [LINE], q), ticks=every), model.add(fed, ticks=every))
-    data = dd.simulate(
+    record = dd.simulate(
         model, steps * dt, dt=dt, every=every * dt, record=["own.activation", "fed.activation"]
     )
     expected = q**2 * every * dt / tau**2 / LINE.step
     for name in ("own", "fed"):
-        u = data[f"{name}.activation"].values.astype(float)
+        u = record[f"{name}.activation"].values.astype(float)
         increments = u[1:] - u[:-1] * (1 - every * dt / tau)
         within(increments.var() / expected, 1, np.sqrt(2 / increments.size))
         within(increments.mean() / np.sqrt(expected), 0, 1 / np.sqrt(increments.size))
@@ -121,9 +121,9 @@ def test_white_noise_scales_with_the_root_of_the_cell():
     model.add(Noise("plane", plane))
     model.add(Noise("number", []))
     steps = 1000
-    data = dd.simulate(model, steps, record=["n51", "n101", "n201", "plane", "number"])
+    record = dd.simulate(model, steps, record=["n51", "n101", "n201", "plane", "number"])
     for name, volume in (("n51", 2.0), ("n101", 1.0), ("n201", 0.5), ("plane", 0.5), ("number", 1.0)):
-        z = data[f"{name}.output"].values
+        z = record[f"{name}.output"].values
         within(z.var() * volume, 1, np.sqrt(2 / z.size))
 
 
@@ -144,8 +144,8 @@ def test_correlated_noise_has_the_stated_variance_and_correlation(axis):
     assert abs(z.var(axis=0) - 1).max() < 5 * np.sqrt(2 / n)
     for d in range(1, 9):
         pairs = [(i, i + d) for i in range(10, 22)]  # away from the borders
-        found = np.mean([(z[:, i] * z[:, j]).mean() for i, j in pairs])
-        assert abs(found - np.exp(-(d**2) / (2 * length**2))) < 5 / np.sqrt(n)
+        correlation = np.mean([(z[:, i] * z[:, j]).mean() for i, j in pairs])
+        assert abs(correlation - np.exp(-(d**2) / (2 * length**2))) < 5 / np.sqrt(n)
     across = (z[:, 0] * z[:, -1]).mean()
     assert abs(across - (np.exp(-1 / (2 * length**2)) if axis.periodic else 0)) < 5 / np.sqrt(n)
     assert abs((z[1:] * z[:-1]).mean()) < 5 / np.sqrt(n)
@@ -159,9 +159,9 @@ def test_correlated_noise_of_a_field_is_that_of_the_source():
         model.add(Noise("n", axes, 0.6, length=[2.5, 1.5])),
         model.add(dd.Field("fed", axes, tau=5, resting_level=0)),
     )
-    data = dd.simulate(model, 8000, dt=0.5, every=0.5, record=["own.activation", "fed.activation"])
+    record = dd.simulate(model, 8000, dt=0.5, every=0.5, record=["own.activation", "fed.activation"])
     for name in ("own", "fed"):
-        u = data[f"{name}.activation"].values.astype(float)
+        u = record[f"{name}.activation"].values.astype(float)
         increments = (u[1:] - u[:-1] * (1 - 0.1)) / (0.6 * np.sqrt(0.5) / 5)
         n = len(increments)
         assert abs(increments.var(axis=0) - 1).max() < 5.5 * np.sqrt(2 / n)

@@ -152,8 +152,8 @@ def test_uniform_weights_in_large_batches_are_finite() -> None:
     wide = dd.Axis("x", 0, 199, samples=200)
     u = model.add(dd.Field("u", [wide], kernel=[dd.Gaussian(1, 1e6)], global_inhibition=0.01, noise=0.1))
     u >> model.add(Weights(np.ones((200, 200)), [wide], name="w")) >> u
-    data = dd.simulate(model, 5, trials=100)
-    assert np.isfinite(data["u.activation"].values).all()
+    record = dd.simulate(model, 5, trials=100)
+    assert np.isfinite(record["u.activation"].values).all()
 
 
 def test_a_port_without_axes_takes_the_largest_input_for_any_ids() -> None:
@@ -164,5 +164,5 @@ def test_a_port_without_axes_takes_the_largest_input_for_any_ids() -> None:
         total = model.add(Sum(name="total"))
         narrow >> total
         wide >> total
-        data = dd.simulate(model, 2, record=["total.output"])
-        assert data["total.output"].dims == ("time", "x", "y")
+        record = dd.simulate(model, 2, record=["total.output"])
+        assert record["total.output"].dims == ("time", "x", "y")

@@ -133,7 +133,7 @@ class Graph:
             for h in self.model()[0]
             if isinstance(h.element, dd.GaussianStimulus)
         ]
-        held = u.copy()
+        waiting = u.copy()
         for tick in range(steps):
             g = 1 / (1 + np.exp(-2.0 * u))
             for k, f in enumerate(self.fields):
@@ -142,10 +142,10 @@ class Graph:
                         m @ g[c.source] for c, m in zip(self.links, links, strict=True) if c.target == k
                     )
                     drive = f.resting_level + s[k] + lateral[k] @ g[k] + arriving
-                    held[k] = u[k] + self.every[k] / f.tau * (-u[k] + drive)
+                    waiting[k] = u[k] + self.every[k] / f.tau * (-u[k] + drive)
             for k in range(len(u)):
                 if (tick + 1) % self.every[k] == 0:
-                    u[k] = held[k]
+                    u[k] = waiting[k]
         return u
 
 
@@ -154,10 +154,12 @@ def weights(given_kernels: list[Any], axes: list[dd.Axis]) -> np.ndarray:
     total = np.zeros((int(np.prod([a.samples for a in axes])),) * 2)
     for kernel in given_kernels:
         ends = kernel.boundary or [None] * len(axes)
-        for strength, made in parts(kernel):
-            along = [made(d, None if b is None else [b]) for d, b in enumerate(ends)]
-            one = dense([along[0]], axes[:1])
-            total += strength * (one if len(axes) == 1 else np.kron(one, dense([along[1]], axes[1:])))
+        for strength, form in parts(kernel):
+            along = [form(d, None if b is None else [b]) for d, b in enumerate(ends)]
+            along_first = dense([along[0]], axes[:1])
+            total += strength * (
+                along_first if len(axes) == 1 else np.kron(along_first, dense([along[1]], axes[1:]))
+            )
     return total
 
 
@@ -194,7 +196,7 @@ def amplitudes(kernel: Any, by: float) -> dict[str, float]:
 
 @st.composite
 def kernels(draw: Any, axes: list[dd.Axis], most: int) -> list[Any]:
-    found: list[Any] = []
+    mixture: list[Any] = []
     for _ in range(draw(st.integers(0 if most > 1 else 1, most))):
         ends = [draw(st.sampled_from(BOUNDARIES)) for _ in axes] if draw(st.booleans()) else None
         width = [draw(st.floats(1.0, 6.0)) * a.step for a in axes]
@@ -202,15 +204,17 @@ def kernels(draw: Any, axes: list[dd.Axis], most: int) -> list[Any]:
         form = draw(st.sampled_from(["gaussian", "gaussian", "normalized", "hat", "box"]))
         if form == "hat":
             wide = [2 * w for w in width]
-            found.append(
+            mixture.append(
                 MexicanHat(abs(strength), width, 0.5 * abs(strength), wide, normalized=True, boundary=ends)
             )
         elif form == "box":
-            found.append(Box(strength / fields.volume(axes) / 20, [4 * w for w in width], boundary=ends))
+            mixture.append(Box(strength / fields.volume(axes) / 20, [4 * w for w in width], boundary=ends))
         else:
             scale = 1.0 if form == "normalized" else 1 / fields.volume(axes) / 20
-            found.append(dd.Gaussian(strength * scale, width, normalized=form == "normalized", boundary=ends))
-    return found
+            mixture.append(
+                dd.Gaussian(strength * scale, width, normalized=form == "normalized", boundary=ends)
+            )
+    return mixture
 
 
 @st.composite
@@ -223,7 +227,7 @@ def graphs(draw: Any) -> Graph:
     ]
     count = draw(st.integers(1, 4))
     rates = draw(st.sampled_from([[1, 1, 1, 1], [1, 2, 1, 2], [3, 1, 1, 2]]))[:count]
-    made = [
+    drawn = [
         dd.Field(
             f"u{k}",
             axes,
@@ -237,26 +241,26 @@ def graphs(draw: Any) -> Graph:
     ]
     links: list[Link] = []
     for _ in range(draw(st.integers(0, 5))):
-        one = draw(kernels(axes, 1)) if draw(st.integers(0, 3)) else []
-        gain = draw(st.sampled_from([None, 0.7, -0.5])) if one else draw(st.sampled_from([0.4, -0.6]))
-        links.append(Link(draw(st.integers(0, count - 1)), draw(st.integers(0, count - 1)), one, gain))
-    return Graph(axes, made, rates, links)
+        mixture = draw(kernels(axes, 1)) if draw(st.integers(0, 3)) else []
+        gain = draw(st.sampled_from([None, 0.7, -0.5])) if mixture else draw(st.sampled_from([0.4, -0.6]))
+        links.append(Link(draw(st.integers(0, count - 1)), draw(st.integers(0, count - 1)), mixture, gain))
+    return Graph(axes, drawn, rates, links)
 
 
 @contextlib.contextmanager
-def dear(way: str) -> Iterator[None]:
+def dear(strategy: str) -> Iterator[None]:
     """Set costs with which all strategies but the given one are hardly ever chosen."""
     with pytest.MonkeyPatch.context() as patch:
-        if way:
+        if strategy:
             patch.setattr(choice, "SMALLEST", 1)
             patch.setattr(choice, "CALL_NS", 0.0)
-            patch.setattr(choice, "by_matrices", lambda *given: Choice("matrices", (), (), 1e12))
-            if way != "taps":
-                patch.setattr(choice, "_by_taps", lambda *given: [])
-        if way == "taps":
-            patch.setattr(choice, "_fourier", lambda *given: 1e11)
-        if way in ("fourier", "taps"):
-            patch.setattr(choice, "_transforms", lambda *given: 1e11)
+            patch.setattr(choice, "by_matrices", lambda *arguments: Choice("matrices", (), (), 1e12))
+            if strategy != "taps":
+                patch.setattr(choice, "_by_taps", lambda *arguments: [])
+        if strategy == "taps":
+            patch.setattr(choice, "_fourier", lambda *arguments: 1e11)
+        if strategy in ("fourier", "taps"):
+            patch.setattr(choice, "_transforms", lambda *arguments: 1e11)
             patch.setattr(choice, "LINE_NS", {False: 1e5, True: 1e5})
         choice.choose.cache_clear()
         try:
@@ -270,55 +274,55 @@ SHARE = settings(max_examples=max(2, settings().max_examples // 4))
 """A quarter of the examples of a property, for each way."""
 
 
-@pytest.mark.parametrize("way", [*WAYS, "taps"])
+@pytest.mark.parametrize("strategy", [*WAYS, "taps"])
 @SHARE
 @given(graph=graphs(), seed=st.integers(0, 9))
-def test_every_convolution_strategy_agrees_with_its_matrix(way: str, graph: Graph, seed: int) -> None:
+def test_every_convolution_strategy_agrees_with_its_matrix(strategy: str, graph: Graph, seed: int) -> None:
     """One application, to 1e-5 of the sum of absolute weights."""
     y = np.random.default_rng(seed).random([a.samples for a in graph.axes]).astype(np.float32)
-    convolving = [each.kernel for each in graph.fields] + [link.kernels for link in graph.links]
+    convolving = [field.kernel for field in graph.fields] + [link.kernels for link in graph.links]
     assume(any(convolving))
     errors: list[float] = []
-    with dear(way):
+    with dear(strategy):
         for given_kernels in filter(None, convolving):
             axes, many = tuple(graph.axes), 1 + 9 * (seed % 2)
             chosen = interaction.choices(given_kernels, axes, many)
 
-            def convolve(y: Any, made: Any = given_kernels, axes: Any = axes, chosen: Any = chosen) -> Any:
+            def convolve(y: Any, mixed: Any = given_kernels, axes: Any = axes, chosen: Any = chosen) -> Any:
                 mixture = interaction.mix(
-                    made, axes, interaction.prepare(made, axes, np.dtype("float32"), chosen)
+                    mixed, axes, interaction.prepare(mixed, axes, np.dtype("float32"), chosen)
                 )
                 return interaction.apply(mixture, axes, y, chosen)
 
-            found = np.asarray(jax.jit(convolve)(y), float)
-            each = [weights([k], graph.axes) for k in given_kernels]
-            total = sum(np.abs(m).sum(1).max() for m in each)
-            error = np.abs(found.ravel() - sum(m @ y.ravel().astype(float) for m in each)).max()
+            output = np.asarray(jax.jit(convolve)(y), float)
+            matrices = [weights([k], graph.axes) for k in given_kernels]
+            total = sum(np.abs(m).sum(1).max() for m in matrices)
+            error = np.abs(output.ravel() - sum(m @ y.ravel().astype(float) for m in matrices)).max()
             errors.append(error / (1e-5 * total + 1e-6))
     assert max(errors) < 1
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("strategy", WAYS)
 @SHARE
 @given(graph=graphs())
-def test_contractive_graphs_stay_near_the_equations(way: str, graph: Graph) -> None:
+def test_contractive_graphs_stay_near_the_equations(strategy: str, graph: Graph) -> None:
     """200 steps without noise, to 1e-4 in activation, as they are run by default."""
     graph = graph.contractive()
-    with dear(way):
+    with dear(strategy):
         model, _ = graph.model()
-        found = dd.simulate(model, 200)
+        record = dd.simulate(model, 200)
     expected = graph.plainly(200)
     for k, u in enumerate(expected):
-        assert np.abs(found[f"u{k}.activation"].values.ravel() - u).max() < 1e-4
+        assert np.abs(record[f"u{k}.activation"].values.ravel() - u).max() < 1e-4
 
 
 @given(graph=graphs())
 def test_random_graphs_in_double_precision_agree_with_numpy_to_1e_9(graph: Graph) -> None:
     """Any graph, 20 steps, to 1e-9 of its largest activation."""
     model, _ = graph.model()
-    found, expected = dd.simulate(model, 20, precision="float64"), graph.plainly(20)
+    record, expected = dd.simulate(model, 20, precision="float64"), graph.plainly(20)
     for k, u in enumerate(expected):
-        assert np.abs(found[f"u{k}.activation"].values.ravel() - u).max() < 1e-9 * max(
+        assert np.abs(record[f"u{k}.activation"].values.ravel() - u).max() < 1e-9 * max(
             1.0, np.abs(expected).max()
         )
 
@@ -334,9 +338,9 @@ def test_the_output_of_a_coupling_does_not_depend_on_the_strategy(graph: Graph) 
     exact = dd.simulate(model, 30, record=record, every=30, precision="float64")
     with dear("waves"):
         model, _ = graph.model()
-        found = dd.simulate(model, 30, record=record, every=30)
+        recorded = dd.simulate(model, 30, record=record, every=30)
     for path in record:
-        assert np.abs(found[path].values - exact[path].values).max() < 1e-4
+        assert np.abs(recorded[path].values - exact[path].values).max() < 1e-4
 
 
 def test_spectral_transforms_are_shared_between_coupled_fields() -> None:
@@ -351,9 +355,9 @@ def test_spectral_transforms_are_shared_between_coupled_fields() -> None:
         ]
         for k in range(4):
             ring[k] >> Convolve([dd.Gaussian(1, 3, normalized=True)]) >> dd.Gain(0.5) >> ring[(k + 1) % 4]
-        made = plan(model.document)
-        shares = {type(g.like.element).__name__ for g in made.groups if g.strategy.shared}
-        assert shares == {"Field", "Convolve", "Gain"} and "waves shared" in made.describe()
+        compiled = plan(model.document)
+        shares = {type(g.like.element).__name__ for g in compiled.groups if g.strategy.shared}
+        assert shares == {"Field", "Convolve", "Gain"} and "waves shared" in compiled.describe()
         assert executable(model, precision="float64").plan.describe().count("waves") == 0, (
             "double precision is exact"
         )

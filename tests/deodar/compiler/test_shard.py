@@ -16,54 +16,57 @@ from deodar.errors import DeviceError
 from tests import host_devices
 
 
-def volume(samples: int = 32, **given: object) -> dd.Model:
+def volume(samples: int = 32, **options: object) -> dd.Model:
     """Return a field over three axes with two inputs and a narrow kernel."""
-    made = dd.Model("volume")
+    model = dd.Model("volume")
     axes = [dd.Axis(name, 0, samples, samples=samples, periodic=True) for name in "xyz"]
     kernel = [dd.Gaussian(12, samples / 11, normalized=True)]
-    u = made.add(dd.Field("u", axes, **{"kernel": kernel, "global_inhibition": 0.003, **given}))
+    u = model.add(dd.Field("u", axes, **{"kernel": kernel, "global_inhibition": 0.003, **options}))
     for name, place in (("left", 0.25), ("right", 0.75)):
-        made.add(dd.GaussianStimulus(name, axes, center=place * samples, sigma=samples / 8, amplitude=6)) >> u
-    return made
+        (
+            model.add(dd.GaussianStimulus(name, axes, center=place * samples, sigma=samples / 8, amplitude=6))
+            >> u
+        )
+    return model
 
 
 def plane(sigma: float, boundary: str, size: tuple[int, int] = (96, 40)) -> dd.Model:
     """Return a field over two axes with a narrow kernel."""
-    made = dd.Model("plane")
+    model = dd.Model("plane")
     axes = [dd.Axis(name, 0, n - 1, samples=n) for name, n in zip("xy", size, strict=True)]
     kernel = [dd.Gaussian(9, sigma, normalized=True, boundary=[boundary])]
-    u = made.add(dd.Field("u", axes, kernel=kernel, global_inhibition=0.05))
-    made.add(dd.GaussianStimulus("place", axes, center=[3, 20], sigma=4, amplitude=7)) >> u
-    return made
+    u = model.add(dd.Field("u", axes, kernel=kernel, global_inhibition=0.05))
+    model.add(dd.GaussianStimulus("place", axes, center=[3, 20], sigma=4, amplitude=7)) >> u
+    return model
 
 
 def linked() -> dd.Model:
     """Return fields over three axes, one axis and none, with a trace and a coupling between the volumes."""
-    made = volume(24)
-    u = made["u"]
+    model = volume(24)
+    u = model["u"]
     axes = u.axes
-    v = made.add(dd.Field("v", axes, kernel=[dd.Gaussian(5, 3, normalized=True)]))
-    line = made.add(dd.Field("line", [axes[1]], kernel=[dd.Gaussian(2, 3, normalized=True)]))
-    node = made.add(dd.Field("node", []))
-    trace = made.add(dd.MemoryTrace("trace", axes))
-    u >> made.add(dd.Convolve([dd.Gaussian(3, 4, normalized=True)])) >> v
-    v >> made.add(dd.Gain(-0.2)) >> u
+    v = model.add(dd.Field("v", axes, kernel=[dd.Gaussian(5, 3, normalized=True)]))
+    line = model.add(dd.Field("line", [axes[1]], kernel=[dd.Gaussian(2, 3, normalized=True)]))
+    node = model.add(dd.Field("node", []))
+    trace = model.add(dd.MemoryTrace("trace", axes))
+    u >> model.add(dd.Convolve([dd.Gaussian(3, 4, normalized=True)])) >> v
+    v >> model.add(dd.Gain(-0.2)) >> u
     u >> trace >> v
     u >> line >> v
     u >> node
-    return made
+    return model
 
 
 def sharing() -> dd.Model:
     """Return a ring of coupled volumes, which share spectral modes."""
-    made = volume(24)
-    made.set("u.kernel.0.sigma", 3.0)
-    fields = [made["u"]]
+    model = volume(24)
+    model.set("u.kernel.0.sigma", 3.0)
+    fields = [model["u"]]
     kernel = [dd.Gaussian(5, 3, normalized=True)]
-    fields += [made.add(dd.Field(name, made["u"].axes, kernel=kernel)) for name in ("v", "w")]
+    fields += [model.add(dd.Field(name, model["u"].axes, kernel=kernel)) for name in ("v", "w")]
     for one, other in ((0, 1), (1, 0), (1, 2), (2, 0)):
-        fields[one] >> made.add(dd.Convolve([dd.Gaussian(3, 3, normalized=True)])) >> fields[other]
-    return made
+        fields[one] >> model.add(dd.Convolve([dd.Gaussian(3, 3, normalized=True)])) >> fields[other]
+    return model
 
 
 VALUES = """
@@ -210,8 +213,8 @@ def test_a_field_over_eight_devices_is_that_of_one(
 
 
 def test_the_first_axis_with_equal_parts_is_divided() -> None:
-    made = plan(plane(1.0, "zero", (30, 64)).document, devices=8)
-    assert made.shards is not None and (made.shards.axis, made.shards.samples) == ("y", 64)
+    divided = plan(plane(1.0, "zero", (30, 64)).document, devices=8)
+    assert divided.shards is not None and (divided.shards.axis, divided.shards.samples) == ("y", 64)
 
 
 def test_an_axis_without_equal_parts_is_an_error_that_names_numbers_which_fit() -> None:
@@ -253,8 +256,8 @@ ENTRY %main (q: f32[4,6]) -> f32[4,6] {
   %w = (u32[], f32[4,6]) while(%t), condition=%cond, body=%body
 }
 """
-    found = collectives(text)
-    assert [(c.kind, c.bytes, c.element) for c in found] == [
+    operations = collectives(text)
+    assert [(c.kind, c.bytes, c.element) for c in operations] == [
         ("all-reduce", 28, "0f3"),
         ("collective-permute", 20, ""),
         ("collective-permute", 20, ""),

@@ -23,9 +23,9 @@ x = dd.Axis("x", 0, 10, samples=11)
 
 
 def model(resting_level: float = -5.0, kernel: Sequence[Any] = (), name: str = "u") -> dd.Model:
-    made = dd.Model("shared")
-    made.add(dd.Field(name, [x], resting_level=resting_level, kernel=kernel))
-    return made
+    model = dd.Model("shared")
+    model.add(dd.Field(name, [x], resting_level=resting_level, kernel=kernel))
+    return model
 
 
 def test_a_model_built_again_uses_the_compiled_program() -> None:
@@ -62,9 +62,9 @@ def test_a_class_defined_again_under_the_same_name_is_another_structure() -> Non
 
 def test_large_parameters_belong_to_their_model_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     def weighted() -> dd.Model:
-        made = model()
-        made["u"] >> Weights(np.eye(11), [x]) >> made.add(dd.Field("v", [x]))
-        return made
+        built = model()
+        built["u"] >> Weights(np.eye(11), [x]) >> built.add(dd.Field("v", [x]))
+        return built
 
     assert executable(weighted()) is executable(weighted())
     monkeypatch.setattr(module, "SHARED_BYTES", 11 * 11)

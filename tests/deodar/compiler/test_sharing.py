@@ -38,8 +38,8 @@ class Halved(dd.Field):
     def output(
         self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
     ) -> dd.Arrays:
-        shown = super().output(at, state, inputs, constants, time, noise)
-        return shown | {"output": 0.5 * shown["output"]}
+        activation = super().output(at, state, inputs, constants, time, noise)
+        return activation | {"output": 0.5 * activation["output"]}
 
 
 @dc.dataclass(frozen=True)
@@ -99,9 +99,9 @@ def shares(model: dd.Model, path: str) -> bool:
 
 
 def test_roles_follow_from_declarations() -> None:
-    found = roles(coupled(dd.Field))
-    assert found["u"] == "source" and found["s"] == ""
-    assert sorted(found.values()) == ["", "filter", "filter", "gain", "source", "source"]
+    roles_of_fields = roles(coupled(dd.Field))
+    assert roles_of_fields["u"] == "source" and roles_of_fields["s"] == ""
+    assert sorted(roles_of_fields.values()) == ["", "filter", "filter", "gain", "source", "source"]
     assert role(resolve(_with(dd.Logarithm()).document)[0][1]) == ""
 
 
@@ -125,11 +125,11 @@ def test_a_subclass_with_other_functions_does_not_inherit_the_declaration(kind: 
 @pytest.mark.parametrize("kind", [Doubled, LinearField])
 def test_custom_classes_compute_their_equations(kind: type[dd.Field]) -> None:
     model = coupled(kind)
-    given, exact = (
+    default, exact = (
         dd.simulate(model, 20, record=["w.activation"], precision=precision)["w.activation"].values[-1]
         for precision in ("float32", "float64")
     )
-    assert exact.max() > 2 and np.abs(given - exact).max() < 1e-4
+    assert exact.max() > 2 and np.abs(default - exact).max() < 1e-4
 
 
 def test_fields_share_folded_transforms() -> None:
@@ -137,11 +137,11 @@ def test_fields_share_folded_transforms() -> None:
     model = coupled(dd.Field, axes)
     strategies = {g.strategy for g in plan(model.document).groups if g.strategy.shared}
     assert {tuple(w.classes for w in dict(s.choices)[s.shared].waves) for s in strategies} == {(4, 2)}
-    given, exact = (
+    default, exact = (
         dd.simulate(model, 50, record=["u.activation"], precision=precision)["u.activation"].values[-1]
         for precision in ("float32", "float64")
     )
-    assert exact.max() > 2 and np.abs(given - exact).max() < 1e-4
+    assert exact.max() > 2 and np.abs(default - exact).max() < 1e-4
 
 
 def test_a_second_call_of_convolve_is_an_error() -> None:

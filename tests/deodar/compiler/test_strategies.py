@@ -22,10 +22,10 @@ def test_fields_coupled_by_two_kinds_of_boundaries_share_transforms_of_either_ki
         **dict.fromkeys(["v", "u>Convolve2", "v>Convolve"], "zero zero"),
         "s": "",
     }
-    given, exact = (
+    default, exact = (
         dd.simulate(model, 20, record=["w.activation", "v.activation"], precision=precision)
         for precision in ("float32", "float64")
     )
     for name in ("w.activation", "v.activation"):
         assert exact[name].values.max() > 2
-        np.testing.assert_allclose(given[name].values[-1], exact[name].values[-1], atol=1e-4)
+        np.testing.assert_allclose(default[name].values[-1], exact[name].values[-1], atol=1e-4)

@@ -45,8 +45,8 @@ def test_copies_that_differ_by_amplitudes_alone_share_matrices(
     document = selection().document
     (u,) = [e.id for e in document.entries if e.path == "u"]
     lifted = frozenset((u, path) for path in swept)
-    made = plan(document, lifted, copies=copies, trials=trials)
-    assert made.groups[made.row[u][0]].strategy.apart is apart
+    compiled = plan(document, lifted, copies=copies, trials=trials)
+    assert compiled.groups[compiled.row[u][0]].strategy.apart is apart
 
 
 @pytest.mark.parametrize("shape", [(40,), (12, 14)])
@@ -58,8 +58,8 @@ def test_kernels_that_stay_apart_have_the_sum_of_the_mixed_ones(shape: tuple[int
     apart = interaction.mix(u.kernel, axes, weights, apart=True)
     assert "gain" not in apart
     assert apart["amplitudes"] == [6.0, -2.0] and apart["terms"][0][0] is weights[0]["matrices"][0][0]
-    found = interaction.apply(apart, axes, y)
-    np.testing.assert_allclose(found, interaction.apply(mixed, axes, y), rtol=1e-4, atol=1e-4)
+    output = interaction.apply(apart, axes, y)
+    np.testing.assert_allclose(output, interaction.apply(mixed, axes, y), rtol=1e-4, atol=1e-4)
 
 
 @pytest.mark.parametrize("shape", [(40,), (200,), (12, 14)])
@@ -68,12 +68,12 @@ def test_a_sweep_over_a_kernel_gives_the_run_of_every_value(shape: tuple[int, ..
     model, values = selection(shape), list(np.linspace(2.0, 5.0, 12))
     for precision, tolerance in (("float64", 1e-10), ("float32", 2e-4)):
         swept = dd.simulate(model, 60, sweep={f"u.{path}": values}, precision=precision)["u.activation"]
-        for value in (values[0], values[7]):
+        for setting in (values[0], values[7]):
             single = selection(shape)
-            single.set(f"u.{path}", value)
+            single.set(f"u.{path}", setting)
             alone = dd.simulate(single, 60, precision=precision)["u.activation"].values
-            found = swept.sel({f"u.{path}": value}).values
-            assert np.abs(found - alone).max() < tolerance
+            point = swept.sel({f"u.{path}": setting}).values
+            assert np.abs(point - alone).max() < tolerance
             assert np.ptp(alone) > 1
 
 
@@ -83,15 +83,15 @@ def test_matrices_of_each_copy_count_in_the_size_of_a_piece() -> None:
     (u,) = [e.id for e in document.entries if e.path == "u"]
     ports = memory.copy_bytes(nodes, "float32")
     assert ports < 10_000
-    own = memory.copy_bytes(nodes, "float32", {u})
-    assert own - ports >= 4 * 200**2
-    assert memory.copy_bytes(nodes, "float32", {u}, trials=10) - ports == (own - ports) // 10
-    assert memory.copy_bytes(nodes, "float64", {u}) == 2 * own
+    bytes_of_plan = memory.copy_bytes(nodes, "float32", {u})
+    assert bytes_of_plan - ports >= 4 * 200**2
+    assert memory.copy_bytes(nodes, "float32", {u}, trials=10) - ports == (bytes_of_plan - ports) // 10
+    assert memory.copy_bytes(nodes, "float64", {u}) == 2 * bytes_of_plan
     few = dd.simulate(selection((200,)), 2, sweep={f"u.{WIDTH}": list(np.linspace(2, 4, 100))})
     many = dd.simulate(selection((200,)), 2, sweep={f"u.{AMPLITUDE}": list(np.linspace(2, 4, 100))})
     assert batch(few) < 20 and batch(many) == 100
 
 
-def batch(data: object) -> int:
+def batch(record: object) -> int:
 
-    return json.loads(data.attrs[KEY])["batch"]  # type: ignore[attr-defined]
+    return json.loads(record.attrs[KEY])["batch"]  # type: ignore[attr-defined]

@@ -54,8 +54,8 @@ def test_the_port_weights_shows_them_target_samples_first(source, shape):
     model.connect(model.add(Pattern("post", [Z], POST)), out["post"])
     session = dd.Session(model, precision="float64")
     session.run(5)
-    found = session.read("w.weights")
+    weights = session.read("w.weights")
     session.keep()
-    assert found.shape == shape
-    assert np.array_equal(found, np.moveaxis(model.get("w.start").data, -1, 0))
-    assert abs(found - 0.2).max() > 0.1
+    assert weights.shape == shape
+    assert np.array_equal(weights, np.moveaxis(model.get("w.start").data, -1, 0))
+    assert abs(weights - 0.2).max() > 0.1

@@ -16,13 +16,13 @@ def velocity(over: list[dd.Axis], position: list[float], **given: object) -> tup
     model = dd.Model("reaching")
     at = [a.lower + 0.6 * a.range for a in over]
     source = model.add(dd.GaussianStimulus("s", over, center=at, sigma=[a.range / 10 for a in over]))
-    here = model.add(dd.Pattern("here", OF, np.array(position)))
+    pattern = model.add(dd.Pattern("here", OF, np.array(position)))
     toward = model.add(dd.AttractorVelocity(name="toward", **given))  # type: ignore[arg-type]
     source >> toward
-    here >> toward["position"]
+    pattern >> toward["position"]
     record = ["toward", "s"]
-    data = dd.simulate(model, 1, dt=1.0, record=record, precision="float64")
-    return data["toward.output"].values[-1], data["s.output"].values[-1]
+    recorded = dd.simulate(model, 1, dt=1.0, record=record, precision="float64")
+    return recorded["toward.output"].values[-1], recorded["s.output"].values[-1]
 
 
 def test_it_is_the_sum_over_samples_of_the_distance_times_the_input():
@@ -30,8 +30,8 @@ def test_it_is_the_sum_over_samples_of_the_distance_times_the_input():
         v, f = velocity(axes, [3.0, 7.0], tau=50.0, **given)
         f = f * X.step * Y.step * (HUE.step if len(axes) == 3 else 1.0)
         f = f.reshape(21, 17, -1).sum(axis=2)
-        wanted = [((X.points[:, None] - 3.0) * f).sum(), ((Y.points[None] - 7.0) * f).sum()]
-        np.testing.assert_allclose(v, np.array(wanted) / 50.0, rtol=1e-10)
+        expected = [((X.points[:, None] - 3.0) * f).sum(), ((Y.points[None] - 7.0) * f).sum()]
+        np.testing.assert_allclose(v, np.array(expected) / 50.0, rtol=1e-10)
 
 
 def test_the_limit_shortens_the_vector_and_keeps_its_direction():
@@ -39,8 +39,8 @@ def test_the_limit_shortens_the_vector_and_keeps_its_direction():
     slow, _ = velocity([X, Y], [3.0, 7.0], fastest=0.1)
     assert np.hypot(*slow) == pytest.approx(0.1) and np.hypot(*free) > 0.1
     np.testing.assert_allclose(slow / np.hypot(*slow), free / np.hypot(*free))
-    near, _ = velocity([X, Y], [3.0, 7.0], fastest=1e6)
-    np.testing.assert_allclose(near, free)
+    fast, _ = velocity([X, Y], [3.0, 7.0], fastest=1e6)
+    np.testing.assert_allclose(fast, free)
 
 
 @pytest.mark.parametrize(

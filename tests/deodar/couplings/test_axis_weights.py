@@ -16,23 +16,25 @@ X, Y, Z = dd.Axis("x", 0, 4, 5), dd.Axis("y", 0, 2, 3), dd.Axis("z", 0, 6, 7)
 def through(coupling, axes, values):
     model = dd.Model("weights", dt=1)
     model.add(Pattern("s", axes, values)) >> model.add(coupling)
-    data = dd.simulate(model, 1, record=[f"{coupling.name}.output"], precision="float64")
-    return data[f"{coupling.name}.output"]
+    record = dd.simulate(model, 1, record=[f"{coupling.name}.output"], precision="float64")
+    return record[f"{coupling.name}.output"]
 
 
 def test_one_axis_of_three_takes_another_place_and_length():
     random = np.random.default_rng(0)
     values, weights = random.random((5, 3, 7)), random.random((4, 3))
     axis = dd.Axis("fine", 0, 1, 4)
-    found = through(AxisWeights(weights, axis, along="y", name="w"), [X, Y, Z], values)
-    assert found.dims == ("time", "x", "fine", "z")
-    np.testing.assert_allclose(found.values[0], np.einsum("fy,xyz->xfz", weights, values), rtol=0, atol=1e-12)
+    output = through(AxisWeights(weights, axis, along="y", name="w"), [X, Y, Z], values)
+    assert output.dims == ("time", "x", "fine", "z")
+    np.testing.assert_allclose(
+        output.values[0], np.einsum("fy,xyz->xfz", weights, values), rtol=0, atol=1e-12
+    )
 
 
 def test_the_axis_of_the_same_name_is_the_default():
     values, weights = np.arange(5.0), np.eye(5)[::-1]
-    found = through(AxisWeights(weights, X, name="w"), [X], values)
-    assert found.values[0].tolist() == [4, 3, 2, 1, 0]
+    output = through(AxisWeights(weights, X, name="w"), [X], values)
+    assert output.values[0].tolist() == [4, 3, 2, 1, 0]
 
 
 @pytest.mark.parametrize(

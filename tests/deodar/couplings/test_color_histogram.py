@@ -17,7 +17,7 @@ COLUMNS, ROWS, CHANNEL = dd.Axis("column", 0, 11, 12), dd.Axis("row", 0, 7, 8), 
 HUE = dd.Axis("hue", 0, 360, 36, periodic=True, unit="deg")
 
 
-def shown(pixels, histogram, axes=(COLUMNS, ROWS)):
+def histograms(pixels, histogram, axes=(COLUMNS, ROWS)):
     model = dd.Model("picture")
     model.add(Pattern("picture", [*axes, CHANNEL], pixels)) >> model.add(histogram)
     return dd.simulate(model, 1, dt=1.0, record="h.output", precision="float64")["h.output"].values[-1]
@@ -41,14 +41,14 @@ PIXELS = np.random.default_rng(4).random((12, 8, 3)) * np.random.default_rng(5).
 
 def test_the_histogram_is_the_share_of_pixels_of_each_hue():
     np.testing.assert_allclose(
-        shown(PIXELS, ColorHistogram([COLUMNS, HUE], name="h")), counted(PIXELS), atol=1e-12
+        histograms(PIXELS, ColorHistogram([COLUMNS, HUE], name="h")), counted(PIXELS), atol=1e-12
     )
     strict = ColorHistogram([COLUMNS, HUE], palest=0.7, darkest=0.6, name="h")
-    np.testing.assert_allclose(shown(PIXELS, strict), counted(PIXELS, 0.7, 0.6), atol=1e-12)
+    np.testing.assert_allclose(histograms(PIXELS, strict), counted(PIXELS, 0.7, 0.6), atol=1e-12)
 
 
 def test_columns_or_rows_of_the_picture_may_be_kept():
-    y = shown(PIXELS.transpose(1, 0, 2), ColorHistogram([COLUMNS, HUE], name="h"), (ROWS, COLUMNS))
+    y = histograms(PIXELS.transpose(1, 0, 2), ColorHistogram([COLUMNS, HUE], name="h"), (ROWS, COLUMNS))
     np.testing.assert_allclose(y, counted(PIXELS), atol=1e-12)
 
 
@@ -56,7 +56,7 @@ def test_smoothing_keeps_a_full_column_at_one():
     pixels = np.zeros((12, 8, 3))
     for x, hue in enumerate(np.arange(12) * 30):
         pixels[x, : 8 if x != 5 else 2] = colorsys.hsv_to_rgb(hue / 360, 0.9, 0.8)
-    y = shown(pixels, ColorHistogram([COLUMNS, HUE], sigma=20.0, name="h"))
+    y = histograms(pixels, ColorHistogram([COLUMNS, HUE], sigma=20.0, name="h"))
     d = HUE.points - np.arange(12)[:, None] * 30
     d -= 360 * np.round(d / 360)
     share = np.where(np.arange(12) == 5, 0.25, 1.0)[:, None]
@@ -65,7 +65,7 @@ def test_smoothing_keeps_a_full_column_at_one():
 
 def test_columns_of_a_coarser_grid_are_the_means_of_their_pixels():
     coarse = dd.Axis("column", 0.5, 10.5, 6)
-    y = shown(PIXELS, ColorHistogram([coarse, HUE], name="h"))
+    y = histograms(PIXELS, ColorHistogram([coarse, HUE], name="h"))
     np.testing.assert_allclose(y, counted(PIXELS).reshape(6, 2, 36).mean(1), atol=1e-12)
 
 
@@ -73,7 +73,7 @@ def test_grey_and_dark_pixels_have_no_hue():
     grey, dark = np.full((12, 8, 3), 0.5), np.zeros((12, 8, 3))
     dark[..., 0] = 0.1
     for pixels in (grey, dark):
-        assert not shown(pixels, ColorHistogram([COLUMNS, HUE], palest=0.0, name="h")).any()
+        assert not histograms(pixels, ColorHistogram([COLUMNS, HUE], palest=0.0, name="h")).any()
 
 
 def test_projections_give_the_position_and_the_hues_of_blocks():
@@ -85,11 +85,11 @@ def test_projections_give_the_position_and_the_hues_of_blocks():
     model.add(Pattern("picture", [COLUMNS, ROWS, CHANNEL], pixels)) >> histogram
     histogram >> model.add(Project([COLUMNS], "sum", name="where"))
     histogram >> model.add(Project([HUE], "max", name="which"))
-    data = dd.simulate(model, 1, dt=1.0, record=["where.output", "which.output"])
+    record = dd.simulate(model, 1, dt=1.0, record=["where.output", "which.output"])
     np.testing.assert_allclose(
-        data["where.output"].values[-1], np.repeat([0, 0.5, 0, 7 / 8, 0], [2, 2, 4, 3, 1]), atol=1e-6
+        record["where.output"].values[-1], np.repeat([0, 0.5, 0, 7 / 8, 0], [2, 2, 4, 3, 1]), atol=1e-6
     )
-    which = data["which.output"].values[-1]
+    which = record["which.output"].values[-1]
     assert (
         which[0] == pytest.approx(0.5)
         and which[24] == pytest.approx(7 / 8)
@@ -98,7 +98,7 @@ def test_projections_give_the_position_and_the_hues_of_blocks():
 
 
 @pytest.mark.parametrize(
-    ("axes", "what"),
+    ("axes", "problem"),
     [
         ([COLUMNS], "needs a picture"),
         ([dd.Axis("place", 0, 11, 12), HUE], "'place' does not fit the picture's: column and row there"),
@@ -106,6 +106,6 @@ def test_projections_give_the_position_and_the_hues_of_blocks():
         ([COLUMNS, dd.Axis("hue", 0, 360, 36)], "must be periodic"),
     ],
 )
-def test_axes_that_do_not_fit_are_reported(axes, what):
-    with pytest.raises(ModelError, match=what):
-        shown(PIXELS, ColorHistogram(axes, name="h"))
+def test_axes_that_do_not_fit_are_reported(axes, problem):
+    with pytest.raises(ModelError, match=problem):
+        histograms(PIXELS, ColorHistogram(axes, name="h"))

@@ -65,12 +65,12 @@ CASES = {
         lambda y: plain.resample(y, [X, PHI], [PART, PHI_FINE], "nearest"),
     ),
     **{
-        f"project {how} to {shown}": (
-            p := dd.Project(axes, how),
+        f"project {reduction} to {target}": (
+            p := dd.Project(axes, reduction),
             lambda y, p=p: plain.project(y, [X, PHI], p),
         )
-        for how in ("integral", "sum", "mean", "max", "min")
-        for shown, axes in {"x": [X], "phi": [PHI], "a number": [], "phi and z": [PHI, Z]}.items()
+        for reduction in ("integral", "sum", "mean", "max", "min")
+        for target, axes in {"x": [X], "phi": [PHI], "a number": [], "phi and z": [PHI, Z]}.items()
     },
     "project expand and reorder": (
         p := dd.Project([Z, PHI, X]),
@@ -123,13 +123,13 @@ def drive():
     return model, handle, fields.sigmoid(field.sigmoid, u)
 
 
-def close(found, reference, what):
+def close(values, reference, name):
     scale = abs(reference).max()
-    assert scale > 1e-3, f"{what}: nothing arrives"
+    assert scale > 1e-3, f"{name}: nothing arrives"
     return (
         []
-        if abs(found - reference).max() <= 1e-9 * scale
-        else [f"{what}: off by {abs(found - reference).max() / scale:.1e}"]
+        if abs(values - reference).max() <= 1e-9 * scale
+        else [f"{name}: off by {abs(values - reference).max() / scale:.1e}"]
     )
 
 
@@ -153,11 +153,11 @@ def run():
 
 @pytest.mark.parametrize("name", CASES)
 def test_every_coupling_agrees_with_the_oracle(run, name):
-    data, expected = run
+    record, expected = run
     v, reference = expected[name]
-    wrong = close(data[f"{name}.output"].values, reference[::EVERY], name)
+    wrong = close(record[f"{name}.output"].values, reference[::EVERY], name)
     target = fields.run(v, lambda k: reference[k], STEPS, 1.0)[::EVERY]
-    wrong += close(data[f"{v.name}.activation"].values, target, v.name)
+    wrong += close(record[f"{v.name}.activation"].values, target, v.name)
     assert not wrong
 
 
@@ -166,24 +166,24 @@ def test_couplings_with_two_inputs_or_memory_agree_with_the_oracle():
     f = dd.GaussianStimulus("f", [X], center=8, sigma=3, amplitude=1.3)
     plane = dd.GaussianStimulus("plane", [X, PHI], center=[8, 90], sigma=[3, 60], amplitude=1.3)
     factor, other, number = model.add(f), model.add(plane), model.add(dd.Field("n", [], resting_level=0.4))
-    product, gated, held = (
+    product, gated, held_at_zero = (
         model.add(Product(name="product")),
         model.add(Product(name="gated")),
         model.add(Delay([X, PHI], 0.7, name="held")),
     )
-    both = model.add(Sum(name="both"))
-    for target in (product, gated, held, both):
+    total = model.add(Sum(name="both"))
+    for target in (product, gated, held_at_zero, total):
         model.connect(u, target)
     model.connect(factor, product["factor"])
     model.connect(number, gated["factor"])
-    model.connect(other, both)
-    data = dd.simulate(model, STEPS, record=["product", "gated", "held", "both"], precision="float64")
+    model.connect(other, total)
+    record = dd.simulate(model, STEPS, record=["product", "gated", "held", "both"], precision="float64")
     pattern = fields.stimulus(f, 0)[:, None]
     level = 1 / (1 + np.exp(-4 * 0.4))
-    wrong = close(data["product.output"].values, g * pattern, "product")
-    wrong += close(data["gated.output"].values, g * level, "gated")
-    wrong += close(data["both.output"].values, g + fields.stimulus(plane, 0), "both")
-    wrong += close(data["held.output"].values, np.concatenate([np.full((1, 16, 9), 0.7), g[:-1]]), "held")
+    wrong = close(record["product.output"].values, g * pattern, "product")
+    wrong += close(record["gated.output"].values, g * level, "gated")
+    wrong += close(record["both.output"].values, g + fields.stimulus(plane, 0), "both")
+    wrong += close(record["held.output"].values, np.concatenate([np.full((1, 16, 9), 0.7), g[:-1]]), "held")
     assert not wrong
 
 
@@ -195,14 +195,14 @@ def test_peak_position_agrees_with_the_oracle_on_a_line_and_a_ring():
     ring, line = PeakPosition(PHI, most / 2, -7.0, name="ring"), PeakPosition(X, most / 2, -7.0, name="line")
     for read in (ring, line):
         model.connect(u, model.add(read))
-    data = dd.simulate(
+    record = dd.simulate(
         model, STEPS, record=["ring", "ring.strength", "line", "line.strength"], precision="float64"
     )
     for read, sums in ((ring, g.sum(1) * 1.0), (line, g.sum(2) * 40.0)):
         reference = np.array([plain.peak_position(f, read) for f in sums])
         assert (reference[:, 0] == -7.0).any() and (reference[:, 0] != -7.0).any()
-        np.testing.assert_allclose(data[f"{read.name}.output"].values, reference[:, 0], rtol=1e-9)
-        np.testing.assert_allclose(data[f"{read.name}.strength"].values, reference[:, 1], rtol=1e-9)
+        np.testing.assert_allclose(record[f"{read.name}.output"].values, reference[:, 0], rtol=1e-9)
+        np.testing.assert_allclose(record[f"{read.name}.strength"].values, reference[:, 1], rtol=1e-9)
 
 
 def test_the_color_space_of_a_picture_agrees_with_the_oracle():
@@ -232,11 +232,13 @@ def test_the_color_space_of_a_picture_agrees_with_the_oracle():
     ]
     for code in codes:
         model.connect(eye, model.add(code))
-    data = dd.simulate(model, 1, record=[dd.quote(c.name) for c in codes], precision="float64", world=Still())
+    record = dd.simulate(
+        model, 1, record=[dd.quote(c.name) for c in codes], precision="float64", world=Still()
+    )
     for code in codes:
         reference = plain.color_space(pixels, [x, y, channel], code)
         np.testing.assert_allclose(
-            data[f"{code.name}.output"].values[0], reference, rtol=1e-9, atol=1e-12, err_msg=code.name
+            record[f"{code.name}.output"].values[0], reference, rtol=1e-9, atol=1e-12, err_msg=code.name
         )
 
 
@@ -254,6 +256,6 @@ def test_the_integral_of_a_color_space_is_independent_of_the_sampling_of_hue(sig
         )
         model.connect(picture, code)
         model.connect(code, model.add(dd.Project([], name=f"total{samples}")))
-    data = dd.simulate(model, 1, record=[f"total{n}.output" for n in (12, 24, 48)], precision="float64")
-    totals = [float(data[f"total{n}.output"][0]) for n in (12, 24, 48)]
+    record = dd.simulate(model, 1, record=[f"total{n}.output" for n in (12, 24, 48)], precision="float64")
+    totals = [float(record[f"total{n}.output"][0]) for n in (12, 24, 48)]
     np.testing.assert_allclose(totals, totals[-1], rtol=2e-3)

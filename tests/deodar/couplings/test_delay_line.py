@@ -18,15 +18,15 @@ def late(delay, dt, slots=100, duration=60.0, precision="float64", smooth=False,
     """Return times, input and output."""
     model = dd.Model("late", dt=dt)
     t = np.arange(0, duration + dt, 1.0 if smooth else dt)
-    shown = (
+    signal = (
         np.sin(t / 9)[:, None] * [1.0, 2.0, -1.0]
         if smooth
         else np.random.default_rng(2).normal(size=(len(t), 3))
     )
-    source = model.add(TimeSeries("s", [X], t, shown))
+    source = model.add(TimeSeries("s", [X], t, signal))
     source >> model.add(DelayLine("line", [X], delay, slots, **values))
-    data = dd.simulate(model, duration, record=["s.output", "line.output"], precision=precision)
-    return data["time"].values, data["s.output"].values, data["line.output"].values
+    record = dd.simulate(model, duration, record=["s.output", "line.output"], precision=precision)
+    return record["time"].values, record["s.output"].values, record["line.output"].values
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
@@ -60,10 +60,10 @@ def test_with_fewer_slots_than_steps_the_interpolation_is_coarser():
 def test_a_delay_shorter_than_a_step_equals_the_register():
     model = dd.Model("register", dt=1.0)
     u = model.add(dd.Field("u", [X], tau=5, noise=0.5))
-    for held in (Delay([X], 0.3, name="register"), DelayLine("line", [X], 0.01, 3, 0.3)):
-        u >> model.add(held)
-    data = dd.simulate(model, 30, record=["register", "line"], precision="float64")
-    np.testing.assert_array_equal(data["register.output"].values, data["line.output"].values)
+    for delay in (Delay([X], 0.3, name="register"), DelayLine("line", [X], 0.01, 3, 0.3)):
+        u >> model.add(delay)
+    record = dd.simulate(model, 30, record=["register", "line"], precision="float64")
+    np.testing.assert_array_equal(record["register.output"].values, record["line.output"].values)
 
 
 def test_a_delay_can_be_increased_during_a_run():

@@ -15,14 +15,16 @@ VALUES = np.arange(12.0).reshape(4, 3) ** 2
 def test_each_diagonal_is_summed():
     model = dd.Model("diagonals")
     model.add(Pattern("in", [X, Y], VALUES)) >> DiagonalSum([dd.Axis("z", 10, 20, 6)], name="out")
-    found = dd.simulate(model, 1, every=1, record=["out.output"], precision="float64")["out.output"].values[0]
+    output = dd.simulate(model, 1, every=1, record=["out.output"], precision="float64")["out.output"].values[
+        0
+    ]
     # 2: the step of y
-    wanted = [2.0 * sum(VALUES[i, k - i] for i in range(4) if 0 <= k - i < 3) for k in range(6)]
-    assert np.allclose(found, wanted)
+    expected = [2.0 * sum(VALUES[i, k - i] for i in range(4) if 0 <= k - i < 3) for k in range(6)]
+    assert np.allclose(output, expected)
 
 
 def test_axes_that_do_not_fit_are_reported():
-    for source, own, says in (([X], 6, "two axes"), ([X, Y], 5, "are 6")):
+    for source, samples, says in (([X], 6, "two axes"), ([X, Y], 5, "are 6")):
         model = dd.Model("misfit")
-        model.add(dd.GaussianStimulus("in", source)) >> DiagonalSum([dd.Axis("z", 0, 1, own)], name="out")
+        model.add(dd.GaussianStimulus("in", source)) >> DiagonalSum([dd.Axis("z", 0, 1, samples)], name="out")
         assert any(says in p.what for p in model.check())

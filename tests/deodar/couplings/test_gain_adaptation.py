@@ -37,19 +37,19 @@ def test_gains_grow_with_the_error_where_the_peak_is():
 
 
 def test_an_initial_error_decays_by_the_closed_form_at_any_sampling():
-    wanted, found = 5.0, []
+    target, gains = 5.0, []
     for n in (40, 80):
         m = model(n, error=None)
-        m.connect(m.add(Boost("wanted", [], wanted)), "g.error")
+        m.connect(m.add(Boost("wanted", [], target)), "g.error")
         m["g"]["value"] >> m.add(Gain(-1.0, name="reached"))
         m.connect("reached", "g.error")
-        error = wanted - dd.simulate(m, 100, record=["g.value"], precision="float64")["g.value"].values
+        error = target - dd.simulate(m, 100, record=["g.value"], precision="float64")["g.value"].values
         f = np.exp(-((np.arange(0, 40, 40 / n) - 17) ** 2) / 18)
         share = 0.5 / 50 * np.sum(f**2) / np.sum(f)
-        np.testing.assert_allclose(error, wanted * (1 - share) ** np.arange(201), atol=1e-9)
-        found.append(error)
-    np.testing.assert_allclose(*found, atol=1e-6)
-    assert abs(error[-1]) < wanted / 2
+        np.testing.assert_allclose(error, target * (1 - share) ** np.arange(201), atol=1e-9)
+        gains.append(error)
+    np.testing.assert_allclose(*gains, atol=1e-6)
+    assert abs(error[-1]) < target / 2
 
 
 def test_gains_outside_of_the_window_keep_their_bits():

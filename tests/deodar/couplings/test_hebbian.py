@@ -35,7 +35,7 @@ def weights(m, duration, **options):
 def plain(rule, w, pre, post, steps, rate, decay, most, threshold=0.5, dt=0.5):
     """The docstring, step by step; w has the target first."""
     x, z = np.where(pre > threshold, pre, 0)[None, :], np.where(post > threshold, post, 0)[:, None]
-    here = (x > 0) | (z < 0) if rule in SOURCE_RULES else (z > 0) | (x < 0)
+    learned = (x > 0) | (z < 0) if rule in SOURCE_RULES else (z > 0) | (x < 0)
     for _ in range(steps):
         change = {
             "outstar": x * (z - w),
@@ -45,7 +45,7 @@ def plain(rule, w, pre, post, steps, rate, decay, most, threshold=0.5, dt=0.5):
             "oja": z * (x - z * w),
         }[rule]
         new = np.minimum(w + dt * (rate * change - decay * w), most)
-        w = np.where(here & (x.max() > 0) & (z.max() > 0), new, w)
+        w = np.where(learned & (x.max() > 0) & (z.max() > 0), new, w)
     return w
 
 
@@ -54,16 +54,16 @@ def test_each_rule_agrees_with_numpy_step_by_step(rule):
     m = model(rule, rate=0.1, initial=0.2)
     for decay, saturation in ((0.0, 0.0), (0.03, 0.0), (0.01, 0.45)):
         m.set({"w.decay": decay, "w.saturation": saturation})
-        found = weights(m, 20)
-        wanted = plain(rule, np.full((3, 4), 0.2), PRE, POST, 40, 0.1, decay, saturation or np.inf)
-        np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
-        assert (found != 0.2).any()
+        learned = weights(m, 20)
+        expected = plain(rule, np.full((3, 4), 0.2), PRE, POST, 40, 0.1, decay, saturation or np.inf)
+        np.testing.assert_allclose(learned, expected, rtol=0, atol=1e-12)
+        assert (learned != 0.2).any()
 
 
 def test_learning_agrees_with_its_closed_form_and_fixed_points():
     n, dt, rate = 200, 0.5, 0.02
     x, z = np.array([0.8]), np.array([0.7])
-    one = {
+    axes = {
         "pre": x,
         "post": z,
         "x": dd.Axis("x", 0, 1, 1, periodic=True),
@@ -77,10 +77,10 @@ def test_learning_agrees_with_its_closed_form_and_fixed_points():
         "oja": (0.8 / 0.7 * (1 - (1 - dt * rate * 0.49) ** n), 0.8 / 0.7),
     }
     for rule, (then, end) in course.items():
-        m = model(rule, **one)
+        m = model(rule, **axes)
         assert weights(m, n * dt).item() == pytest.approx(then, abs=1e-9), rule
         assert weights(m, 4000).item() == pytest.approx(end, abs=1e-6), rule
-    m = model("hebb", **one)
+    m = model("hebb", **axes)
     assert weights(m, n * dt).item() == pytest.approx(n * dt * rate * 0.8 * 0.7, abs=1e-9)
     m.set("w.decay", 0.05)  # it settles where learning and decay are equal
     assert weights(m, 2000).item() == pytest.approx(rate * 0.56 / 0.05, abs=1e-6)
@@ -93,10 +93,10 @@ def test_oja_from_its_own_output_ends_at_unit_length():
     w = m.add(Hebbian([], "oja", rate=0.05, initial=0.1, threshold=0.05, name="w"))
     m.connect(m.add(Pattern("pre", [X], PRE)), w["input"])
     m.connect(w, w["post"])
-    found = weights(m, 2000)
-    assert X.step * np.sum(found**2) == pytest.approx(1, abs=1e-6)
+    learned = weights(m, 2000)
+    assert X.step * np.sum(learned**2) == pytest.approx(1, abs=1e-6)
     seen = PRE / np.sqrt(X.step * np.sum(PRE**2))
-    np.testing.assert_allclose(found, seen, atol=1e-6)
+    np.testing.assert_allclose(learned, seen, atol=1e-6)
 
 
 def test_weights_connect_arrays_of_any_dimension():
@@ -108,12 +108,14 @@ def test_weights_connect_arrays_of_any_dimension():
         w = m.add(Hebbian(post_axes, rate=0.1, name="w"))
         m.connect(m.add(Pattern("pre", pre_axes, pre)), w["input"])
         m.connect(m.add(Pattern("post", post_axes, post)), w["post"])
-        data = dd.simulate(m, 3, record=["w.weights", "w.output"], precision="float64", every=3).isel(time=-1)
-        wanted = post[(...,) + (None,) * pre.ndim] * (1 - (1 - 0.1 * pre) ** 3)
-        np.testing.assert_allclose(data["w.weights"].values, wanted, atol=1e-12)
+        record = dd.simulate(m, 3, record=["w.weights", "w.output"], precision="float64", every=3).isel(
+            time=-1
+        )
+        expected = post[(...,) + (None,) * pre.ndim] * (1 - (1 - 0.1 * pre) ** 3)
+        np.testing.assert_allclose(record["w.weights"].values, expected, atol=1e-12)
         cell = np.prod([a.step for a in pre_axes])
         np.testing.assert_allclose(
-            data["w.output"].values, cell * np.tensordot(wanted, pre, axes=pre.ndim), atol=1e-12
+            record["w.output"].values, cell * np.tensordot(expected, pre, axes=pre.ndim), atol=1e-12
         )
 
 
@@ -121,29 +123,29 @@ def test_weights_connect_arrays_of_any_dimension():
 def test_weights_keep_their_bits_while_the_gate_is_closed_or_a_side_is_silent(rule):
     start = np.random.default_rng(2).standard_normal((3, 4))
     m = model(rule, rate=0.3, decay=0.2, start=start, gate=[(10, 12)])
-    wanted = plain(rule, start, PRE, POST, 4, 0.3, 0.2, np.inf)
-    np.testing.assert_allclose(weights(m, 50), wanted, atol=1e-12)
+    expected = plain(rule, start, PRE, POST, 4, 0.3, 0.2, np.inf)
+    np.testing.assert_allclose(weights(m, 50), expected, atol=1e-12)
     for path in ("gate.amplitude", "pre.amplitude", "post.amplitude"):
         m.set(path, 0.4 if path != "gate.amplitude" else 0.0)
         for trials in [None, 3] if rule in ("outstar", "oja") else [None]:
-            found = (
+            learned = (
                 dd.simulate(m, 50, record=["w.weights"], precision="float64", trials=trials, every=50)[
                     "w.weights"
                 ]
                 .isel(time=-1)
                 .values
             )
-            assert np.array_equal(found, np.broadcast_to(start, found.shape))
+            assert np.array_equal(learned, np.broadcast_to(start, learned.shape))
         m.set(path, 1.0)
 
 
 def test_weights_of_a_source_without_target_activity_do_not_change():
     start = np.array([[0.0, 2, 0, 0], [0, 1, 0, 0], [0, 3, 0, 0]])
-    data = dd.simulate(
+    record = dd.simulate(
         model(start=start, post=0 * POST, rate=1.0), 10, record=["w.output", "w.weights"], every=10
     ).isel(time=-1)
-    np.testing.assert_allclose(data["w.output"], X.step * np.array([2, 1, 3]))
-    np.testing.assert_array_equal(data["w.weights"], start)
+    np.testing.assert_allclose(record["w.output"], X.step * np.array([2, 1, 3]))
+    np.testing.assert_array_equal(record["w.weights"], start)
 
 
 @pytest.mark.parametrize("rule", ["outstar", "hebb", "oja"])
@@ -152,10 +154,10 @@ def test_a_learned_map_does_not_depend_on_the_sampling(rule):
         x, z = dd.Axis("x", 0, 40, n, periodic=True), dd.Axis("z", -10, 10, n + 1)
         pre, post = np.exp(-((x.points - 17) ** 2) / 18), np.exp(-((z.points - 2) ** 2) / 8)
         m = model(rule, pre, post, x, z, rate=0.05, threshold=0.0, initial=0.1)
-        data = dd.simulate(m, 50, record=["w.weights", "w.output"], precision="float64", every=50).isel(
+        record = dd.simulate(m, 50, record=["w.weights", "w.output"], precision="float64", every=50).isel(
             time=-1
         )
-        return data["w.weights"].values, data["w.output"].values
+        return record["w.weights"].values, record["w.output"].values
 
     (coarse, drive), (fine, finer) = learned(40), learned(80)
     np.testing.assert_allclose(fine[::2, ::2], coarse, atol=1e-12)
@@ -195,11 +197,11 @@ def test_trials_rows_and_sweeps_equal_single_runs(rule):
         "w0.weights"
     ].values[0, -1]
     for rate in (0.05, 0.1):
-        found = many["w0.weights"].sel(trial=2)
-        found = found.sel({"w1.rate": rate}).values if "w1.rate" in found.dims else found.values
-        np.testing.assert_allclose(found, alone, atol=1e-10)
-    other = many["w1.weights"].sel(trial=2)
-    assert not np.allclose(other.sel({"w1.rate": 0.05}), other.sel({"w1.rate": 0.1}))
+        first = many["w0.weights"].sel(trial=2)
+        first = first.sel({"w1.rate": rate}).values if "w1.rate" in first.dims else first.values
+        np.testing.assert_allclose(first, alone, atol=1e-10)
+    second = many["w1.weights"].sel(trial=2)
+    assert not np.allclose(second.sel({"w1.rate": 0.05}), second.sel({"w1.rate": 0.1}))
 
 
 # --------------------------------------------------------------------------------------- weights at the start
@@ -263,10 +265,10 @@ def test_a_map_that_learns_apart_is_the_one_of_its_teacher(rule: str) -> None:
     seen >> two["pre"]
     for coupling in (one, two):
         target >> coupling["post"]
-    data = dd.simulate(m, 60, record=["one.weights", "two.weights", "one", "two"], every=60)
-    first, second = (data[f"{name}.weights"].values for name in ("one", "two"))
+    record = dd.simulate(m, 60, record=["one.weights", "two.weights", "one", "two"], every=60)
+    first, second = (record[f"{name}.weights"].values for name in ("one", "two"))
     assert np.array_equal(first, second) and np.ptp(first[-1] - first[0]) > 0.1
-    here, there = data["one.output"].values[-1], data["two.output"].values[-1]
+    here, there = record["one.output"].values[-1], record["two.output"].values[-1]
     assert here.max() > 2 * there.max(), "the second one reads where nothing was learned"
 
 

@@ -22,17 +22,19 @@ def seen(points: np.ndarray) -> np.ndarray:
     right = np.cross(ahead, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
     down = np.cross(ahead, right)
-    away = np.concatenate([points, np.zeros((*points.shape[:-1], 1))], axis=-1) - position
-    depth = away @ ahead
-    return np.stack([79.5 + focal * (away @ right) / depth, 59.5 + focal * (away @ down) / depth], axis=-1)
+    offset = np.concatenate([points, np.zeros((*points.shape[:-1], 1))], axis=-1) - position
+    depth = offset @ ahead
+    return np.stack(
+        [79.5 + focal * (offset @ right) / depth, 59.5 + focal * (offset @ down) / depth], axis=-1
+    )
 
 
 def mapped(image: np.ndarray, axes=(COLUMN, ROW), onto=(X, Y), **parameters) -> np.ndarray:
     model = dd.Model("table")
-    given = {"picture": seen(CORNERS), "plane": CORNERS, **parameters}
+    ports = {"picture": seen(CORNERS), "plane": CORNERS, **parameters}
     channels = [dd.Axis("channel", 0, 2, 3)] if image.ndim == 3 else []
     source = model.add(Pattern("camera", [*axes, *channels], image))
-    model.connect(source, model.add(Homography(list(onto), **given, name="map")))
+    model.connect(source, model.add(Homography(list(onto), **ports, name="map")))
     return dd.simulate(model, 1, dt=1.0, record="map.output")["map.output"].values[-1]
 
 
@@ -41,14 +43,14 @@ def test_each_sample_is_the_pixel_where_a_camera_sees_it():
     columns, rows = np.moveaxis(seen(points), -1, 0)
     assert columns.min() > 0 and columns.max() < 159 and rows.min() > 0 and rows.max() < 119
     picture = np.random.default_rng(0).random((160, 120, 3)).astype(np.float32)
-    near = picture[np.rint(columns).astype(int), np.rint(rows).astype(int)]
-    different = np.any(mapped(picture) != near, axis=-1)
+    nearest = picture[np.rint(columns).astype(int), np.rint(rows).astype(int)]
+    different = np.any(mapped(picture) != nearest, axis=-1)
     # in float32 a position between two pixels may round to either of them
     close = np.abs(columns % 1 - 0.5) < 1e-3, np.abs(rows % 1 - 0.5) < 1e-3
     assert not np.any(different & ~close[0] & ~close[1]) and different.mean() < 0.01
     ramp = np.broadcast_to(np.arange(160.0)[:, None] + 1000 * np.arange(120.0), (160, 120))
-    wanted = columns + 1000 * rows
-    np.testing.assert_allclose(mapped(ramp, interpolation="linear"), wanted, atol=2.0)
+    expected = columns + 1000 * rows
+    np.testing.assert_allclose(mapped(ramp, interpolation="linear"), expected, atol=2.0)
 
 
 def test_the_units_of_the_axes_are_those_of_the_points():

@@ -25,10 +25,10 @@ def test_each_pixel_agrees_with_colorsys():
     picture = np.random.default_rng(4).random((7, 5, 3))
     picture[0, 0] = 0.4  # grey
     picture[0, 1] = 0.0  # black
-    found = converted(picture, [X, Y, CHANNEL])
+    output = converted(picture, [X, Y, CHANNEL])
     for place in np.ndindex(7, 5):
         hue, saturation, value = colorsys.rgb_to_hsv(*picture[place])
-        np.testing.assert_allclose(found[place], [360 * hue, saturation, value], rtol=0, atol=1e-10)
+        np.testing.assert_allclose(output[place], [360 * hue, saturation, value], rtol=0, atol=1e-10)
 
 
 def test_other_axes_are_refused():

@@ -34,8 +34,8 @@ def test_one_obstacle_repels_as_the_equation_says(k: int, distance: float) -> No
 
 def test_forces_add_up_and_parameters_scale_them() -> None:
     one, other = [20.0, *[FAR] * 5], [*[FAR] * 4, 40.0, FAR]
-    both = [20.0, *[FAR] * 3, 40.0, FAR]
-    assert force(both) == pytest.approx(force(one) + force(other), rel=1e-9)
+    two_distances = [20.0, *[FAR] * 3, 40.0, FAR]
+    assert force(two_distances) == pytest.approx(force(one) + force(other), rel=1e-9)
     assert force(one, strength=30.0) == pytest.approx(2 * force(one), rel=1e-9)
     assert abs(force(one, reach=10.0)) < abs(force(one)) < abs(force(one, size=1000.0))
     assert abs(force(one, view=90.0)) > abs(force(one))

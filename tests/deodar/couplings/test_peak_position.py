@@ -14,20 +14,20 @@ X, Y, RING = (
 )
 
 
-def model(axes: list[dd.Axis], **given: dd.Axis) -> dd.Model:
-    made = dd.Model("place")
+def model(axes: list[dd.Axis], **axis: dd.Axis) -> dd.Model:
+    model = dd.Model("place")
     center = [a.lower + 0.5 * a.range for a in axes]
-    made.add(
+    model.add(
         dd.GaussianStimulus("s", axes, center=center, sigma=[a.range / 10 for a in axes], amplitude=3.0)
-    ) >> made.add(dd.PeakPosition(name="p", **given))
-    return made
+    ) >> model.add(dd.PeakPosition(name="p", **axis))
+    return model
 
 
 @pytest.mark.parametrize("axis", [X, RING], ids=["line", "ring"])
 def test_the_axis_of_the_source_is_read_out(axis: dd.Axis) -> None:
     inferred, stated = (
-        dd.simulate(model([axis], **given), 1, record=["p.output", "p.strength"])
-        for given in ({}, {"axis": axis})
+        dd.simulate(model([axis], **options), 1, record=["p.output", "p.strength"])
+        for options in ({}, {"axis": axis})
     )
     assert inferred["p.output"].values[-1] == pytest.approx(axis.lower + axis.range / 2, abs=1e-3)
     for port in ("p.output", "p.strength"):
@@ -44,15 +44,15 @@ def test_a_source_with_two_axes_requires_the_axis() -> None:
 
 
 def test_a_source_without_an_axis_has_no_position() -> None:
-    made = dd.Model("place")
-    made.add(dd.Boost("b", [], 1.0)) >> made.add(dd.PeakPosition(name="p"))
-    [problem] = [p for p in made.check() if p.severity == "problem"]
+    model = dd.Model("place")
+    model.add(dd.Boost("b", [], 1.0)) >> model.add(dd.PeakPosition(name="p"))
+    [problem] = [p for p in model.check() if p.severity == "problem"]
     assert problem.what == "the source has no axis, so it has no positions"
 
 
 def test_a_document_keeps_that_the_axis_is_inferred() -> None:
-    made = model([X])
-    made["p"].axis = X
-    assert made.undo() and made["p"].axis is None
-    again = dd.Model(document=made.document)
-    assert '"axis": null' in again.to_json() and not again.check()
+    placed = model([X])
+    placed["p"].axis = X
+    assert placed.undo() and placed["p"].axis is None
+    loaded = dd.Model(document=placed.document)
+    assert '"axis": null' in loaded.to_json() and not loaded.check()

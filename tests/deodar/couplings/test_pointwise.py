@@ -29,7 +29,7 @@ def out(coupling, port=None, other=None):
 
 
 @pytest.mark.parametrize(
-    ("function", "wanted"),
+    ("function", "expected"),
     [
         ("abs", abs(VALUES)),
         ("square", VALUES**2),
@@ -40,14 +40,14 @@ def out(coupling, port=None, other=None):
         ("cos", np.cos(VALUES)),
     ],
 )
-def test_each_function(function, wanted):
-    np.testing.assert_allclose(out(Pointwise(function, name="y")), wanted, rtol=1e-14, atol=1e-14)
+def test_each_function(function, expected):
+    np.testing.assert_allclose(out(Pointwise(function, name="y")), expected, rtol=1e-14, atol=1e-14)
 
 
 def test_a_quotient_takes_the_least_divisor_where_the_port_is_smaller():
     divisor = np.array([2.0, -4.0, 0.0, 0.05, -0.05, 1.0])
-    wanted = VALUES / np.array([2.0, -4.0, 0.1, 0.1, 0.1, 1.0])
-    np.testing.assert_allclose(out(Quotient(0.1, name="y"), "divisor", divisor), wanted, rtol=1e-14)
+    expected = VALUES / np.array([2.0, -4.0, 0.1, 0.1, 0.1, 1.0])
+    np.testing.assert_allclose(out(Quotient(0.1, name="y"), "divisor", divisor), expected, rtol=1e-14)
     np.testing.assert_allclose(out(Quotient(name="y"), "divisor", 4.0), VALUES / 4, rtol=1e-14)
 
 

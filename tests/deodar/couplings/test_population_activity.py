@@ -17,7 +17,7 @@ X, Y = dd.Axis("x", 0, 90, 181, unit="deg"), dd.Axis("y", 0, 10, 11)
 RING = dd.Axis("phi", 0, 360, 72, periodic=True, unit="deg")
 
 
-def shown(rates, population, read=None):
+def activities(rates, population, read=None):
     model = dd.Model("population")
     neurons = dd.Axis("neuron", 0, len(rates) - 1, len(rates))
     activity = model.add(population)
@@ -33,9 +33,9 @@ def shown(rates, population, read=None):
 def test_tuning_curves_weighted_by_rates():
     rng = np.random.default_rng(0)
     tuning, rates = rng.random((5, 181)), rng.random(5)
-    y = shown(rates, PopulationActivity(tuning, [X], -2.0, name="p"))
+    y = activities(rates, PopulationActivity(tuning, [X], -2.0, name="p"))
     np.testing.assert_allclose(y, -2 * sum(r * t for r, t in zip(rates, tuning, strict=True)), rtol=1e-12)
-    mean = shown(rates, PopulationActivity(tuning, [X], normalized=True, name="p"))
+    mean = activities(rates, PopulationActivity(tuning, [X], normalized=True, name="p"))
     np.testing.assert_allclose(mean, rates @ tuning / tuning.sum(0), rtol=1e-12)
 
 
@@ -45,7 +45,7 @@ def test_equal_tuning_curves_give_a_wider_gaussian_at_the_stimulus():
     """
     preferred, sigma, stimulus = np.arange(-60, 151, 3.0), 6.0, 41.7
     rates = 20 * np.exp(-0.5 * ((preferred - stimulus) / sigma) ** 2)
-    y = shown(rates, PopulationActivity.of(preferred, sigma, [X], name="p"))
+    y = activities(rates, PopulationActivity.of(preferred, sigma, [X], name="p"))
     height = 20 * sigma * math.sqrt(math.pi) / 3
     np.testing.assert_allclose(
         y, height * np.exp(-0.25 * ((X.points - stimulus) / sigma) ** 2), atol=1e-6 * height
@@ -55,9 +55,9 @@ def test_equal_tuning_curves_give_a_wider_gaussian_at_the_stimulus():
 def test_on_a_ring_the_population_vector_finds_the_direction():
     preferred = np.arange(0, 360, 10.0)
     for stimulus in (3.0, 181.4, 357.9):
-        near = preferred - stimulus - 360 * np.round((preferred - stimulus) / 360)
-        rates = np.exp(-0.5 * (near / 20) ** 2)
-        read = shown(
+        distance = preferred - stimulus - 360 * np.round((preferred - stimulus) / 360)
+        rates = np.exp(-0.5 * (distance / 20) ** 2)
+        read = activities(
             rates, PopulationActivity.of(preferred, 20, [RING], name="p"), RateCode([RING], name="rate")
         )
         assert read == pytest.approx(stimulus, abs=1e-6)
@@ -65,17 +65,19 @@ def test_on_a_ring_the_population_vector_finds_the_direction():
 
 def test_unevenly_spaced_neurons_have_equal_weight_if_normalized():
     preferred = np.concatenate([np.arange(0, 45, 1.0), np.arange(45, 95, 10.0)])
-    y = shown(
+    y = activities(
         np.full(len(preferred), 7.0), PopulationActivity.of(preferred, 8, [X], normalized=True, name="p")
     )
     np.testing.assert_allclose(y, 7.0, rtol=1e-12)
-    y = shown(np.array([7.0, 3.0]), PopulationActivity(np.eye(2, 181), [X], normalized=True, name="p"))
+    y = activities(np.array([7.0, 3.0]), PopulationActivity(np.eye(2, 181), [X], normalized=True, name="p"))
     np.testing.assert_array_equal(y, [7.0, 3.0, *np.zeros(179)])
 
 
 def test_activity_over_a_plane_is_the_weighted_sum_of_tuning_curves():
     preferred = [[10.0, 2.0], [60.0, 7.0]]
-    y = shown(np.array([1.0, 3.0]), PopulationActivity.of(preferred, [5.0, 1.5], [X, Y], rate=2.0, name="p"))
+    y = activities(
+        np.array([1.0, 3.0]), PopulationActivity.of(preferred, [5.0, 1.5], [X, Y], rate=2.0, name="p")
+    )
     bumps = [
         np.exp(-0.5 * ((X.points[:, None] - a) / 5) ** 2 - 0.5 * ((Y.points[None] - b) / 1.5) ** 2)
         for a, b in preferred

@@ -21,8 +21,10 @@ def product(axes: list[dd.Axis], factor: list[dd.Axis]) -> dd.Model:
 
 
 def test_a_factor_with_more_axes_is_refused_with_advice_to_exchange_the_inputs() -> None:
-    (found,) = problems(product([X], [X, Y]).document)
-    assert "f.output" in str(found) and "it has more axes" in str(found) and "change places" in str(found)
+    (problem,) = problems(product([X], [X, Y]).document)
+    assert (
+        "f.output" in str(problem) and "it has more axes" in str(problem) and "change places" in str(problem)
+    )
 
 
 @pytest.mark.parametrize(
@@ -31,5 +33,5 @@ def test_a_factor_with_more_axes_is_refused_with_advice_to_exchange_the_inputs()
 def test_a_factor_with_the_same_axes_or_fewer_fits(factor: list[dd.Axis]) -> None:
     model = product([X], factor)
     assert not problems(model.document)
-    data = dd.simulate(model, 1, dt=1, record=["p.output"])
-    np.testing.assert_allclose(data["p.output"].values, 6.0, rtol=1e-6)
+    record = dd.simulate(model, 1, dt=1, record=["p.output"])
+    np.testing.assert_allclose(record["p.output"].values, 6.0, rtol=1e-6)

@@ -15,11 +15,12 @@ def inverted(values, **parameters):
     axes = [dd.Axis(n, 0, size - 1, size) for n, size in zip("abc", values.shape, strict=False)]
     model = dd.Model("inverse")
     model.add(dd.Pattern("matrix", axes, values)) >> model.add(dd.PseudoInverse(name="p", **parameters))
-    data = dd.simulate(model, 1, dt=1.0, record=["p"], precision="float64")["p.output"]
+    record = dd.simulate(model, 1, dt=1.0, record=["p"], precision="float64")["p.output"]
     assert (
-        data.dims[1:] == tuple(f"{a.name} of p" for a in axes[::-1]) or data.shape[1:] == values.shape[::-1]
+        record.dims[1:] == tuple(f"{a.name} of p" for a in axes[::-1])
+        or record.shape[1:] == values.shape[::-1]
     )
-    return data.values[-1]
+    return record.values[-1]
 
 
 @pytest.mark.parametrize("shape", [(3, 3), (3, 7), (6, 2)])

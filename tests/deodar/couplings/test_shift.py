@@ -36,13 +36,13 @@ def shifted(amount, axes, pattern):
 def test_a_shift_by_whole_samples_keeps_the_bits(amount):
     axes = [dd.Axis("x", 0, 9, 10), dd.Axis("y", 0, 7, 8)]
     pattern = np.random.default_rng(0).normal(size=(10, 8)).astype(np.float32)
-    wanted = np.zeros_like(pattern)
+    expected = np.zeros_like(pattern)
     dx, dy = (int(a) for a in amount)
     for i in range(10):
         for j in range(8):
             if 0 <= i - dx < 10 and 0 <= j - dy < 8:
-                wanted[i, j] = pattern[i - dx, j - dy]
-    np.testing.assert_array_equal(shifted(amount, axes, pattern), wanted)
+                expected[i, j] = pattern[i - dx, j - dy]
+    np.testing.assert_array_equal(shifted(amount, axes, pattern), expected)
 
 
 def test_a_shift_by_whole_samples_of_an_inexact_step_counts_as_whole():

@@ -44,8 +44,8 @@ def test_each_sample_is_the_sum_of_the_kernel_times_what_lies_at_its_lags(bounda
     x = dd.Axis("x", 0, 5.5, 12)
     lags = dd.Axis("lag", 0.5 * lower, 0.5 * (lower + samples - 1), samples)
     values, kernel = RANDOM.normal(size=12), RANDOM.normal(size=samples)
-    found = convolved([x], values, [lags], kernel, boundary=[boundary])
-    np.testing.assert_allclose(found, summed(values, kernel, [-lower], [boundary], [0.5]), atol=1e-12)
+    output = convolved([x], values, [lags], kernel, boundary=[boundary])
+    np.testing.assert_allclose(output, summed(values, kernel, [-lower], [boundary], [0.5]), atol=1e-12)
 
 
 @pytest.mark.parametrize("ends", list(itertools.combinations(MODES, 2)))
@@ -53,15 +53,15 @@ def test_two_dimensions_have_a_boundary_each(ends):
     axes = dd.Axis("x", 0, 6, 7), dd.Axis("y", 0, 4, 5)
     places = dd.Axis("right", 0, 3, 4), dd.Axis("up", 0, 2, 3)
     values, kernel = RANDOM.normal(size=(7, 5)), RANDOM.normal(size=(4, 3))
-    found = convolved(axes, values, places, kernel, origin=[1.0, 2.0], boundary=ends)
-    np.testing.assert_allclose(found, summed(values, kernel, [1, 2], ends, [1.0]), atol=1e-12)
+    output = convolved(axes, values, places, kernel, origin=[1.0, 2.0], boundary=ends)
+    np.testing.assert_allclose(output, summed(values, kernel, [1, 2], ends, [1.0]), atol=1e-12)
 
 
 def test_three_dimensions_and_a_number():
     axes = [dd.Axis(n, 0, s - 1, s) for n, s in (("x", 5), ("y", 4), ("z", 3))]
     values, kernel = RANDOM.normal(size=(5, 4, 3)), RANDOM.normal(size=(5, 4, 3))
-    found = convolved(axes, values, axes, kernel, origin=1.0)
-    np.testing.assert_allclose(found, summed(values, kernel, [1, 1, 1], ["zero"] * 3, [1.0]), atol=1e-12)
+    output = convolved(axes, values, axes, kernel, origin=1.0)
+    np.testing.assert_allclose(output, summed(values, kernel, [1, 1, 1], ["zero"] * 3, [1.0]), atol=1e-12)
     model = dd.Model("numbers")
     by = model.add(dd.SteeredConvolve(name="by"))
     model.add(dd.Boost("a", [], 3.0)) >> by

@@ -24,7 +24,7 @@ def scene() -> tuple[dd.Model, dd.model.model.Handle]:
     return model, model.add(Pattern("scene", [X, RING], SCENE))
 
 
-def both(amounts, gain=1.0, offset=0.0):
+def shifted_twice(amounts, gain=1.0, offset=0.0):
     """Return the outputs of two shifts in series, one shift by a pair, and a fixed shift for the same
     picture.
     """
@@ -37,15 +37,15 @@ def both(amounts, gain=1.0, offset=0.0):
     source >> pair
     model.connect(model.add(Pattern("amounts", [PAIR], amounts)), pair["by"])
     source >> model.add(Shift([gain * a + offset for a in amounts], name="fixed"))
-    data = dd.simulate(
+    record = dd.simulate(
         model, 1, dt=1.0, record=["along phi.output", "pair.output", "fixed.output"], precision="float64"
     )
-    return [data[name].values[-1] for name in data.data_vars]
+    return [record[name].values[-1] for name in record.data_vars]
 
 
 @pytest.mark.parametrize("amounts", [(0.0, 0.0), (3.0, 60.0), (-1.3, -400.5), (2.7, 7230.0), (40.0, 0.0)])
 def test_a_constant_steering_input_gives_the_fixed_shift(amounts):
-    one_by_one, pair, fixed = both(amounts)
+    one_by_one, pair, fixed = shifted_twice(amounts)
     np.testing.assert_allclose(pair, fixed, atol=1e-11)
     np.testing.assert_allclose(one_by_one, fixed, atol=1e-11)
     if amounts[0] == 40:
@@ -53,7 +53,7 @@ def test_a_constant_steering_input_gives_the_fixed_shift(amounts):
 
 
 def test_gain_and_offset_scale_the_steering_input():
-    one_by_one, pair, fixed = both((2.0, 31.5), gain=-1.0, offset=1.5)
+    one_by_one, pair, fixed = shifted_twice((2.0, 31.5), gain=-1.0, offset=1.5)
     np.testing.assert_allclose(pair, fixed, atol=1e-12)
     np.testing.assert_allclose(one_by_one, fixed, atol=1e-12)
     np.testing.assert_allclose(pair[3], 0.5 * (SCENE[3] + SCENE[4])[(np.arange(12) + 1) % 12], atol=1e-12)
@@ -69,12 +69,12 @@ def test_a_shift_by_the_gaze_and_its_inverse_restore_the_position():
     seen >> world >> back
     for shift in (world, back):
         model.connect(gaze, shift["by"])
-    data = dd.simulate(
+    record = dd.simulate(
         model, 1, dt=1.0, record=["seen.output", "world.output", "back.output"], precision="float64"
     )
     x = retina.points
-    np.testing.assert_allclose(data["world.output"].values[-1], np.exp(-((x - 7.5) ** 2) / 8), atol=1e-12)
-    np.testing.assert_allclose(data["back.output"].values[-1], data["seen.output"].values[-1], atol=1e-12)
+    np.testing.assert_allclose(record["world.output"].values[-1], np.exp(-((x - 7.5) ** 2) / 8), atol=1e-12)
+    np.testing.assert_allclose(record["back.output"].values[-1], record["seen.output"].values[-1], atol=1e-12)
 
 
 def test_the_shift_follows_the_steering_input_in_every_step():
@@ -84,12 +84,12 @@ def test_the_shift_follows_the_steering_input_in_every_step():
     shift = model.add(SteeredShift("x", 4.0, name="shift"))
     source >> shift
     model.connect(position, shift["by"])
-    data = dd.simulate(model, 20, dt=1.0, record=["shift.output", "position.output"], precision="float64")
-    for g, y in zip(data["position.output"].values, data["shift.output"].values, strict=True):
+    record = dd.simulate(model, 20, dt=1.0, record=["shift.output", "position.output"], precision="float64")
+    for g, y in zip(record["position.output"].values, record["shift.output"].values, strict=True):
         places = X.points - 4.0 * g
-        wanted = [np.interp(places, X.points, column, left=0.0) for column in SCENE.T]
+        expected = [np.interp(places, X.points, column, left=0.0) for column in SCENE.T]
         inside = places >= X.lower  # below the first sample it falls to zero within one cell
-        np.testing.assert_allclose(y[inside], np.array(wanted).T[inside], atol=1e-12)
+        np.testing.assert_allclose(y[inside], np.array(expected).T[inside], atol=1e-12)
 
 
 def test_wrong_axes_to_shift_along_are_reported():

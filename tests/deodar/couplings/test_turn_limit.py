@@ -18,7 +18,7 @@ def test_the_speeds_of_both_wheels_have_the_same_factor(left: float, right: floa
     wheels = model.add(TurnLimit(speed=500.0, limit=400.0, name="wheels"))
     for side, value in (("left", left), ("right", right)):
         model.add(Boost(side, [], value)) >> wheels[side]
-    data = dd.simulate(model, 1, record=["wheels.to_left", "wheels.to_right"])
-    got = [float(data[f"wheels.to_{side}"][-1]) for side in ("left", "right")]
+    record = dd.simulate(model, 1, record=["wheels.to_left", "wheels.to_right"])
+    got = [float(record[f"wheels.to_{side}"][-1]) for side in ("left", "right")]
     assert got == pytest.approx([500 * left * share, 500 * right * share], rel=1e-5)
     assert abs(got[0] - got[1]) <= 400.01

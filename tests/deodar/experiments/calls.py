@@ -19,10 +19,10 @@ def run_alone(
     world: dd.World | None = None,
     trial: int = 0,
     tolerant: bool = False,
-    **given: Any,
+    **options: Any,
 ) -> Trial:
     """Run one trial, beside its world on the host; `tolerant`: also if it diverges."""
-    return _run(model, limit, False, tolerant, [trial], given | {"world": world})[0]
+    return _run(model, limit, False, tolerant, [trial], options | {"world": world})[0]
 
 
 def run_together(
@@ -32,10 +32,10 @@ def run_together(
     watch: Sequence[str] = (),
     events: Sequence[dd.Event] = (),
     tolerant: bool = False,
-    **given: Any,
+    **options: Any,
 ) -> list[Trial]:
     """Run trials in one batch; `tolerant`: also if all diverge."""
-    return _run(model, limit, True, tolerant, numbers, given | {"watch": watch, "events": events})
+    return _run(model, limit, True, tolerant, numbers, options | {"watch": watch, "events": events})
 
 
 def changed(experiment: dd.Experiment, **others: Any) -> dd.Experiment:
@@ -50,10 +50,10 @@ def _run(
     together: bool,
     tolerant: bool,
     numbers: Sequence[int],
-    given: dict[str, Any],
+    options: dict[str, Any],
 ) -> list[Trial]:
-    plan = dd.TrialPlan(limit, **{name: given[name] for name in PLAN if name in given})
-    settings = {name: value for name, value in given.items() if name not in (*PLAN, *CALL)}
+    plan = dd.TrialPlan(limit, **{name: options[name] for name in PLAN if name in options})
+    settings = {name: value for name, value in options.items() if name not in (*PLAN, *CALL)}
     trials = dd.Trials(model, plan, **settings, together=together)
-    call = {name: given[name] for name in CALL if name in given}
+    call = {name: options[name] for name in CALL if name in options}
     return (trials.results if tolerant else trials.run)(numbers, **call)

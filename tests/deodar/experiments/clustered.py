@@ -39,12 +39,15 @@ def small_pieces(monkeypatch):
 
 def processes(of=None):
     """Return the worker processes that Dask started below a process; none: this one."""
-    found = (psutil.Process() if of is None else psutil.Process(of)).children(recursive=True)
+    processes = (psutil.Process() if of is None else psutil.Process(of)).children(recursive=True)
     out = []
-    for one in found:
+    for process in processes:
         try:
-            if any("spawn_main" in part for part in one.cmdline()) and one.status() != psutil.STATUS_ZOMBIE:
-                out.append(one)
+            if (
+                any("spawn_main" in part for part in process.cmdline())
+                and process.status() != psutil.STATUS_ZOMBIE
+            ):
+                out.append(process)
         except psutil.NoSuchProcess:
             continue
     return out
@@ -64,10 +67,10 @@ def within(function, seconds=LIMIT):
     thread.start()
     thread.join(seconds)
     assert out, f"the call has not ended after {seconds} s"
-    good, found = out[0]
+    good, answer = out[0]
     if not good:
-        raise found
-    return found
+        raise answer
+    return answer
 
 
 def lines(folder):

@@ -25,9 +25,9 @@ def straight(speed=500.0):
     return model
 
 
-def room(**given):
+def room(**options):
     """Return an arena of 100 x 40 cm with a wall at its far end."""
-    return Arena(ROOM, **{"start": (10, 20, 0), "goal": (80, 20), "unit": "cm"} | arguments(Arena, given))
+    return Arena(ROOM, **{"start": (10, 20, 0), "goal": (80, 20), "unit": "cm"} | arguments(Arena, options))
 
 
 def decider(noise=3.0):

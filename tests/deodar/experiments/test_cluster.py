@@ -65,13 +65,13 @@ def test_rows_are_the_same_while_workers_are_killed(tmp_path, rows, pieces):
     """First one of the workers is killed, later all of them at once."""
     killed = []
 
-    def told(progress):
-        wanted = {2: 1, 12: 2}.get(progress.rows)
-        for one in clustered.processes()[:wanted] if wanted else ():
-            one.kill()
-            killed.append(one.pid)
+    def watch(progress):
+        count = {2: 1, 12: 2}.get(progress.rows)
+        for worker in clustered.processes()[:count] if count else ():
+            worker.kill()
+            killed.append(worker.pid)
 
-    _run(tmp_path / "out", "local:2", told)
+    _run(tmp_path / "out", "local:2", watch)
     assert len(killed) == 3
     assert clustered.lines(tmp_path / "out") == rows
     assert not clustered.processes(), "the workers have ended"
@@ -100,7 +100,7 @@ def test_a_killed_caller_leaves_no_process_and_is_resumed(tmp_path, rows, pieces
     assert 5 <= stored < len(rows) and workers
     _run(folder, "local:1")
     assert clustered.lines(folder) == rows
-    assert not any(one.is_running() for one in workers)
+    assert not any(worker.is_running() for worker in workers)
 
 
 @pytest.fixture(scope="module")
@@ -108,8 +108,8 @@ def scheduler():
     """Return a scheduler in this process, with one worker that has one thread."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("NPROC", "1")
-        with _cluster(1) as made:
-            yield made
+        with _cluster(1) as cluster:
+            yield cluster
 
 
 def _cluster(workers):
@@ -175,10 +175,10 @@ def test_workers_of_two_kinds_are_refused_or_named(tmp_path, pieces, monkeypatch
 
 
 def test_rows_of_a_mixed_cluster_name_their_machine(tmp_path, rows, pieces, scheduler):
-    data = _run(tmp_path / "out", Cluster(scheduler.scheduler_address, mixed=True))
-    made = provenance.machine()
-    assert set(data.machine.values.tolist()) == {made}
-    marked = [line.removesuffix("}") + f', "machine": "{made}"}}' for line in rows if '"key"' in line]
+    table = _run(tmp_path / "out", Cluster(scheduler.scheduler_address, mixed=True))
+    machine = provenance.machine()
+    assert set(table.machine.values.tolist()) == {machine}
+    marked = [line.removesuffix("}") + f', "machine": "{machine}"}}' for line in rows if '"key"' in line]
     assert [line for line in clustered.lines(tmp_path / "out") if '"key"' in line] == marked
     with pytest.raises(results.DeodarError, match="made_by differ"):
         _run(tmp_path / "out", scheduler.scheduler_address)
@@ -281,14 +281,14 @@ def test_one_caller_at_a_time_writes_into_a_folder(tmp_path, pieces):
 def test_ctrl_c_keeps_what_runs_and_a_second_call_resumes(tmp_path, rows, pieces, scheduler):
     pressed = []
 
-    def told(progress):
+    def watch(progress):
         if progress.rows and not pressed:
             pressed.append(progress.rows)
             os.kill(os.getpid(), signal.SIGINT)
 
     address = scheduler.scheduler_address
     with pytest.raises(KeyboardInterrupt):
-        clustered.experiment().run(tmp_path / "out", on=Resources(cluster=address, progress=told))
+        clustered.experiment().run(tmp_path / "out", on=Resources(cluster=address, progress=watch))
     stored = len(clustered.lines(tmp_path / "out"))
     assert pressed[0] + 1 < stored < len(rows)
     _run(tmp_path / "out", address)
@@ -308,12 +308,12 @@ def test_a_scheduler_that_dies_is_an_error(tmp_path, rows, pieces, monkeypatch):
     process = subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True, env=env)
     address = process.stdout.readline().strip()
 
-    def told(progress):
+    def watch(progress):
         if progress.rows == 6:
             process.kill()
 
     with process, pytest.raises(WorkerError, match=r"the scheduler of .* has not answered for 2 s"):
-        _run(tmp_path / "out", address, told)
+        _run(tmp_path / "out", address, watch)
     _run(tmp_path / "out", "local:1")
     assert clustered.lines(tmp_path / "out") == rows
 
@@ -321,10 +321,10 @@ def test_a_scheduler_that_dies_is_an_error(tmp_path, rows, pieces, monkeypatch):
 def test_a_result_that_never_arrives_is_computed_again(scheduler, monkeypatch):
     """As if the worker had died with the result: its future is finished, and nothing comes."""
     monkeypatch.setattr(on_cluster, "FETCH_SECONDS", 0.3)
-    real, asked = ClusterPool._follow, []
+    real, attempts = ClusterPool._follow, []
 
     async def follow(self, key, attempt, future):
-        asked.append(attempt)
+        attempts.append(attempt)
         if attempt:
             await real(self, key, attempt, future)
 
@@ -333,7 +333,7 @@ def test_a_result_that_never_arrives_is_computed_again(scheduler, monkeypatch):
     with ClusterPool(Cluster(scheduler.scheduler_address)) as pool:
         pool.give("sum", sum, [1, 2])
         clustered.within(lambda: _collect(pool, out))
-    assert out == [("sum", 3)] and asked == [0, 1]
+    assert out == [("sum", 3)] and attempts == [0, 1]
 
 
 def test_a_result_that_arrives_on_no_attempt_is_an_error(scheduler, monkeypatch):
@@ -352,14 +352,14 @@ def test_a_result_that_arrives_on_no_attempt_is_an_error(scheduler, monkeypatch)
 
 
 def test_a_second_ctrl_c_ends_at_once(tmp_path, rows, pieces, scheduler):
-    def told(progress):
+    def watch(progress):
         if progress.rows:
             os.kill(os.getpid(), signal.SIGINT)
             os.kill(os.getpid(), signal.SIGINT)
 
     address = scheduler.scheduler_address
     with pytest.raises(SecondInterrupt):
-        clustered.experiment().run(tmp_path / "out", on=Resources(cluster=address, progress=told))
+        clustered.experiment().run(tmp_path / "out", on=Resources(cluster=address, progress=watch))
     assert len(clustered.lines(tmp_path / "out")) == 3, "the header and the first piece"
     _run(tmp_path / "out", address)
     assert clustered.lines(tmp_path / "out") == rows
@@ -398,8 +398,8 @@ def test_records_need_a_folder_that_every_worker_sees(tmp_path, monkeypatch):
     elsewhere = types.SimpleNamespace(everywhere=lambda function, file, content: [True, False])
     with pytest.raises(WorkerError, match="a worker does not see the folder of the results"):
         results._require_shared(elsewhere, tmp_path)
-    here = types.SimpleNamespace(everywhere=lambda function, *given: [function(*given)])
-    results._require_shared(here, tmp_path)
+    client = types.SimpleNamespace(everywhere=lambda function, *arguments: [function(*arguments)])
+    results._require_shared(client, tmp_path)
     assert not results._sees(tmp_path / "none", b"")
 
 
@@ -459,8 +459,8 @@ def test_a_job_of_slurm_has_a_process_for_each_core(tmp_path):
 def test_pages_of_dask_are_for_this_machine_unless_the_file_says_otherwise(tmp_path):
     settings, _ = slurm_settings({}, "jobs.yaml")
     assert settings["scheduler_options"] == {"dashboard_address": "127.0.0.1:0"}
-    asked = {"scheduler_options": {"dashboard_address": ":8787", "port": 8786}}
-    assert slurm_settings(asked, "jobs.yaml")[0]["scheduler_options"] == asked["scheduler_options"]
+    defaults = {"scheduler_options": {"dashboard_address": ":8787", "port": 8786}}
+    assert slurm_settings(defaults, "jobs.yaml")[0]["scheduler_options"] == defaults["scheduler_options"]
 
 
 def test_the_file_of_slurm_on_the_page_is_read():
@@ -527,9 +527,9 @@ def test_a_run_on_a_cluster_is_watched_and_stopped(tmp_path, rows, pieces):
     """Who watches sees the workers come, and ends them without waiting for their pieces."""
     seen = []
 
-    def watch(now):
-        seen.append(now)
-        return now.running > 0
+    def watch(standing):
+        seen.append(standing)
+        return standing.running > 0
 
     setup, before = clustered.experiment().setup(), clustered.processes()
     with pytest.raises(KeyboardInterrupt):
@@ -546,8 +546,8 @@ def test_a_run_on_a_cluster_is_watched_and_stopped(tmp_path, rows, pieces):
 def test_the_search_for_a_scheduler_can_be_stopped():
     calls = []
 
-    def watch(now):
-        calls.append(now)
+    def watch(standing):
+        calls.append(standing)
         return len(calls) > 3
 
     with socket.socket() as taken:  # bound, but nothing listens
@@ -562,7 +562,7 @@ def test_a_search_without_a_scheduler_ends_with_an_error(monkeypatch):
     monkeypatch.setattr(schedulers, "CONNECT_SECONDS", 0.3)
     with (
         pytest.raises(WorkerError, match=r"no scheduler of Dask answers at tcp://127\.0\.0\.1:9 \("),
-        ClusterPool(Cluster("tcp://127.0.0.1:9"), watch=lambda now: False),
+        ClusterPool(Cluster("tcp://127.0.0.1:9"), watch=lambda standing: False),
     ):
         pass
 
@@ -570,7 +570,10 @@ def test_a_search_without_a_scheduler_ends_with_an_error(monkeypatch):
 def test_the_wait_for_a_first_worker_can_be_stopped():
     end = time.monotonic() + 1
     with _cluster(0) as empty:
-        there = Cluster(empty.scheduler_address, patience=3600)
-        with pytest.raises(KeyboardInterrupt), ClusterPool(there, watch=lambda now: time.monotonic() > end):
+        patient = Cluster(empty.scheduler_address, patience=3600)
+        with (
+            pytest.raises(KeyboardInterrupt),
+            ClusterPool(patient, watch=lambda standing: time.monotonic() > end),
+        ):
             pass
     assert time.monotonic() - end < clustered.LIMIT

@@ -100,13 +100,13 @@ class _LossyPool(ClusterPool):
 
 @pytest.fixture(scope="module")
 def loop():
-    made = asyncio.new_event_loop()
-    thread = threading.Thread(target=made.run_forever)
+    loop = asyncio.new_event_loop()
+    thread = threading.Thread(target=loop.run_forever)
     thread.start()
-    yield made
-    made.call_soon_threadsafe(made.stop)
+    yield loop
+    loop.call_soon_threadsafe(loop.stop)
     thread.join()
-    made.close()
+    loop.close()
 
 
 @pytest.fixture
@@ -146,14 +146,14 @@ def test_any_division_order_repetition_and_loss_gives_the_same_rows(
     file = tmp_path_factory.mktemp("lossy") / "rows.jsonl"
     for cuts, fates, killed in calls:
 
-        def told(progress, killed=killed):
+        def watch(progress, killed=killed):
             if killed is not None and progress.rows >= killed:
                 raise _KilledError
 
         with contextlib.suppress(_KilledError), _LossyPool(fates, loop) as pool:
             jobs = _jobs(cuts, order)
             clustered.within(
-                lambda told=told, jobs=jobs, pool=pool: run_jobs(
+                lambda told=watch, jobs=jobs, pool=pool: run_jobs(
                     jobs, Rows(file, {}), Resources(progress=told), pool
                 )
             )
@@ -215,9 +215,9 @@ def test_a_damaged_file_of_rows_is_read_or_refused_by_name(tmp_path_factory, who
         (folder / name).write_bytes((whole / name).read_bytes())
     (folder / ROWS).write_bytes(content)
     for read in (load_results, lambda place: merge_results([whole, place], place / "merged")):
-        said = ""
+        message = ""
         try:
             read(folder)
         except DeodarError as error:
-            said = str(error)
-        assert not said or str(folder) in said
+            message = str(error)
+        assert not message or str(folder) in message

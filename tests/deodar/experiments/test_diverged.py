@@ -40,46 +40,48 @@ def model(factor: float = 0.1) -> dd.Model:
     """Return a node that grows without bound through a loop if the factor is large, and an independent
     node with noise.
     """
-    made = dd.Model("runaway")
-    made.programs = PROGRAMS
-    u = made.add(dd.Field("u", [], tau=10, sigmoid=dd.Logistic(beta=1), resting_level=1.0))
-    u["activation"] >> made.add(dd.Gain(factor, name="g")) >> u
-    made.add(dd.Field("v", [], tau=10, noise=1.0))
-    return made
+    model = dd.Model("runaway")
+    model.programs = PROGRAMS
+    u = model.add(dd.Field("u", [], tau=10, sigmoid=dd.Logistic(beta=1), resting_level=1.0))
+    u["activation"] >> model.add(dd.Gain(factor, name="g")) >> u
+    model.add(dd.Field("v", [], tau=10, noise=1.0))
+    return model
 
 
 def experiment(factors: Sequence[float], trials: int = 3, **others: object) -> Experiment:
-    given = {
+    options = {
         "events": [LATE, RISEN],
         "factors": [Factor("factor", list(factors), "g.factor")],
         "measures": MEASURES,
     }
-    return changed(Experiment("runaway", model(), dd.TrialPlan(80), trials), **given | others)
+    return changed(Experiment("runaway", model(), dd.TrialPlan(80), trials), **options | others)
 
 
-def finished(made: Experiment, *args: object, says: str = "3 of 9 trials diverged", **others: object):
-    with pytest.warns(RunWarning, match=says) as told:
-        data = made.run(*args, **others)  # type: ignore[arg-type]
-    assert len(told) == 1
-    return data
+def finished(experiment: Experiment, *args: object, says: str = "3 of 9 trials diverged", **others: object):
+    with pytest.warns(RunWarning, match=says) as warned:
+        table = experiment.run(*args, **others)  # type: ignore[arg-type]
+    assert len(warned) == 1
+    return table
 
 
 def test_a_diverged_trial_is_a_row_with_its_reason_and_others_keep_their_bits() -> None:
-    data = finished(
+    table = finished(
         experiment([0.1, 1e6, 0.3]),
         says="3 of 9 trials diverged; the variable 'diverged' gives the reasons, the first is: g became",
     )
-    bad = data["factor"].values == 1e6
-    assert set(data["outcome"].values[bad]) == {"diverged"} and "diverged" not in data["outcome"].values[~bad]
-    assert all(
-        text.startswith("g became infinite or undefined in step ") for text in data["diverged"].values[bad]
+    bad = table["factor"].values == 1e6
+    assert (
+        set(table["outcome"].values[bad]) == {"diverged"} and "diverged" not in table["outcome"].values[~bad]
     )
-    assert set(data["diverged"].values[~bad]) == {""} and set(data["awaited"].values[bad]) == {""}
+    assert all(
+        text.startswith("g became infinite or undefined in step ") for text in table["diverged"].values[bad]
+    )
+    assert set(table["diverged"].values[~bad]) == {""} and set(table["awaited"].values[bad]) == {""}
     good = experiment([0.1, 0.2, 0.3]).run()
     for name in ("duration", "late", "risen", "last", "risen to"):
-        assert np.isnan(data[name].values[bad]).all()
-        np.testing.assert_array_equal(data[name].values[~bad], good[name].values[~bad])
-    assert data["outcome"].values[~bad].tolist() == good["outcome"].values[~bad].tolist()
+        assert np.isnan(table[name].values[bad]).all()
+        np.testing.assert_array_equal(table[name].values[~bad], good[name].values[~bad])
+    assert table["outcome"].values[~bad].tolist() == good["outcome"].values[~bad].tolist()
     assert (
         "diverged" not in good
         and "diverged" not in good.attrs
@@ -88,9 +90,9 @@ def test_a_diverged_trial_is_a_row_with_its_reason_and_others_keep_their_bits() 
 
 
 def test_the_warning_points_to_the_call() -> None:
-    with pytest.warns(RunWarning) as told:
+    with pytest.warns(RunWarning) as warned:
         experiment([1e6, 0.1]).run()
-    assert told[0].filename == __file__
+    assert warned[0].filename == __file__
 
 
 def test_trials_run_one_by_one_give_the_same_rows() -> None:
@@ -139,8 +141,8 @@ def test_the_reason_does_not_depend_on_chunks(monkeypatch: pytest.MonkeyPatch, s
     values = {"g.factor": [1e6, 0.1, 1e4]}
     with pytest.warns(RunWarning, match="2 of 3 trials"):
         courses = run_together(model(), 80, range(3), ["u.activation", "g.output"], values=values)
-    found = [(c.outcome, len(c.times), str(c.error and c.error.problems[0].what)) for c in courses]
-    assert found == [
+    summaries = [(c.outcome, len(c.times), str(c.error and c.error.problems[0].what)) for c in courses]
+    assert summaries == [
         ("diverged", 7, "g.output became infinite or undefined in step 7 (time 7 ms, dt 1)"),
         ("time", 81, "None"),
         ("diverged", 12, "g.output became infinite or undefined in step 12 (time 12 ms, dt 1)"),
@@ -159,19 +161,19 @@ def test_a_batch_in_which_all_trials_diverge_raises_as_a_single_trial_does() -> 
 
 
 def test_an_experiment_of_which_all_trials_diverge_has_their_rows() -> None:
-    data = finished(experiment([1e6, 1e7], 2), says="4 of 4 trials diverged")
-    assert set(data["outcome"].values) == {"diverged"} and np.isnan(data["duration"].values).all()
+    table = finished(experiment([1e6, 1e7], 2), says="4 of 4 trials diverged")
+    assert set(table["outcome"].values) == {"diverged"} and np.isnan(table["duration"].values).all()
 
 
 def test_diverged_trials_are_dropped_from_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(trial_copies, "WORTH", 0)
     values = {"g.factor": [1e6, 0.1, 1e6, 0.3, 1e6, 1e6]}
     with pytest.warns(RunWarning, match="4 of 6 trials"):
-        made = model()
-        made.programs = {}
-        some = run_together(made, 80, range(6), ["v.activation"], values=values)
+        runaway = model()
+        runaway.programs = {}
+        some = run_together(runaway, 80, range(6), ["v.activation"], values=values)
     # one of them has diverged and fills the batch
-    assert sorted(p.batch.size for p in made.programs.values()) == [3, 6]
+    assert sorted(p.batch.size for p in runaway.programs.values()) == [3, 6]
     good = run_together(
         model(), 80, range(6), ["v.activation"], values={"g.factor": [0.1, 0.1, 0.1, 0.3, 0.1, 0.1]}
     )
@@ -215,12 +217,12 @@ def test_the_command_prints_the_number_of_diverged_trials(
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert cli.main(["experiment", "e.json", "--no-progress", "--out", "out"]) == 0
-    told = capsys.readouterr()
+    printed = capsys.readouterr()
     assert (
-        "factor 1e+06: 3 trials, diverged 100 %, no duration" in told.out
-        and "9 trials: diverged 3, " in told.out
+        "factor 1e+06: 3 trials, diverged 100 %, no duration" in printed.out
+        and "9 trials: diverged 3, " in printed.out
     )
-    assert "deodar experiment: warning: 3 of 9 trials diverged; " in told.err
+    assert "deodar experiment: warning: 3 of 9 trials diverged; " in printed.err
     assert cli.main(["experiment", "e.json", "--json", "--out", "out"]) == 0
     assert json.loads(capsys.readouterr().out)["diverged"] == 3
     experiment([1e6, 1e7]).save("none.json")

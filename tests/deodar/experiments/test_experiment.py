@@ -78,24 +78,26 @@ def test_a_saved_experiment_is_equal_when_loaded(tmp_path):
         design="shuffled",
     )
     full.save(tmp_path / "e.json")
-    again = Experiment.load(tmp_path / "e.json")
-    assert dc.replace(again, model=full.model) == full
-    assert again.model == str(tmp_path / "e.model.json") and not again.check()
+    loaded = Experiment.load(tmp_path / "e.json")
+    assert dc.replace(loaded, model=full.model) == full
+    assert loaded.model == str(tmp_path / "e.model.json") and not loaded.check()
     with pytest.raises(OutputExists):
         full.save(tmp_path / "e.json")
 
 
 def test_the_schema_contains_every_kind():
-    found = Experiment.schema()
-    kinds = [part["properties"]["kind"]["const"] for part in found["properties"]["actions"]["items"]["oneOf"]]
+    schema = Experiment.schema()
+    kinds = [
+        part["properties"]["kind"]["const"] for part in schema["properties"]["actions"]["items"]["oneOf"]
+    ]
     assert {"Set", "Ramp", "Push", "Place", "Move", "Remove", "Record", "Snapshot", "Reset", "End"} == set(
         kinds
     )
     assert (
-        found["properties"]["conditions"]["additionalProperties"]["oneOf"][0]["properties"]["level"]["type"]
+        schema["properties"]["conditions"]["additionalProperties"]["oneOf"][0]["properties"]["level"]["type"]
         == "number"
     )
-    json.dumps(found)
+    json.dumps(schema)
 
 
 def test_a_batch_gives_the_rows_of_single_trials():
@@ -142,20 +144,20 @@ def test_factors_are_assigned_to_trials_by_the_design():
 
 
 def test_combined_conditions_are_detected_and_the_missing_one_is_named():
-    both = [
+    appearances = [
         Appears("left up", "u", near=30, radius=8, ends=False),
         Appears("right up", "u", near=95, radius=4, ends=False),
     ]
     conditions = [
         All("both", ["left up", "right up"]),
         AnyOf("either", ["left up", "right up"], ends=False),
-        *both,
+        *appearances,
         Reached("late", 40, ends=False),
     ]
-    data = choice(events=conditions, factors=[], measures=[]).run()
-    assert set(data["outcome"].values) == {"time"} and set(data["awaited"].values) == {"both"}
-    np.testing.assert_array_equal(data["either"], np.fmin(data["left up"], data["right up"]))
-    assert (data["late"] == 40).all() and np.isnan(data["both"]).all()
+    table = choice(events=conditions, factors=[], measures=[]).run()
+    assert set(table["outcome"].values) == {"time"} and set(table["awaited"].values) == {"both"}
+    np.testing.assert_array_equal(table["either"], np.fmin(table["left up"], table["right up"]))
+    assert (table["late"] == 40).all() and np.isnan(table["both"]).all()
 
 
 def test_a_stopped_experiment_resumes_with_the_same_table(tmp_path, monkeypatch):
@@ -195,10 +197,10 @@ def test_a_stopped_experiment_whose_model_is_of_an_older_version_is_resumed(tmp_
     model, rows = tmp_path / "out" / "model.json", tmp_path / "out" / ROWS
     old = model.read_text().replace('"deodar": 3', '"deodar": 2')
     first, *others = rows.read_text().splitlines()
-    about = json.loads(first)
-    about["about"]["model"] = hashlib.sha256(old.encode()).hexdigest()
+    header = json.loads(first)
+    header["about"]["model"] = hashlib.sha256(old.encode()).hexdigest()
     model.write_text(old)
-    rows.write_text("\n".join([json.dumps(about), *others[:-1]]) + "\n")
+    rows.write_text("\n".join([json.dumps(header), *others[:-1]]) + "\n")
     assert experiment.run(tmp_path / "out")["outcome"].identical(whole["outcome"])
     model.write_text(old.replace('"beta": 4.0', '"beta": 5.0'))
     with pytest.raises(OutputExists, match="another experiment: model differ"):
@@ -229,46 +231,46 @@ def test_records_of_a_field_alone_hold_its_activation(tmp_path):
 def version_1(folder, experiment):
     """Save an experiment, as version 1 wrote it: a path without a port meant the output."""
     experiment.save(folder / "e.json")
-    data = json.loads((folder / "e.json").read_text()) | {"experiment": 1, "record": ["u"]}
-    data["measures"] = {
+    document = json.loads((folder / "e.json").read_text()) | {"experiment": 1, "record": ["u"]}
+    document["measures"] = {
         "end": {"of": "u"},
         "pushed": {"of": "left"},
         "high": {"of": "u.activation"},
         "where": {"of": "pose"},
     }
-    data["conditions"] = {"up": {"kind": "Crosses", "of": "u"}, "both": {"kind": "All", "of": ["up"]}}
-    data["actions"] = [{"kind": "Snapshot", "at": 3, "label": "then", "of": ["u", "u.input"]}]
-    (folder / "e.json").write_text(json.dumps(data))
+    document["conditions"] = {"up": {"kind": "Crosses", "of": "u"}, "both": {"kind": "All", "of": ["up"]}}
+    document["actions"] = [{"kind": "Snapshot", "at": 3, "label": "then", "of": ["u", "u.input"]}]
+    (folder / "e.json").write_text(json.dumps(document))
     return folder / "e.json"
 
 
 def test_a_file_of_version_1_means_the_output_by_the_path_of_a_field_alone(tmp_path):
-    found = Experiment.load(version_1(tmp_path, choice()))
-    assert found.plan.watch == ("u.output",) and [m.of for m in found.plan.measures] == [
+    loaded = Experiment.load(version_1(tmp_path, choice()))
+    assert loaded.plan.watch == ("u.output",) and [m.of for m in loaded.plan.measures] == [
         "u.output",
         "left",
         "u.activation",
         "pose",
     ]
-    assert found.plan.events[0].of == "u.output" and found.plan.events[1].of == ("up",)
-    assert found.plan.actions[0].of == ("u.output", "u.input")
+    assert loaded.plan.events[0].of == "u.output" and loaded.plan.events[1].of == ("up",)
+    assert loaded.plan.actions[0].of == ("u.output", "u.input")
 
 
 @pytest.mark.parametrize("version", [1, 2])
 def test_a_file_of_an_older_version_calls_the_object_of_an_action_thing(tmp_path, version):
     actions = [Place(2, "box", (50, 20), (4, 30)), Move(3, "box", (60, 20)), Remove(4, "box")]
     choice(actions=actions, world="arena:blocks").save(tmp_path / "e.json")
-    data = json.loads((tmp_path / "e.json").read_text())
-    assert data["experiment"] == 3 and [action["object"] for action in data["actions"]] == ["box"] * 3
-    for action in data["actions"]:
+    document = json.loads((tmp_path / "e.json").read_text())
+    assert document["experiment"] == 3 and [action["object"] for action in document["actions"]] == ["box"] * 3
+    for action in document["actions"]:
         action["thing"] = action.pop("object")
-    (tmp_path / "e.json").write_text(json.dumps(data | {"experiment": version}))
+    (tmp_path / "e.json").write_text(json.dumps(document | {"experiment": version}))
     assert Experiment.load(tmp_path / "e.json").plan.actions == tuple(actions)
     # also without the model, which converts the paths of version 1
     assert Experiment.from_data(
-        data | {"experiment": version, "model": "missing.json"}
+        document | {"experiment": version, "model": "missing.json"}
     ).plan.actions == tuple(actions)
-    (tmp_path / "e.json").write_text(json.dumps(data))
+    (tmp_path / "e.json").write_text(json.dumps(document))
     with pytest.raises(DocumentError, match=r"actions\.0\.thing: Place has no such parameter"):
         Experiment.load(tmp_path / "e.json")
 
@@ -277,9 +279,9 @@ def test_a_stopped_experiment_of_version_1_is_resumed(tmp_path):
     new = choice(trials=1, measures=[Measure("end", "u.output")])
     whole = new.run(tmp_path / "out")
     first, *rows = (tmp_path / "out" / ROWS).read_text().splitlines()
-    about = json.loads(first)
-    about["about"] |= {"experiment": 1, "measures": {"end": {"of": "u"}}}
-    (tmp_path / "out" / ROWS).write_text("\n".join([json.dumps(about), *rows[:-1]]) + "\n")
+    header = json.loads(first)
+    header["about"] |= {"experiment": 1, "measures": {"end": {"of": "u"}}}
+    (tmp_path / "out" / ROWS).write_text("\n".join([json.dumps(header), *rows[:-1]]) + "\n")
     assert new.run(tmp_path / "out").drop_attrs().identical(whole.drop_attrs())
     with pytest.raises(OutputExists, match="another experiment: measures differ"):
         choice(trials=1, measures=[Measure("end", "u")]).run(tmp_path / "out")
@@ -291,14 +293,14 @@ def test_actions_switch_records_on_and_off_and_store_snapshots(tmp_path):
         Record(10, on=False, when="detected"),
         Snapshot(0, "then", ["u.activation"], when="detected"),
     ]
-    data = choice(actions=actions, watch=["u.activation"], every=5, factors=[], trials=1).run(
+    table = choice(actions=actions, watch=["u.activation"], every=5, factors=[], trials=1).run(
         tmp_path / "out"
     )
-    assert data.sizes["trial"] == 1
+    assert table.sizes["trial"] == 1
     record, then = (
         files.load_record(tmp_path / "out" / "records" / name) for name in ("000000.nc", "000000-then.nc")
     )
-    at = float(data["detected"][0])
+    at = float(table["detected"][0])
     assert record["time"].values.tolist() == list(np.arange(35, at + 11, 5)) and then[
         "time"
     ].values.tolist() == [at]
@@ -351,16 +353,18 @@ def test_objects_of_a_world_are_moved_after_an_event():
         ),
         world=room(),
     )
-    data = moved.run()
-    assert not moved.setup().batched and data["outcome"].values.tolist() == ["touched"]
-    assert float(data["touched"][0]) < float(changed(moved, actions=[]).run()["touched"][0])
+    table = moved.run()
+    assert not moved.setup().batched and table["outcome"].values.tolist() == ["touched"]
+    assert float(table["touched"][0]) < float(changed(moved, actions=[]).run()["touched"][0])
 
 
 def test_workers_give_the_same_table(tmp_path, monkeypatch):
     experiment = Experiment("d", decider(), dd.TrialPlan(400, events=[Crosses("decided", "u.activation")]), 6)
-    here = experiment.run()
+    table = experiment.run()
     assert (
-        experiment.run(tmp_path / "out", on=dd.Resources(workers=1)).drop_attrs().identical(here.drop_attrs())
+        experiment.run(tmp_path / "out", on=dd.Resources(workers=1))
+        .drop_attrs()
+        .identical(table.drop_attrs())
     )
 
 
@@ -370,9 +374,9 @@ def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
     with pytest.warns(
         RunWarning,
         match=r"200 steps in total \(4 trials of at most 50 steps of dt = 1\): a smaller number may be meant",
-    ) as told:
+    ) as warned:
         experiment.run()
-    assert [t.filename for t in told] == [__file__]
+    assert [t.filename for t in warned] == [__file__]
     monkeypatch.setattr(module, "LONG_STEPS", 201)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -380,7 +384,7 @@ def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("changes", "where", "what"),
+    ("changes", "where", "problem"),
     [
         ({"events": [Appears("a", "v")]}, "conditions.a", "nothing is called 'v'"),
         ({"events": [Appears("a", "u", near=300, radius=2)]}, "conditions.a", "no sample lies within 2"),
@@ -403,39 +407,39 @@ def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
         ({"world": "arena:blocks", "events": [Leaves("a", 7.0)]}, "conditions.a", "so it never holds"),
     ],
 )  # fmt: skip
-def test_invalid_experiments_are_refused_before_any_trial_runs(tmp_path, changes, where, what):
+def test_invalid_experiments_are_refused_before_any_trial_runs(tmp_path, changes, where, problem):
     experiment = choice(**({"events": [], "factors": [], "measures": []} | changes))
     with pytest.raises(dd.errors.DeodarError) as refused:
         experiment.run(tmp_path / "out")
-    assert what in str(refused.value) and where in str(refused.value)
+    assert problem in str(refused.value) and where in str(refused.value)
     assert not (tmp_path / "out").exists() and experiment.check()
 
 
 def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
     file = tmp_path / "e.json"
-    data = {
+    document = {
         "experiment": 1,
         "name": "e",
         "model": "m.json",
         "limit": 5,
         "conditions": {"a": {"kind": "Apears", "field": "u"}},
     }
-    data |= {
+    document |= {
         "actions": [{"kind": "Set", "at": 3, "path": "u.tau"}],
         "factors": {"f": {"levels": []}},
         "measures": {"m": {"off": "u"}},
     }
-    file.write_text(json.dumps(data))
+    file.write_text(json.dumps(document))
     with pytest.raises(DocumentError) as refused:
         Experiment.load(file)
-    told = str(refused.value)
+    text = str(refused.value)
     assert (
-        "Did you mean 'Appears'" in told
-        and "a Set needs 'value'" in told
-        and "holds no levels" in told
-        and "Did you mean 'of'" in told
+        "Did you mean 'Appears'" in text
+        and "a Set needs 'value'" in text
+        and "holds no levels" in text
+        and "Did you mean 'of'" in text
     )
-    file.write_text(json.dumps(data | {"experiment": 4}))
+    file.write_text(json.dumps(document | {"experiment": 4}))
     with pytest.raises(DocumentError, match="another version"):
         Experiment.load(file)
     file.write_text("{}")
@@ -447,21 +451,29 @@ def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
 
 
 def test_what_belongs_to_the_plan_is_refused_with_its_place():
-    for given, place in (("conditions", "events"), ("record", "watch"), ("limit", "limit")):
-        with pytest.raises(UnknownName, match=rf"no parameter '{given}'.*dd\.TrialPlan\(.*{place}"):
-            Experiment("e", "m.json", dd.TrialPlan(1), **{given: 5})
+    for former, place in (("conditions", "events"), ("record", "watch"), ("limit", "limit")):
+        with pytest.raises(UnknownName, match=rf"no parameter '{former}'.*dd\.TrialPlan\(.*{place}"):
+            Experiment("e", "m.json", dd.TrialPlan(1), **{former: 5})
     with pytest.raises(ParameterError, match=r"plan: needs a TrialPlan, not 400"):
         Experiment("e", "m.json", 400)
 
 
 def test_problems_of_the_plan_of_a_file_have_its_keys():
-    data = {"experiment": 3, "name": "e", "model": "m.json", "limit": -1, "record": 5, "dt": 0, "trials": 0}
+    document = {
+        "experiment": 3,
+        "name": "e",
+        "model": "m.json",
+        "limit": -1,
+        "record": 5,
+        "dt": 0,
+        "trials": 0,
+    }
     with pytest.raises(DocumentError) as refused:
-        Experiment.from_data(data | {"conditons": {}})
+        Experiment.from_data(document | {"conditons": {}})
     assert [p.where for p in refused.value.problems] == ["conditons", "limit", "record", "trials"]
     assert "Did you mean 'conditions'" in str(refused.value)
     with pytest.raises(DocumentError, match=r"dt: is 0.0; expected a number above 0"):
-        Experiment.from_data(data | {"limit": 1, "record": ["u"], "trials": 1})
+        Experiment.from_data(document | {"limit": 1, "record": ["u"], "trials": 1})
 
 
 def test_duplicate_names_of_columns_are_refused():

@@ -34,11 +34,11 @@ ROWS = [row(0, "near", 10.0), row(1, "near", 30.0, "time"), row(2, "far", 50.0),
 
 
 def test_the_slowest_cell_and_those_that_diverge_are_named() -> None:
-    now = standing(ROWS, 8, (100.0, 2), 110.0)
-    assert (now.rows, now.of, now.share, now.left) == (4, 8, 0.5, 20.0)
-    assert now.slowest == "place far, gain 0.5, median 50"
-    assert now.diverged == ("place far, gain 0.5, 1 of 2",)
-    assert [cell.cut for cell in now.cells] == [0, 1]
+    progress = standing(ROWS, 8, (100.0, 2), 110.0)
+    assert (progress.rows, progress.of, progress.share, progress.left) == (4, 8, 0.5, 20.0)
+    assert progress.slowest == "place far, gain 0.5, median 50"
+    assert progress.diverged == ("place far, gain 0.5, 1 of 2",)
+    assert [cell.cut for cell in progress.cells] == [0, 1]
 
 
 def test_without_rows_or_factors_words_are_still_sentences() -> None:

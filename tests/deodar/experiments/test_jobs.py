@@ -76,13 +76,13 @@ def test_a_killed_run_resumes_with_the_same_rows(tmp_path, rows):
 def test_ctrl_c_keeps_the_rows_of_the_jobs_that_run(tmp_path, rows):
     kept, pressed = Rows(tmp_path / "runs.jsonl", {}), []
 
-    def told(standing):
+    def watch(standing):
         if standing.rows and not pressed:
             pressed.append(standing.rows)
             os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt):
-        run_jobs(jobs()[:3], kept, Resources(workers=2, progress=told))
+        run_jobs(jobs()[:3], kept, Resources(workers=2, progress=watch))
     assert len(kept.found) > pressed[0], "the other worker's job was ended, and its rows were kept"
     run_jobs(jobs(), kept)
     assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows

@@ -18,9 +18,9 @@ from tests.deodar.experiments import clustered
 def parts(tmp_path, monkeypatch):
     """Run the experiment whole, and in two parts; return the folders."""
     clustered.small_pieces(monkeypatch)
-    made = clustered.experiment(8, 400.0)
+    experiment = clustered.experiment(8, 400.0)
     for name, part in (("whole", None), ("first", (0, 3)), ("second", (3, 8))):
-        made.run(tmp_path / name, part=part)
+        experiment.run(tmp_path / name, part=part)
     return tmp_path
 
 
@@ -77,9 +77,9 @@ def test_the_standing_names_slow_and_failing_cells():
         },
     ]
     rows[3]["diverged"] = "u became infinite"
-    now = standing(rows, 8, (100.0, 2), 110.0)
-    assert (now.rows, now.of, now.share, now.left) == (4, 8, 0.5, 20.0)
-    assert [cell.levels for cell in now.cells] == [{"a": 2}, {"a": 1}, {"a": 3}]
-    assert (now.cells[1].duration, now.cells[1].cut, now.cells[1].failed) == (20.0, 1, 0)
-    assert math.isnan(now.cells[2].duration) and [cell.levels for cell in now.failing] == [{"a": 3}]
+    progress = standing(rows, 8, (100.0, 2), 110.0)
+    assert (progress.rows, progress.of, progress.share, progress.left) == (4, 8, 0.5, 20.0)
+    assert [cell.levels for cell in progress.cells] == [{"a": 2}, {"a": 1}, {"a": 3}]
+    assert (progress.cells[1].duration, progress.cells[1].cut, progress.cells[1].failed) == (20.0, 1, 0)
+    assert math.isnan(progress.cells[2].duration) and [cell.levels for cell in progress.failing] == [{"a": 3}]
     assert standing([], 0).share == 1.0 and standing([], 3).left is None

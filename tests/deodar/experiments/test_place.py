@@ -62,9 +62,9 @@ def test_the_compiled_position_is_that_of_the_highest_peak(axes, threshold):
 
 @pytest.mark.parametrize("axes", [(LINE,), (RING,), (HEIGHT, RING)], ids=["line", "ring", "plane"])
 def test_only_samples_near_the_given_position_belong_to_the_peak(axes):
-    near = tuple(0.6 * a.lower + 0.4 * a.upper for a in axes)
+    center = tuple(0.6 * a.lower + 0.4 * a.upper for a in axes)
     radius = 0.22 * max(a.range for a in axes)
-    inside = mask(axes, near, radius)
+    inside = mask(axes, center, radius)
     with jax.enable_x64(True):
         for k in range(6):
             u = smooth(np.random.default_rng(k), axes)
@@ -72,7 +72,7 @@ def test_only_samples_near_the_given_position_belong_to_the_peak(axes):
             np.testing.assert_allclose(
                 position(jax.numpy.asarray(u), axes, 0.0, inside)[0], expected, atol=1e-9
             )
-            view = Observable("u.activation", "place", near, radius)
+            view = Observable("u.activation", "place", center, radius)
             np.testing.assert_allclose(
                 view.seen(u[None, None], axes, 2)[0, 0], expected if len(axes) > 1 else expected[0], atol=1e-9
             )
@@ -125,10 +125,10 @@ def test_a_batch_and_single_trials_measure_equal_positions_across_the_ends():
 
 def test_a_trial_without_a_peak_has_no_position():
     for actions in ([], [Set(60, "u.quadrature", "point")]):
-        data = experiment(
+        table = experiment(
             actions=actions, trials=2, measures=[Measure("place", "u.activation", "place", threshold=50.0)]
         ).run()
-        assert np.isnan(data["place"].values).all()
+        assert np.isnan(table["place"].values).all()
 
 
 def test_the_threshold_of_an_output_has_to_be_given():

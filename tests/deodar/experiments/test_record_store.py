@@ -43,8 +43,8 @@ ADDRESS = "failing://user:top%20secret@bucket/store"
 
 def made(**changes):
     """Return an experiment with records of different lengths and a snapshot."""
-    kept = {"watch": ["u.activation"], "every": 10.0, "actions": [Snapshot(50, "at / 50", ["u"])]}
-    return changed(clustered.experiment(TRIALS, 400.0), **(kept | changes))
+    options = {"watch": ["u.activation"], "every": 10.0, "actions": [Snapshot(50, "at / 50", ["u"])]}
+    return changed(clustered.experiment(TRIALS, 400.0), **(options | changes))
 
 
 @pytest.fixture(autouse=True)
@@ -97,17 +97,17 @@ def identity(folder):
 def bare(folder):
     """Return the rows without the names of their objects."""
     rows = [json.loads(line) for line in clustered.lines(folder)]
-    return [{key: value for key, value in row.items() if key != "record"} for row in rows]
+    return [{key: cell for key, cell in row.items() if key != "record"} for row in rows]
 
 
 def stop_after(rows):
     """Return a function that is called with the progress, and stops the run as Ctrl-C does."""
 
-    def told(progress):
+    def watch(progress):
         if progress.rows >= rows:
             raise KeyboardInterrupt
 
-    return told
+    return watch
 
 
 def equal_to_files(records, files):
@@ -130,8 +130,8 @@ def test_records_in_a_store_are_those_in_files(tmp_path, whole, kind):
     }[kind]
     plain = made(actions=[])
     plain.run(tmp_path / "files")
-    data = plain.run(tmp_path / "out", records=store)
-    assert data.identical(load_results(tmp_path / "files"))
+    table = plain.run(tmp_path / "out", records=store)
+    assert table.identical(load_results(tmp_path / "files"))
     assert bare(tmp_path / "out") == bare(tmp_path / "files")
     assert not (tmp_path / "out" / "records").exists()
     with open_records(store) as records:
@@ -223,9 +223,9 @@ def test_one_trial_of_a_remote_object_reads_a_part_of_it(tmp_path, monkeypatch):
 @pytest.mark.parametrize("how", [{"workers": 2}, {"cluster": "local:2"}], ids=["workers", "cluster"])
 def test_workers_write_the_same_objects(tmp_path, whole, how):
     made().run(tmp_path / "out", records=tmp_path / "store", on=Resources(**how))
-    found, expected = contents(tmp_path / "store"), contents(whole[1])
-    assert {name: found[name] for name in NAMES} == {name: expected[name] for name in NAMES}
-    assert found["index.jsonl"] == expected["index.jsonl"]
+    objects, expected = contents(tmp_path / "store"), contents(whole[1])
+    assert {name: objects[name] for name in NAMES} == {name: expected[name] for name in NAMES}
+    assert objects["index.jsonl"] == expected["index.jsonl"]
     with pytest.raises(WorkerError, match="in the memory of this process, which workers do not see"):
         made().run(tmp_path / "none", records="memory://nowhere", on=Resources(**how))
     assert not (tmp_path / "none").exists()
@@ -353,12 +353,12 @@ def test_another_division_leaves_objects_that_are_reported_and_kept(tmp_path, mo
 def test_a_store_that_fails_half_way_stops_the_rows_and_is_resumed(tmp_path, whole, mode, says):
     out = tmp_path / "out"
 
-    def told(progress):
+    def watch(progress):
         if progress.rows == 4:
             FailingFileSystem.become(mode)
 
     with pytest.raises(OutputError, match=says) as caught:
-        made().run(out, records=ADDRESS, on=Resources(progress=told))
+        made().run(out, records=ADDRESS, on=Resources(progress=watch))
     assert SECRET not in str(caught.value) and "top%20secret" not in str(caught.value)
     assert bare(out) == bare(whole[0])[:5]
     stored = [name.partition("/store/")[2] for name in FailingFileSystem.names()]
@@ -367,9 +367,11 @@ def test_a_store_that_fails_half_way_stops_the_rows_and_is_resumed(tmp_path, who
     made().run(out, records=ADDRESS)
     assert clustered.lines(out) == clustered.lines(whole[0])
     expected = contents(whole[1])
-    found = {name.partition("/store/")[2]: file.getvalue() for name, file in FailingFileSystem.store.items()}
-    assert found == expected
-    texts = [*found.values(), *(p.read_bytes() for p in out.iterdir())]
+    objects = {
+        name.partition("/store/")[2]: file.getvalue() for name, file in FailingFileSystem.store.items()
+    }
+    assert objects == expected
+    texts = [*objects.values(), *(p.read_bytes() for p in out.iterdir())]
     assert not any(b"secret" in text for text in texts), "credentials are stored nowhere"
     assert json.loads((out / "records.json").read_text()) == {"store": "failing://***@bucket/store"}
 
@@ -406,22 +408,22 @@ def test_a_folder_that_is_full_holds_no_part_of_an_object(tmp_path, monkeypatch)
 
 def test_a_disk_that_is_unmounted_half_way_is_not_written_to_this_machine(tmp_path, whole):
     """The empty folder on which it was mounted remains."""
-    out, store, away = tmp_path / "out", tmp_path / "store", tmp_path / "away"
+    out, store, elsewhere = tmp_path / "out", tmp_path / "store", tmp_path / "away"
 
-    def told(progress):
-        if progress.rows == 2 and not away.exists():
-            store.rename(away)
+    def watch(progress):
+        if progress.rows == 2 and not elsewhere.exists():
+            store.rename(elsewhere)
             store.mkdir()
 
     with pytest.raises(OutputError, match="does not see the store of the records"):
-        made().run(out, records=store, on=Resources(progress=told))
+        made().run(out, records=store, on=Resources(progress=watch))
     assert not list(store.iterdir()) and bare(out) == bare(whole[0])[:3]
     with pytest.raises(RecordError, match=r"lacks 1 of the 1 objects with the records of.*Connect the store"):
         made().run(out, records=store)
     assert not list(store.iterdir())
-    made().run(out, records=away)
-    assert contents(away) == contents(whole[1]), "a store that was moved is continued"
-    assert json.loads((out / "records.json").read_text()) == {"store": str(away)}
+    made().run(out, records=elsewhere)
+    assert contents(elsewhere) == contents(whole[1]), "a store that was moved is continued"
+    assert json.loads((out / "records.json").read_text()) == {"store": str(elsewhere)}
 
 
 def test_a_resumed_run_names_the_store_of_its_rows(tmp_path, files):
@@ -504,13 +506,13 @@ def test_a_damaged_index_is_noticed_and_the_objects_are_listed(copied, whole):
     noticed = 0
     for text in damaged:
         file.write_bytes(text)
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as warned:
             warnings.simplefilter("always")
             records = open_records(copied)
-        noticed += bool(told)
-        assert all("index.jsonl is damaged" in str(one.message) for one in told)
+        noticed += bool(warned)
+        assert all("index.jsonl is damaged" in str(warning.message) for warning in warned)
         assert list(records) == list(range(TRIALS))
-        if told:
+        if warned:
             assert {k: records.levels(k) for k in records} == expected
         records.close()
     assert noticed >= len(damaged) - 8, "a letter of the header may differ without harm"
@@ -520,8 +522,8 @@ def test_an_index_names_nothing_outside_of_its_store(copied):
     outside = copied.parent / "outside.zarr.zip"
     shutil.copy(copied / NAMES[0], outside)
     for name in ("../outside.zarr.zip", "records/../../outside.zarr.zip", str(outside)):
-        one = record_index.IndexedObject(name, outside.stat().st_size, "", {0: {}, 1: {}})
-        (copied / "index.jsonl").write_bytes(record_index.text([one]))
+        indexed = record_index.IndexedObject(name, outside.stat().st_size, "", {0: {}, 1: {}})
+        (copied / "index.jsonl").write_bytes(record_index.text([indexed]))
         with pytest.warns(Warned, match=r"index.jsonl is damaged"), open_records(copied) as records:
             assert len(records) == TRIALS
 
@@ -556,8 +558,8 @@ def test_the_command_writes_into_a_store_and_says_how_to_resume(tmp_path, monkey
     call = ["experiment", "here.json", "--no-progress", "--out", "out", "--records"]
     FailingFileSystem.become("full", puts=3)
     assert cli.main([*call, "failing://user:top%20secret@bucket/store"]) == 1
-    said = capsys.readouterr().err
-    assert "is full" in said and "--out out --records 'failing://***@bucket/store'" in said
+    error = capsys.readouterr().err
+    assert "is full" in error and "--out out --records 'failing://***@bucket/store'" in error
     FailingFileSystem.become("")
     assert cli.main([*call, "failing://user:top%20secret@bucket/store"]) == 0
     assert "Records written to failing://***@bucket/store; dd.open_records" in capsys.readouterr().out

@@ -24,9 +24,9 @@ def test_a_file_truncated_at_any_byte_can_be_resumed(tmp_path, cut):
     Rows(file, ABOUT).append(ROWS)
     whole = file.read_bytes()
     file.write_bytes(whole[:-cut])
-    again = Rows(file, ABOUT)
-    assert list(again.found.values()) == ROWS[: len(again.found)]
-    again.append(ROWS)
+    reopened = Rows(file, ABOUT)
+    assert list(reopened.found.values()) == ROWS[: len(reopened.found)]
+    reopened.append(ROWS)
     assert file.read_bytes() == whole
 
 
@@ -63,9 +63,9 @@ def test_an_experiment_with_additional_conditions_resumes_the_file(tmp_path):
     file = tmp_path / "runs.jsonl"
     Rows(file, SMALL, BY).append(ROWS)
     larger = {**SMALL, "runs": {"b": 1, "a": 3}, "planners": {"b": {"reflection": 0.8}}}
-    again = Rows(file, larger, BY)
-    assert list(again.found.values()) == ROWS
-    again.append([{"key": "b/0"}])
+    reopened = Rows(file, larger, BY)
+    assert list(reopened.found.values()) == ROWS
+    reopened.append([{"key": "b/0"}])
     assert list(Rows(file, larger, BY).found) == ["a/0", "a/1", "a/2", "b/0"]
     lines = file.read_text().splitlines()
     assert [k for k, line in enumerate(lines) if '"about"' in line] == [0, 4]

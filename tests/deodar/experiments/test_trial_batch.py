@@ -30,19 +30,19 @@ def test_a_batch_gives_the_values_of_single_trials():
     many = run_together(decider(), 400, [7, 0, 3, 1], ["u.activation"], [DECIDED], precision="float64")
     assert len({c.duration for c in many}) > 2
     for trial, course in zip([7, 0, 3, 1], many, strict=True):
-        one = run_alone(
+        alone = run_alone(
             decider(), 400, trial=trial, watch=["u.activation"], events=[DECIDED], precision="float64"
         )
-        np.testing.assert_array_equal(course.times, one.times)
-        np.testing.assert_allclose(course.values["u.activation"], one.values["u.activation"], atol=1e-10)
-        assert (course.outcome, course.events) == (one.outcome, one.events)
+        np.testing.assert_array_equal(course.times, alone.times)
+        np.testing.assert_allclose(course.values["u.activation"], alone.values["u.activation"], atol=1e-10)
+        assert (course.outcome, course.events) == (alone.outcome, alone.events)
 
 
 def test_finished_trials_are_dropped_from_the_batch(monkeypatch):
     monkeypatch.setattr(trial_copies, "WORTH", 0)
-    model, left = decider(), []
-    courses = run_together(model, 600, range(16), events=[DECIDED], between=left.append)
-    assert left[0] == 16 and left[-1] == 0 and sorted(left, reverse=True) == left
+    model, remaining = decider(), []
+    courses = run_together(model, 600, range(16), events=[DECIDED], between=remaining.append)
+    assert remaining[0] == 16 and remaining[-1] == 0 and sorted(remaining, reverse=True) == remaining
     assert sizes(model)[-1] == 16 and len(sizes(model)) >= 3
     assert sum(course.outcome == "decided" for course in courses) > 8
 
@@ -61,8 +61,8 @@ def test_a_smaller_batch_has_the_state_of_the_larger_one_where_kernels_differ(mo
     assert {c.outcome for c in many} >= {"decided"} and len(sizes(model)) >= 3
     for k in (0, count - 1):
         model.set("u.kernel.0.amplitude", strengths[k])
-        one = run_alone(model, 600, trial=k, watch=["u.activation"], events=[DECIDED])
-        assert one.duration == many[k].duration
+        alone = run_alone(model, 600, trial=k, watch=["u.activation"], events=[DECIDED])
+        assert alone.duration == many[k].duration
 
 
 def test_a_smaller_batch_is_compiled_only_if_it_saves_time():
@@ -101,20 +101,20 @@ def test_fields_are_sampled_in_a_batch():
 def test_each_trial_has_its_own_world_and_drops_it_when_it_ends():
     model, starts = straight(), [(10, 20, 0), (60, 20, 0), (35, 20, 0), (75, 20, 0)]
     model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
-    arena, there = (
+    arena, arrival = (
         room(start=starts, goal=[(80, 20)] * 4, slip=0.05),
         [Within("there", 5, "pose.output", "goal.output")],
     )
     model.add(Sensor("goal", [dd.Axis("of", 0, 1, 2)], sensor="goal"))
-    many = run_together(model, 300, range(4), ["pose.output"], there, world=arena, precision="float64")
+    many = run_together(model, 300, range(4), ["pose.output"], arrival, world=arena, precision="float64")
     assert len({c.duration for c in many}) == 4 and {c.outcome for c in many} == {"there"}
     assert sizes(model) == [1, 2, 4]
     for trial, course in enumerate(many):
-        one = run_alone(
-            model, 300, arena, trial=trial, watch=["pose.output"], events=there, precision="float64"
+        alone = run_alone(
+            model, 300, arena, trial=trial, watch=["pose.output"], events=arrival, precision="float64"
         )
-        np.testing.assert_array_equal(course.times, one.times)
-        np.testing.assert_allclose(course.values["pose.output"], one.values["pose.output"], atol=1e-10)
+        np.testing.assert_array_equal(course.times, alone.times)
+        np.testing.assert_allclose(course.values["pose.output"], alone.values["pose.output"], atol=1e-10)
         assert course.values["pose.output"][0, 0] == starts[trial][0]
 
 

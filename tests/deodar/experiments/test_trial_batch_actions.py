@@ -57,28 +57,28 @@ def requires_equal(
     watch: Sequence[str],
     limit: float = 120,
     precision: str = "float64",
-    **given: Any,
+    **options: Any,
 ) -> list[Trial]:
     """Require that a batch of four equals four single trials, and return the batch."""
-    given |= {"watch": watch, "events": events, "actions": actions, "precision": precision, "seed": 3}
-    many = run_together(model, limit, [4, 0, 3, 1], **given)
+    options |= {"watch": watch, "events": events, "actions": actions, "precision": precision, "seed": 3}
+    many = run_together(model, limit, [4, 0, 3, 1], **options)
     tolerance = {"rtol": 0, "atol": 1e-10 if precision == "float64" else 1e-4}
     for number, trial in zip([4, 0, 3, 1], many, strict=True):
-        one = run_alone(model, limit, trial=number, **given)
-        assert (trial.outcome, trial.events) == (one.outcome, one.events)
-        np.testing.assert_array_equal(trial.times, one.times)
-        np.testing.assert_array_equal(trial.recorded, one.recorded)
+        alone = run_alone(model, limit, trial=number, **options)
+        assert (trial.outcome, trial.events) == (alone.outcome, alone.events)
+        np.testing.assert_array_equal(trial.times, alone.times)
+        np.testing.assert_array_equal(trial.recorded, alone.recorded)
         for name in watch:
-            np.testing.assert_allclose(trial.values[name], one.values[name], **tolerance)
-        for name, value in one.measures.items():
-            found = [float("nan") if v is None else v for v in (trial.measures[name], value)]
-            np.testing.assert_allclose(*found, **tolerance)
-        assert list(trial.snapshots) == list(one.snapshots)
-        for label, (moment, ports) in one.snapshots.items():
+            np.testing.assert_allclose(trial.values[name], alone.values[name], **tolerance)
+        for name, measure in alone.measures.items():
+            numbers = [float("nan") if v is None else v for v in (trial.measures[name], measure)]
+            np.testing.assert_allclose(*numbers, **tolerance)
+        assert list(trial.snapshots) == list(alone.snapshots)
+        for label, (moment, ports) in alone.snapshots.items():
             at, values = trial.snapshots[label]
             assert at == moment
-            for path, value in ports.items():
-                np.testing.assert_allclose(values[path], value, **tolerance)
+            for path, measure in ports.items():
+                np.testing.assert_allclose(values[path], measure, **tolerance)
     return many
 
 
@@ -122,15 +122,15 @@ def test_actions_on_a_batch_give_equal_trials_in_single_precision() -> None:
 
 def test_trials_may_differ_in_the_parameter_that_an_action_sets() -> None:
     actions, levels = [Ramp(20, "mode", 5.0, 10), Set(90, "u.tau", 30.0)], [0.0, 1.0, 2.0, -1.0]
-    given: dict[str, Any] = {"watch": ["u"], "actions": actions, "precision": "float64", "seed": 3}
+    options: dict[str, Any] = {"watch": ["u"], "actions": actions, "precision": "float64", "seed": 3}
     many = run_together(
-        noisy(), 120, range(4), values={"mode": levels, "u.resting_level": [-1, -2, 0, 1]}, **given
+        noisy(), 120, range(4), values={"mode": levels, "u.resting_level": [-1, -2, 0, 1]}, **options
     )
     for k, trial in enumerate(many):
         model = noisy()
         model.set({"mode": levels[k], "u.resting_level": [-1, -2, 0, 1][k]})
-        one = run_alone(model, 120, trial=k, **given)
-        np.testing.assert_allclose(trial.values["u"], one.values["u"], atol=1e-10)
+        alone = run_alone(model, 120, trial=k, **options)
+        np.testing.assert_allclose(trial.values["u"], alone.values["u"], atol=1e-10)
 
 
 def learner() -> dd.Model:
@@ -183,15 +183,15 @@ def test_a_trial_that_diverges_by_an_action_leaves_the_others() -> None:
     model = dd.Model("runaway")
     u = model.add(dd.Field("u", [], tau=10, sigmoid=dd.Logistic(beta=1), resting_level=1.0, noise=0.1))
     u["activation"] >> model.add(dd.Gain(0.1, name="g")) >> u
-    given: dict[str, Any] = {"watch": ["u"], "tolerant": True, "precision": "float64", "every": 2}
+    options: dict[str, Any] = {"watch": ["u"], "tolerant": True, "precision": "float64", "every": 2}
     actions = [Set([200, 21, 200, 34], "g.factor", 1e6), Snapshot(30, "then", ["u"])]
-    many = run_together(model, 200, range(4), actions=actions, **given)
+    many = run_together(model, 200, range(4), actions=actions, **options)
     for k, trial in enumerate(many):
-        one = run_alone(model, 200, trial=k, actions=actions, **given)
-        assert trial.outcome == one.outcome == ("diverged" if k % 2 else "time")
-        np.testing.assert_array_equal(trial.times, one.times)
-        np.testing.assert_allclose(trial.values["u"], one.values["u"], atol=1e-10)
-        assert str(trial.error) == str(one.error) and list(trial.snapshots) == list(one.snapshots)
+        alone = run_alone(model, 200, trial=k, actions=actions, **options)
+        assert trial.outcome == alone.outcome == ("diverged" if k % 2 else "time")
+        np.testing.assert_array_equal(trial.times, alone.times)
+        np.testing.assert_allclose(trial.values["u"], alone.values["u"], atol=1e-10)
+        assert str(trial.error) == str(alone.error) and list(trial.snapshots) == list(alone.snapshots)
 
 
 def test_an_action_with_a_time_for_each_trial_is_part_of_the_file_and_needs_enough_times() -> None:
@@ -228,13 +228,13 @@ def robot() -> dd.Model:
     return model
 
 
-def rooms(**given: Any) -> dd.Arena:
+def rooms(**options: Any) -> dd.Arena:
     """Return an arena with another object in each of five trials."""
     layouts = [
         {**ROOM, "blocks": [{"name": "own", "center": [30 + 5 * k, 20], "size": [4, 4]}], "start": [8, 20]}
         for k in range(5)
     ]
-    return dd.Arena(layouts, unit="cm", goal=(80, 8), noise=dd.ArenaNoise(slip=0.2), **given)
+    return dd.Arena(layouts, unit="cm", goal=(80, 8), noise=dd.ArenaNoise(slip=0.2), **options)
 
 
 FAR = Crosses("far", "pose.output", 24, ends=False)
@@ -285,11 +285,11 @@ def test_a_block_that_is_put_onto_another_one_during_a_run_is_named(alone: bool)
                 run_together(robot(), 40, [0, 1], world=world, actions=actions)
         return [str(w.message) for w in caught if w.category is RunWarning]
 
-    each = 1 if alone else 2
+    copies = 1 if alone else 2
     texts = run(Move(20, "red", (61, 22)), Move(30, "red", (70, 20)))
-    assert len(texts) == each
+    assert len(texts) == copies
     assert texts[0].startswith("arena: the blocks 'red' and 'green' overlap by 3 x 2 cm")
-    assert len(run(Place(20, "blue", (62, 20), (4, 4)))) == each
+    assert len(run(Place(20, "blue", (62, 20), (4, 4)))) == copies
     assert run(Move(20, "red", (60, 20)), Move(20, "green", (40, 20))) == []  # they change places
 
 
@@ -316,15 +316,15 @@ def test_a_placed_object_has_its_own_height_in_each_trial() -> None:
 
 def test_trials_in_a_world_may_have_other_parameters_in_one_batch() -> None:
     speeds = [300.0, 600.0, 500.0, 400.0]
-    given: dict[str, Any] = {"watch": WATCH, "world": rooms(), "precision": "float64", "events": [TOUCHED]}
-    many = run_together(robot(), 60, range(4), values={"go left.amplitude": speeds}, **given)
+    options: dict[str, Any] = {"watch": WATCH, "world": rooms(), "precision": "float64", "events": [TOUCHED]}
+    many = run_together(robot(), 60, range(4), values={"go left.amplitude": speeds}, **options)
     for k, trial in enumerate(many):
         model = robot()
         model.set("go left.amplitude", speeds[k])
-        one = run_alone(model, 60, trial=k, **given)
-        assert trial.events == one.events
+        alone = run_alone(model, 60, trial=k, **options)
+        assert trial.events == alone.events
         for name in WATCH:
-            np.testing.assert_allclose(trial.values[name], one.values[name], atol=1e-10)
+            np.testing.assert_allclose(trial.values[name], alone.values[name], atol=1e-10)
 
 
 def test_trials_with_changed_arenas_stay_themselves_when_others_end() -> None:
@@ -354,13 +354,15 @@ def test_an_experiment_with_actions_runs_in_one_batch() -> None:
     )
     setup = experiment.setup()
     assert setup.batched and setup.pieces() == [[0, 1, 2, 3]]
-    data = experiment.run()
+    table = experiment.run()
     for k in range(4):
         model = robot()
-        model.set("go left.amplitude", float(data["speed"][k]))
-        given = {"world": rooms(), "events": [FAR, TOUCHED], "actions": experiment.plan.actions}
-        one = run_alone(model, 60, trial=k, measures=experiment.plan.measures, precision="float64", **given)  # type: ignore[arg-type]
-        assert float(data["where"][k]) == pytest.approx(one.measures["where"], abs=1e-10)
+        model.set("go left.amplitude", float(table["speed"][k]))
+        options = {"world": rooms(), "events": [FAR, TOUCHED], "actions": experiment.plan.actions}
+        alone = run_alone(
+            model, 60, trial=k, measures=experiment.plan.measures, precision="float64", **options
+        )  # type: ignore[arg-type]
+        assert float(table["where"][k]) == pytest.approx(alone.measures["where"], abs=1e-10)
 
 
 @pytest.mark.parametrize(

@@ -63,18 +63,18 @@ def test_the_first_sample_may_end_a_trial():
 
 
 def test_an_object_that_appears_stops_the_robot_until_it_is_removed():
-    there = Place(60, "box", (50, 20), (4, 30))
+    placed = Place(60, "box", (50, 20), (4, 30))
     world = room()
-    course = run_alone(straight(), 250, world, events=[TOUCH], actions=[there], watch=["pose"])
+    course = run_alone(straight(), 250, world, events=[TOUCH], actions=[placed], watch=["pose"])
     assert course.outcome == "touched" and course.values["pose"][-1, 0] == pytest.approx(
         50 - 2 - 3.7, abs=0.05
     )
     through = run_alone(
-        straight(), 500, world, events=[GOAL], actions=[there, Remove(200, "box")], watch=["pose"]
+        straight(), 500, world, events=[GOAL], actions=[placed, Remove(200, "box")], watch=["pose"]
     )
     assert through.outcome == "reached" and (np.diff(through.values["pose"][:, 0]) < 1e-3).sum() > 50
-    away = run_alone(straight(), 500, world, events=[GOAL], actions=[there, Move(100.0, "box", (50, -60))])
-    assert away.duration == through.duration - 100
+    trial = run_alone(straight(), 500, world, events=[GOAL], actions=[placed, Move(100.0, "box", (50, -60))])
+    assert trial.duration == through.duration - 100
     # the box was removed after each trial
     assert run_alone(straight(), 500, world, events=[GOAL]).outcome == "reached"
 
@@ -130,12 +130,12 @@ def test_an_action_has_a_document_time_from_any_start(t0):
 
 def test_a_trial_does_not_depend_on_earlier_trials():
     world = room(slip=0.3, place_noise=0.5, start=[(10, 15, 0), (10, 25, 0.2)])
-    given = {"limit": 80, "world": world, "watch": ["pose", "place"], "seed": 4}
-    first = run_alone(straight(), trial=1, **given)
-    other = run_alone(straight(), trial=0, **given)
-    again = run_alone(straight(), trial=1, **given)
+    options = {"limit": 80, "world": world, "watch": ["pose", "place"], "seed": 4}
+    first = run_alone(straight(), trial=1, **options)
+    other = run_alone(straight(), trial=0, **options)
+    second = run_alone(straight(), trial=1, **options)
     assert [round(float(c.values["pose"][0, 1]), 4) for c in (first, other)] == [25, 15]
-    np.testing.assert_array_equal(first.values["place"], again.values["place"])
+    np.testing.assert_array_equal(first.values["place"], second.values["place"])
     assert not np.array_equal(first.values["place"], other.values["place"])
 
 
@@ -181,13 +181,13 @@ class Shelf(dd.World):
 
 def test_actions_change_any_world_that_has_their_methods():
     world = Shelf()
-    given = {
+    options = {
         "actions": [Place(2, "plate", (0, 0), (1, 1)), Remove(4, "cup"), Remove(6, "plate")],
         "watch": ["things"],
     }
     # both trials start with the same objects; at the time of an action the sample is taken first
     for _ in range(2):
-        assert run_alone(decider(), 8, world, **given).values["things"].tolist() == [
+        assert run_alone(decider(), 8, world, **options).values["things"].tolist() == [
             1,
             1,
             1,
@@ -208,7 +208,7 @@ class Fixed(Shelf):
 
 
 @pytest.mark.parametrize(
-    ("world", "action", "what"),
+    ("world", "action", "method"),
     [
         (
             Shelf(),
@@ -231,8 +231,8 @@ class Fixed(Shelf):
     ],
     ids=["no move", "no way back", "a picture"],
 )
-def test_an_action_refuses_a_world_without_its_method(world: dd.World, action: dd.Action, what: str):
-    with pytest.raises(WorldError, match=what):
+def test_an_action_refuses_a_world_without_its_method(world: dd.World, action: dd.Action, method: str):
+    with pytest.raises(WorldError, match=method):
         run_alone(decider(), 10, world, actions=[action])
 
 

@@ -30,12 +30,12 @@ def test_a_further_call_has_the_results_of_a_first_one_and_compiles_nothing():
     values = {"u.noise": [2.0, 2.0, 2.0]}
     trials.run([0, 1, 2], seed=1)
     trials.run([7, 8, 9], 1, {"u.noise": [1.0, 2.0, 3.0]})
-    known = {key: (p.traced, p.compiled) for key, p in trials.dynamics.model.programs.items()}
-    again = trials.run([3, 4, 5], 2), trials.run([3, 4, 5], 2, values)
-    assert {key: (p.traced, p.compiled) for key, p in trials.dynamics.model.programs.items()} == known
-    assert equal(again[0], dd.Trials(decider(), PLAN).run([3, 4, 5], 2))
-    assert equal(again[1], dd.Trials(decider(), PLAN).run([3, 4, 5], 2, values))
-    for swept, alone in zip(again[1], dd.Trials(model, PLAN).run([3, 4, 5], 2), strict=True):
+    counts = {key: (p.traced, p.compiled) for key, p in trials.dynamics.model.programs.items()}
+    outcomes = trials.run([3, 4, 5], 2), trials.run([3, 4, 5], 2, values)
+    assert {key: (p.traced, p.compiled) for key, p in trials.dynamics.model.programs.items()} == counts
+    assert equal(outcomes[0], dd.Trials(decider(), PLAN).run([3, 4, 5], 2))
+    assert equal(outcomes[1], dd.Trials(decider(), PLAN).run([3, 4, 5], 2, values))
+    for swept, alone in zip(outcomes[1], dd.Trials(model, PLAN).run([3, 4, 5], 2), strict=True):
         np.testing.assert_allclose(swept.values["u"], alone.values["u"], atol=1e-4)
 
 

@@ -27,12 +27,12 @@ STATED = [kind for kind in KINDS if type(example(kind)).bounds is not Element.bo
 def _inside(model: dd.Model, ports: list[str], duration: float = 60) -> float:
     """Require every value inside its interval; return the used share of the widest one."""
     wiring = Wiring(model.document, resolve(model.document)[0])
-    data = dd.simulate(model, duration, dt=1, record=ports, every=1, precision="float64")
+    record = dd.simulate(model, duration, dt=1, record=ports, every=1, precision="float64")
     used = 0.0
     for port in ports:
         path, _, name = port.rpartition(".")
         low, high = wiring.bounds[model[path].id].get(name, (-math.inf, math.inf))
-        values = data[port].values
+        values = record[port].values
         assert low - 1e-9 <= values.min() and values.max() <= high + 1e-9, (
             port,
             low,

@@ -46,8 +46,8 @@ def test_a_kind_without_inputs_runs_at_once(kind: str) -> None:
 def test_the_first_field_has_one_new_axis_and_the_next_one_the_axes_of_the_first() -> None:
     doc, (u,) = building.add(Document("m"), "Field", {})
     assert doc.by_id()[u].element.axes == (new_elements.FIRST,)  # type: ignore[attr-defined]
-    other = edit.add(Document("m"), dd.Field("u", [HUE]))[0]
-    doc, (s,) = building.add(other, "GaussianStimulus", {})
+    document = edit.add(Document("m"), dd.Field("u", [HUE]))[0]
+    doc, (s,) = building.add(document, "GaussianStimulus", {})
     assert doc.by_id()[s].element.axes == (HUE,)  # type: ignore[attr-defined]
 
 
@@ -72,8 +72,8 @@ def test_a_field_and_two_stimuli_that_were_added_form_one_peak(axes: list[dd.Axi
         values = {"center": place, "windows": [{"kind": "Window", "start": 0, "stop": 400}]}
         values |= {} if amplitude == 6.0 else {"amplitude": amplitude}
         doc, _ = building.add(doc, "GaussianStimulus", values, around=Around(target=(u, "")))
-    data = dd.simulate(Model(document=doc), 1000, record=["field.activation"], every=200)
-    activation = data["field.activation"].values
+    record = dd.simulate(Model(document=doc), 1000, record=["field.activation"], every=200)
+    activation = record["field.activation"].values
     spots = [
         tuple(int(np.abs(a.points - p).argmin()) for a, p in zip(axes, at, strict=True)) for at in places
     ]
@@ -124,8 +124,8 @@ def test_removed_elements_leave_no_position_for_those_that_get_their_ids() -> No
     doc, (u,) = building.add(Document("m"), "Field", {}, "u", at=(5, 6))
     gone = building.remove(doc, [u])
     assert gone.layout == {} and gone.entries == ()
-    again, (same,) = building.add(gone, "Field", {}, "u")
-    assert same == u and building.positions(again) == {}
+    restored, (same,) = building.add(gone, "Field", {}, "u")
+    assert same == u and building.positions(restored) == {}
 
 
 def test_removal_of_a_group_removes_its_content_and_connections() -> None:
@@ -222,11 +222,11 @@ def test_a_copy_is_a_document_of_its_own_and_pastes_the_same_content() -> None:
     text = clipboard.text(building.excerpt(doc, [], [("a",)]))
     read = clipboard.read(text)
     assert [e.path for e in read.entries] == ["a.u", "a.b.v", "a.u>Gain"] and problems(read) == []
-    new, made = building.paste(doc, read, at=(0, 10))
-    assert [new.by_id()[i].path for i in made] == ["a2.u", "a2.b.v", "a2.u>Gain"]
-    assert building.positions(new)[made[0]] == (0, 10)
+    new, pasted = building.paste(doc, read, at=(0, 10))
+    assert [new.by_id()[i].path for i in pasted] == ["a2.u", "a2.b.v", "a2.u>Gain"]
+    assert building.positions(new)[pasted[0]] == (0, 10)
     assert len(new.connections) == 6 and len(new.parameters[0].links) == 2
-    alone, made = building.paste(Document("other"), read)
+    alone, pasted = building.paste(Document("other"), read)
     assert [c.reads for c in alone.connections] == ["", "", "delayed"]
     assert (
         document_files.to_data(alone)[0]["elements"].keys()
@@ -236,9 +236,9 @@ def test_a_copy_is_a_document_of_its_own_and_pastes_the_same_content() -> None:
 
 def test_a_copy_of_elements_of_several_groups_begins_at_the_group_of_all() -> None:
     doc = pair().document
-    both = building.excerpt(doc, [doc.by_names()["a", "u"].id, doc.by_names()["a", "b", "v"].id])
-    assert [e.path for e in both.entries] == ["u", "b.v"]
-    assert [c.reads for c in both.connections] == ["delayed"], "the coupling between them was not copied"
+    excerpt = building.excerpt(doc, [doc.by_names()["a", "u"].id, doc.by_names()["a", "b", "v"].id])
+    assert [e.path for e in excerpt.entries] == ["u", "b.v"]
+    assert [c.reads for c in excerpt.connections] == ["delayed"], "the coupling between them was not copied"
 
 
 def test_a_clipboard_text_contains_its_arrays() -> None:
@@ -246,8 +246,8 @@ def test_a_clipboard_text_contains_its_arrays() -> None:
     weights = np.random.default_rng(0).normal(size=(101, 101))
     model.add(dd.Field("u", [X])) >> dd.Weights(weights, [X], name="w") >> model.add(dd.Field("v", [X]))
     text = clipboard.text(building.excerpt(model.document, [e.id for e in model.document.entries]))
-    made, ids = building.paste(Document("m"), clipboard.read(text))
-    np.testing.assert_array_equal(made.by_id()[ids[1]].element.weights.data, weights)  # type: ignore[attr-defined]
+    pasted, ids = building.paste(Document("m"), clipboard.read(text))
+    np.testing.assert_array_equal(pasted.by_id()[ids[1]].element.weights.data, weights)  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize(
@@ -280,7 +280,7 @@ def test_text_that_is_no_document_is_refused(text: str) -> None:
 def test_paste_into_a_document_where_a_name_cannot_be_used_changes_nothing() -> None:
     model = Model("m")
     model.parameter("u.tau", 3.0)
-    other = edit.add(Document("o"), dd.Field("u"))[0]
+    document = edit.add(Document("o"), dd.Field("u"))[0]
     with pytest.raises(DeodarError):
-        building.paste(model.document, other)
+        building.paste(model.document, document)
     assert model.document.entries == ()

@@ -34,7 +34,7 @@ def texts(diagram):
 
 
 def wires(model):
-    by = {item.id: item.name for item in sketch(model.document).items}
+    by = {box.id: box.name for box in sketch(model.document).items}
     return [(by[w.source], by[w.target], w.sign, w.captions) for w in sketch(model.document).wires]
 
 
@@ -138,7 +138,7 @@ def test_a_picture_names_axes_groups_templates_ports_sensors_and_motors():
     part = dd.Model("part")
     part.add(dd.Field("v"))
     model.insert(part, "left", link=True)
-    shown = texts(dd.draw(model))
+    drawn = texts(dd.draw(model))
     assert {
         "u",
         "phi: −180 … 180 deg, periodic",
@@ -148,8 +148,8 @@ def test_a_picture_names_axes_groups_templates_ports_sensors_and_motors():
         "eye",
         "wheel",
         "activation",
-    } <= set(shown)
-    assert "left (linked to part)" in shown and "project integral" in shown
+    } <= set(drawn)
+    assert "left (linked to part)" in drawn and "project integral" in drawn
     forms = {i.name: i.form for i in sketch(model.document).items}
     assert forms == {"u": "field", "eye": "sensor", "wheel": "motor", "v": "node"}
 
@@ -207,34 +207,36 @@ def test_a_notebook_shows_the_picture():
     model, a, b = pair()
     a >> b
     assert dd.draw(model)._repr_svg_() == dd.draw(model).svg
-    shown = model._repr_html_()
-    assert dd.draw(model).svg in shown and "<summary>2 elements</summary>" in shown
+    page = model._repr_html_()
+    assert dd.draw(model).svg in page and "<summary>2 elements</summary>" in page
     assert repr(dd.draw(model)).startswith("<Diagram of 'pair', ")
 
 
 def test_pictures_are_saved_as_svg_pdf_and_png(tmp_path):
     model, a, b = pair()
     a >> dd.Gain(2) >> b
-    made = dd.draw(model)
+    drawing = dd.draw(model)
     for name in ("a.svg", "a.pdf", "a.PNG"):
-        made.save(tmp_path / name)
-        made.save(tmp_path / f"again-{name}", width=3.5)
-    assert (tmp_path / "a.svg").read_text(encoding="utf-8") == made.svg == dd.draw(model).svg
+        drawing.save(tmp_path / name)
+        drawing.save(tmp_path / f"again-{name}", width=3.5)
+    assert (tmp_path / "a.svg").read_text(encoding="utf-8") == drawing.svg == dd.draw(model).svg
     assert ET.parse(tmp_path / "again-a.svg").getroot().get("width") == "252pt"
     assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
     with Image.open(tmp_path / "again-a.PNG") as picture:
         assert picture.size[0] == 1050
         assert len(set(picture.convert("L").resize((60, 20)).tobytes())) > 20, "something is drawn"
-    assert made.figure(7.0).get_size_inches() == pytest.approx([7.0, 7.0 * made.size[1] / made.size[0]])
+    assert drawing.figure(7.0).get_size_inches() == pytest.approx(
+        [7.0, 7.0 * drawing.size[1] / drawing.size[0]]
+    )
     with pytest.raises(OutputExists):
-        made.save(tmp_path / "a.svg")
-    made.save(tmp_path / "a.svg", force=True)
-    for name, options, what in (
+        drawing.save(tmp_path / "a.svg")
+    drawing.save(tmp_path / "a.svg", force=True)
+    for name, options, problem in (
         ("a.gif", {}, "no format of pictures"),
         ("b.svg", {"width": 0}, "width is 0 inches"),
     ):
-        with pytest.raises(DeodarError, match=what):
-            made.save(tmp_path / name, **options)
+        with pytest.raises(DeodarError, match=problem):
+            drawing.save(tmp_path / name, **options)
         assert not (tmp_path / name).exists()
 
 

@@ -66,8 +66,8 @@ def test_links_follow_rename_and_move(model: dd.Model) -> None:
     model.move("w", "deep.inside")
     model.set("gain", 6)
     assert model.get("deep.inside.w.tau") == 6.0
-    again = document_files.from_data(json.loads(model.to_json()), {})
-    assert again == model.document
+    reloaded = document_files.from_data(json.loads(model.to_json()), {})
+    assert reloaded == model.document
 
 
 @pytest.mark.parametrize(
@@ -137,16 +137,16 @@ def test_only_a_number_can_become_a_document_parameter(model: dd.Model, leaf: st
 def test_no_element_is_placed_where_its_parameter_has_the_name_of_a_document_parameter(place: str) -> None:
     model = dd.Model("m")
     model.parameter("u.tau" if place != "group" else "g.u.tau", 5.0)
-    other = model.add(dd.Field("w", [X]))
+    second = model.add(dd.Field("w", [X]))
     before = model.document
     with pytest.raises(ModelError, match=r"a document parameter is called '(g\.)?u\.tau', like a parameter"):
         match place:
             case "add":
                 model.add(dd.Field("u", [X]))
             case "rename":
-                edit.move(before, other.id, ("u",))
+                edit.move(before, second.id, ("u",))
             case _:
-                edit.move(before, other.id, ("g", "u"))
+                edit.move(before, second.id, ("g", "u"))
     assert model.document == before
 
 

@@ -179,8 +179,8 @@ def test_ids_survive_rename_move_group_and_ungroup() -> None:
     assert u.element.name == "w"
     assert model.document.connections == links
     assert model.document.links() == {(u.id, "tau"): "gain"}
-    now = {"w": "g.u", "inner.v": "g.inner.v", "left": "left", "u>Gain": "g.u>Gain"}
-    assert _ids(model.document) == {path: ids[before] for path, before in now.items()}
+    paths = {"w": "g.u", "inner.v": "g.inner.v", "left": "left", "u>Gain": "g.u>Gain"}
+    assert _ids(model.document) == {path: ids[before] for path, before in paths.items()}
 
 
 def test_handles_follow_their_element_and_report_its_removal() -> None:

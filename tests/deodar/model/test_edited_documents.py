@@ -48,9 +48,9 @@ class EditedDocuments(RuleBasedStateMachine):
     @invariant()
     def opens_again(self) -> None:
         text, arrays = files.dumps(self.model.document)
-        again = files.of_data(json.loads(text), lambda _: arrays)
-        assert again == self.model.document
-        assert files.dumps(again) == (text, arrays)
+        reopened = files.of_data(json.loads(text), lambda _: arrays)
+        assert reopened == self.model.document
+        assert files.dumps(reopened) == (text, arrays)
 
 
 TestEditedDocuments = EditedDocuments.TestCase

@@ -29,10 +29,10 @@ def name(axis: dd.Axis) -> str:
     return axis.name
 
 
-def connected(doc: Document, source: Entry, port: str, found: fits.Fit) -> bool:
+def connected(doc: Document, source: Entry, port: str, fit: fits.Fit) -> bool:
     """Return whether a connection is accepted and brings no new problem."""
     try:
-        new = edit.connect(doc, source, port, doc.by_id()[found.element], found.port)
+        new = edit.connect(doc, source, port, doc.by_id()[fit.element], fit.port)
     except DeodarError:
         return False
     return not [p for p in problems(new) if p not in problems(doc)]
@@ -48,13 +48,13 @@ def every_port(doc: Document) -> Iterator[tuple[Entry, str]]:
 def test_a_port_fits_where_the_connected_document_has_no_new_problem(example: str) -> None:
     doc = dd.load(EXAMPLES / f"{example}.json").document
     judged = [
-        (found, connected(doc, e, port, found))
+        (fit, connected(doc, e, port, fit))
         for e, port in list(every_port(doc))[::3]
-        for found in fits.fits(doc, e.id, port)[0]
+        for fit in fits.fits(doc, e.id, port)[0]
     ]
-    assert [found for found, fine in judged if found.fits != fine] == []
-    assert {found.fits for found, _ in judged} == {True, False}
-    assert all(found.reason for found, _ in judged if not found.fits)
+    assert [fit for fit, fine in judged if fit.fits != fine] == []
+    assert {fit.fits for fit, _ in judged} == {True, False}
+    assert all(fit.reason for fit, _ in judged if not fit.fits)
 
 
 def test_sources_of_an_input_agree_with_targets_of_an_output() -> None:
@@ -63,8 +63,8 @@ def test_sources_of_an_input_agree_with_targets_of_an_output() -> None:
         for port in target.element.ports():
             for source in fits.fits(doc, target.id, port)[0]:
                 back = fits.fits(doc, source.element, source.port)[0]
-                there = next(f for f in back if (f.element, f.port) == (target.id, port))
-                assert (there.fits, there.reason, there.offers) == (source.fits, source.reason, source.offers)
+                fit = next(f for f in back if (f.element, f.port) == (target.id, port))
+                assert (fit.fits, fit.reason, fit.offers) == (source.fits, source.reason, source.offers)
                 judged += 1
     assert judged > 50
 
@@ -92,9 +92,9 @@ def test_every_offer_makes_a_document_without_problems() -> None:
         model = Model("m")
         u = model.add(dd.Field("u", [X]))
         v = model.add(dd.Field("v", list(want)))
-        found = next(f for f in fits.fits(model.document, u.id, "")[0] if f.element == v.id)
-        assert found.fits == (want == (X, HUE))
-        for offer in found.offers:
+        fit = next(f for f in fits.fits(model.document, u.id, "")[0] if f.element == v.id)
+        assert fit.fits == (want == (X, HUE))
+        for offer in fit.offers:
             around = Around(source=(u.id, "output"), target=(v.id, "input"))
             doc, _ = building.add(model.document, offer.kind, offer.values, around=around)
             assert problems(doc) == [], offer
@@ -123,17 +123,17 @@ def test_a_loop_without_a_state_is_refused() -> None:
     u = model.add(dd.Field("u", [X]))
     a, b = model.add(dd.Gain(name="a")), model.add(dd.Gain(name="b"))
     u >> a >> b >> u
-    found = {f.element: f for f in fits.fits(model.document, b.id, "output")[0]}
-    assert "loop without a state" in found[a.id].reason and "loop" in found[b.id].reason
-    assert found[u.id].reason == "they are connected already"
+    by_element = {f.element: f for f in fits.fits(model.document, b.id, "output")[0]}
+    assert "loop without a state" in by_element[a.id].reason and "loop" in by_element[b.id].reason
+    assert by_element[u.id].reason == "they are connected already"
 
 
 def test_unconnected_couplings_fit_everything() -> None:
     model = Model("m")
     u = model.add(dd.Field("u", [X]))
     g = model.add(dd.Gain(name="g"))
-    found = {f.element: f for f in fits.fits(model.document, u.id, "")[0]}
-    assert found[g.id].fits
+    by_element = {f.element: f for f in fits.fits(model.document, u.id, "")[0]}
+    assert by_element[g.id].fits
     assert {f.element: f.fits for f in fits.fits(model.document, g.id, "output")[0]}[u.id]
 
 
@@ -148,8 +148,8 @@ def test_kinds_that_fit_make_documents_whose_new_connection_has_no_problem(axes:
             end = (u.id, "")
             around = Around(source=end) if source else Around(target=end)
             doc, (new,) = building.add(model.document, k.kind, {}, around=around)
-            own = [p for p in problems(doc) if "does not fit" in p.what]
-            assert own == [], (k, doc.by_id()[new])
+            misfits = [p for p in problems(doc) if "does not fit" in p.what]
+            assert misfits == [], (k, doc.by_id()[new])
 
 
 def test_an_unknown_element_or_port_is_an_error() -> None:

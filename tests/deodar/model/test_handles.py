@@ -160,7 +160,7 @@ def test_parts_of_one_element_are_assigned_to_another(model: dd.Model, u: Handle
 
 
 @pytest.mark.parametrize(
-    ("change", "error", "what"),
+    ("change", "error", "problem"),
     [
         (
             lambda u: setattr(u, "tua", 3),
@@ -186,10 +186,10 @@ def test_parts_of_one_element_are_assigned_to_another(model: dd.Model, u: Handle
     ],
 )
 def test_an_assignment_is_checked_like_any_change(
-    model: dd.Model, u: Handle, change: Callable[[Handle], object], error: type[DeodarError], what: str
+    model: dd.Model, u: Handle, change: Callable[[Handle], object], error: type[DeodarError], problem: str
 ) -> None:
     before = model.document
-    with pytest.raises(error, match=what):
+    with pytest.raises(error, match=problem):
         change(u)
     assert model.document is before
 
@@ -248,15 +248,15 @@ def test_handles_are_equal_by_model_and_element(model: dd.Model, u: Handle) -> N
         and u != "g.u"
     )
     assert copy.copy(u) == u and copy.copy(u).model is model
-    other = copy.deepcopy(u)
-    assert other != u and other.tau == 20.0 and other.model is not model
+    copied = copy.deepcopy(u)
+    assert copied != u and copied.tau == 20.0 and copied.model is not model
     assert pickle.loads(pickle.dumps(u)).tau == 20.0
     assert copy.copy(u.kernel[0]).sigma == 2.0 and pickle.loads(pickle.dumps(u.kernel))[0].sigma == 2.0
 
 
 def test_no_parameter_has_the_name_of_an_attribute_of_handles_or_elements(model: dd.Model, u: Handle) -> None:
     def attributes(*of: object) -> set[str]:
-        return {name for each in of for name in vars(each) if not name.startswith("__")} - {"name"}
+        return {name for instance in of for name in vars(instance) if not name.startswith("__")} - {"name"}
 
     inside = attributes(PartHandle, PartsHandle, u.kernel, u.sigmoid)
     taken = {

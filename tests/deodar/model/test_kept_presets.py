@@ -35,10 +35,10 @@ def test_a_preset_sets_values_of_elements_and_document_parameters(model):
 
 def test_presets_are_stored_with_the_document(model, tmp_path):
     dd.save(model, tmp_path / "m.json")
-    again = dd.load(tmp_path / "m.json")
-    assert kept_presets(again.document) == kept_presets(model.document)
-    apply_preset(again, "slow")
-    assert again["u"].tau == 40
+    loaded = dd.load(tmp_path / "m.json")
+    assert kept_presets(loaded.document) == kept_presets(model.document)
+    apply_preset(loaded, "slow")
+    assert loaded["u"].tau == 40
 
 
 def test_lists_are_values_of_parameters_with_one_number_for_each_axis(model):

@@ -46,12 +46,12 @@ def test_every_document_loads_and_states_the_expected_problem(case: dict[str, An
 
 @pytest.mark.parametrize("case", CASES)
 def test_every_mistake_is_reported_at_its_path_with_a_fix(case: dict[str, Any]) -> None:
-    found = check(document(case))
-    said = [p for p in found if p.where == case["where"] and p.severity == case["severity"]]
+    problems = check(document(case))
+    matching = [p for p in problems if p.where == case["where"] and p.severity == case["severity"]]
     assert any(
         all(word in f"{p.what} {p.fix}" for word in case["words"]) and (p.fix or "Give " in p.what)
-        for p in said
-    ), found
+        for p in matching
+    ), problems
 
 
 def test_the_manual_lists_every_kind_of_mistake() -> None:

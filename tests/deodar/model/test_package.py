@@ -20,11 +20,11 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 def model(arrays: bool = True) -> dd.Model:
     """Return a small model, with an array or without."""
-    made = dd.Model("packed")
-    made.add(dd.Field("u", [X]))
+    model = dd.Model("packed")
+    model.add(dd.Field("u", [X]))
     if arrays:
-        made.add(Pattern("p", [X], np.linspace(0, 1, 11)))
-    return made
+        model.add(Pattern("p", [X], np.linspace(0, 1, 11)))
+    return model
 
 
 @pytest.mark.parametrize("arrays", [True, False])
@@ -107,9 +107,9 @@ HOSTILE: dict[str, tuple[Callable[[Path], object], str]] = {
 }
 
 
-@pytest.mark.parametrize("how", HOSTILE)
-def test_hostile_packages_are_refused(how: str, tmp_path: Path) -> None:
-    make, says = HOSTILE[how]
+@pytest.mark.parametrize("damage", HOSTILE)
+def test_hostile_packages_are_refused(damage: str, tmp_path: Path) -> None:
+    make, says = HOSTILE[damage]
     path = tmp_path / "a.deodar"
     make(path)
     with pytest.raises(DocumentError, match=says.replace("(", r"\(").replace(".", r"\.")) as caught:

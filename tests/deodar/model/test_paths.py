@@ -75,8 +75,8 @@ def test_any_name_is_saved_and_loaded(name: str) -> None:
     u >> dd.Gain(2) >> v
     model.parameter(f"parameter of {name}", 3.0)
     model.link(f"{u.path}.kernel.0.sigma", f"parameter of {name}")
-    again = document_files.from_data(json.loads(model.to_json()), {})
-    assert again == model.document
+    reloaded = document_files.from_data(json.loads(model.to_json()), {})
+    assert reloaded == model.document
 
 
 def test_a_name_with_a_dot_needs_no_quotes_if_it_is_unambiguous() -> None:
@@ -119,10 +119,10 @@ def test_unbalanced_quotes_are_reported(path: str) -> None:
 
 
 def test_readings_lists_every_reading_of_a_path() -> None:
-    known = [("a",), ("a", "b"), ("a.b",)]
-    assert [names for names, _ in readings("a.b", Index.of(known))] == [("a", "b"), ("a",), ("a.b",)]
-    assert readings("a.tau", Index.of(known)) == [(("a",), "tau")]
-    assert readings("z", Index.of(known)) == []
+    paths = [("a",), ("a", "b"), ("a.b",)]
+    assert [names for names, _ in readings("a.b", Index.of(paths))] == [("a", "b"), ("a",), ("a.b",)]
+    assert readings("a.tau", Index.of(paths)) == [(("a",), "tau")]
+    assert readings("z", Index.of(paths)) == []
 
 
 def test_ids_come_from_the_path_and_never_collide() -> None:

@@ -15,13 +15,13 @@ X = dd.Axis("x", 0, 60, samples=61)
 
 
 def model() -> dd.Model:
-    made = dd.Model("m")
-    made.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5), Custom(np.ones(3))]), group="g")
-    return made
+    model = dd.Model("m")
+    model.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5), Custom(np.ones(3))]), group="g")
+    return model
 
 
 @pytest.mark.parametrize(
-    ("parameter", "value", "says"),
+    ("parameter", "number", "says"),
     [
         ("kernel", 3, "needs a list"),
         ("kernel", [{"kind": "Logistic"}], "got a Logistic"),
@@ -33,18 +33,18 @@ def model() -> dd.Model:
         ("resting_level.x", 1, "the value before 'x' has no parts"),
     ],
 )
-def test_an_invalid_value_is_an_error_that_states_the_rule(parameter: str, value: Any, says: str) -> None:
-    made = model()
-    doc, entry = made.document, made.document.by_id()[made["g.u"].id]
+def test_an_invalid_value_is_an_error_that_states_the_rule(parameter: str, number: Any, says: str) -> None:
+    changed = model()
+    doc, entry = changed.document, changed.document.by_id()[changed["g.u"].id]
     with pytest.raises(dd.errors.DeodarError, match=says):
-        plain_values.put(doc, [entry.id], parameter, value)
+        plain_values.put(doc, [entry.id], parameter, number)
 
 
 def test_values_of_several_elements_name_the_axes_of_one_document() -> None:
     """Two axes of one name have the keys `x` and `x_2`, which the first change exchanges."""
-    made = dd.Model("m")
-    ids = [made.add(dd.Field(n, [dd.Axis("x", 0, s, samples=s + 1)])).id for n, s in (("u", 9), ("v", 19))]
-    new = plain_values.put(made.document, ids, "axes", ["x_2"])
+    model = dd.Model("m")
+    ids = [model.add(dd.Field(n, [dd.Axis("x", 0, s, samples=s + 1)])).id for n, s in (("u", 9), ("v", 19))]
+    new = plain_values.put(model.document, ids, "axes", ["x_2"])
     assert [new.by_id()[i].element.axes[0].samples for i in ids] == [20, 20]
 
 

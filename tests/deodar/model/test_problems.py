@@ -55,19 +55,19 @@ def test_every_problem_is_listed_at_once_with_its_line() -> None:
     u >> v
     u >> w
     loose >> u
-    found = {p.where: p.what for p in model.check()}
-    here = __file__.rsplit("/", 1)[-1].rsplit("\\", 1)[-1]
-    assert set(found) == {
-        f"u ({here}:{first})",
-        f"v ({here}:{second})",
-        f"g.w ({here}:{third})",
-        f"loose ({here}:{fourth})",
+    by_place = {p.where: p.what for p in model.check()}
+    file = __file__.rsplit("/", 1)[-1].rsplit("\\", 1)[-1]
+    assert set(by_place) == {
+        f"u ({file}:{first})",
+        f"v ({file}:{second})",
+        f"g.w ({file}:{third})",
+        f"loose ({file}:{fourth})",
     }
-    assert "kernel.0.sigma has 2 values for 1 axes" in found[f"u ({here}:{first})"]
+    assert "kernel.0.sigma has 2 values for 1 axes" in by_place[f"u ({file}:{first})"]
     with pytest.raises(ModelError) as caught:
         model.require()
     assert "4 problems" in str(caught.value)
-    assert all(where in str(caught.value) for where in found)
+    assert all(where in str(caught.value) for where in by_place)
 
 
 def test_axes_missing_on_both_sides_are_printed_with_the_project_to_write() -> None:
@@ -147,23 +147,23 @@ def test_axes_of_other_bounds_print_both_and_the_resample_to_write() -> None:
 
 
 @pytest.mark.parametrize(
-    "other",
+    "axis",
     [
         dd.Axis("x", 0, 10, samples=11, unit="deg"),
         dd.Axis("x", 0, 10, samples=11, periodic=True),
         dd.Axis("x", 0, 10.001, samples=11),
     ],
 )
-def test_unit_periodicity_and_bounds_must_be_equal(other: dd.Axis) -> None:
+def test_unit_periodicity_and_bounds_must_be_equal(axis: dd.Axis) -> None:
     model = dd.Model("m")
-    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [other]))
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [axis]))
     assert len(model.check()) == 1
 
 
-@pytest.mark.parametrize("other", [dd.Axis("x", 0, 10, samples=21), dd.Axis("x", 0, 10 + 1e-9, samples=11)])
-def test_another_sampling_of_the_same_axis_fits(other: dd.Axis) -> None:
+@pytest.mark.parametrize("axis", [dd.Axis("x", 0, 10, samples=21), dd.Axis("x", 0, 10 + 1e-9, samples=11)])
+def test_another_sampling_of_the_same_axis_fits(axis: dd.Axis) -> None:
     model = dd.Model("m")
-    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [other]))
+    model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [axis]))
     assert model.check() == []
 
 
@@ -194,8 +194,8 @@ def test_a_delayed_loop_sums_its_input_over_time() -> None:
     one >> total
     model.connect(total, total, reads="delayed")
     assert model.check() == []
-    data = dd.simulate(model, duration=4, record="total.output", dt=1)
-    assert data["total.output"].values.tolist() == [1, 2, 3, 4, 5]
+    record = dd.simulate(model, duration=4, record="total.output", dt=1)
+    assert record["total.output"].values.tolist() == [1, 2, 3, 4, 5]
 
 
 def test_axes_that_depend_only_on_themselves_are_unknown() -> None:

@@ -12,16 +12,16 @@ from deodar.numerics.sigmoids.step import Step
 
 
 def memory(
-    samples: int = 101, sigmoid: object = None, strength: float = 18, dimensions: int = 1, **more: object
+    samples: int = 101, sigmoid: object = None, strength: float = 18, dimensions: int = 1, **options: object
 ) -> dd.Model:
     axes = [dd.Axis(name, 0, 100, samples) for name in "xyz"[:dimensions]]
     model = dd.Model("memory")
-    given = {
+    settings = {
         "sigmoid": sigmoid or dd.Logistic(4),
         "kernel": [dd.Gaussian(strength, 5, normalized=True)],
         "global_inhibition": 0.3 if dimensions == 1 else 0.01,
     }
-    u = model.add(dd.Field("u", axes, **(given | more)))  # type: ignore[arg-type]
+    u = model.add(dd.Field("u", axes, **(settings | options)))  # type: ignore[arg-type]
     model.add(dd.GaussianStimulus("s", axes, center=50, amplitude=8, windows=[(0, 400)])) >> u
     return model
 
@@ -34,20 +34,20 @@ def warned(model: dd.Model) -> list[str]:
 def test_a_memory_on_a_coarse_grid_gets_a_warning_with_the_line_to_type(
     dimensions: int, strength: float
 ) -> None:
-    (said,) = warned(memory(dimensions=dimensions, strength=strength, samples=51))
-    assert 'quadrature="cell"' in said and "samples=" in said and "'x'" in said
+    (problem,) = warned(memory(dimensions=dimensions, strength=strength, samples=51))
+    assert 'quadrature="cell"' in problem and "samples=" in problem and "'x'" in problem
 
 
 def test_the_suggested_fix_removes_the_warning() -> None:
     for sigmoid in (dd.Logistic(4), dd.Logistic(30), Absolute(10)):
-        (said,) = warned(memory(sigmoid=sigmoid))
+        (problem,) = warned(memory(sigmoid=sigmoid))
         assert warned(memory(sigmoid=sigmoid, quadrature="cell")) == []
-        assert warned(memory(sigmoid=sigmoid, samples=int(said.split("samples=")[1].split()[0]))) == []
+        assert warned(memory(sigmoid=sigmoid, samples=int(problem.split("samples=")[1].split()[0]))) == []
 
 
 def test_for_a_step_sigmoid_the_warning_suggests_no_number_of_samples() -> None:
-    (said,) = warned(memory(sigmoid=Step(), samples=4001))
-    assert 'quadrature="cell"' in said and "samples=" not in said
+    (problem,) = warned(memory(sigmoid=Step(), samples=4001))
+    assert 'quadrature="cell"' in problem and "samples=" not in problem
 
 
 @pytest.mark.parametrize(

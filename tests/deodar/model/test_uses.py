@@ -51,18 +51,18 @@ def test_a_change_reaches_every_use_and_no_copy() -> None:
 def test_refreshing_without_a_change_changes_nothing() -> None:
     model = host()
     ids, before = {e.path: e.id for e in model.document.entries}, edges(model)
-    data = dd.simulate(model, 100, every=10)
+    record = dd.simulate(model, 100, every=10)
     model.refresh(template())
     assert {e.path: e.id for e in model.document.entries} == ids and edges(model) == before
     again = dd.simulate(model, 100, every=10)
-    assert all(np.array_equal(data[name], again[name]) for name in data.data_vars)
+    assert all(np.array_equal(record[name], again[name]) for name in record.data_vars)
 
 
 def test_a_refresh_adds_new_elements_removes_missing_ones_and_keeps_the_others() -> None:
     model, changed = host(), template()
     changed.remove("drives")
     changed["a"] >> changed.add(dd.Field("middle", []), group="inner") >> changed["b"]
-    kept = {name: model[f"{name}.a"].id for name in ("left", "right")}
+    ids = {name: model[f"{name}.a"].id for name in ("left", "right")}
     model.refresh(changed)
     inside = {(f"{n}.a", f"{n}.inner.middle") for n in ("left", "right")} | {
         (f"{n}.inner.middle", f"{n}.b") for n in ("left", "right")
@@ -75,7 +75,7 @@ def test_a_refresh_adds_new_elements_removes_missing_ones_and_keeps_the_others()
         ("copy.drives", "copy.b"),
     }
     assert edges(model) == inside | around
-    assert {name: model[f"{name}.a"].id for name in kept} == kept
+    assert {name: model[f"{name}.a"].id for name in ids} == ids
     assert "left.drives" not in model and "copy.drives" in model
 
 
@@ -167,14 +167,14 @@ def test_a_template_without_a_required_element_or_port_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    ("uses", "what"),
+    ("uses", "problem"),
     [
         ({"left": 1}, "needs a template"),
         ({"left": {"template": "switch", "elements": {"00000000": "nothing"}}}, "nothing"),
         ({"lost": {"template": "switch", "elements": {}}}, "there is no group 'lost'"),
     ],
 )
-def test_invalid_uses_in_a_document_are_reported(uses: object, what: str) -> None:
-    data, _ = document_files.to_data(host().document)
-    with pytest.raises(DocumentError, match=what):
-        document_files.from_data(data | {"uses": uses}, {})
+def test_invalid_uses_in_a_document_are_reported(uses: object, problem: str) -> None:
+    document, _ = document_files.to_data(host().document)
+    with pytest.raises(DocumentError, match=problem):
+        document_files.from_data(document | {"uses": uses}, {})

@@ -34,17 +34,17 @@ def _model() -> dd.Model:
 
 def test_an_element_warns_with_its_path_and_line() -> None:
     model = _model()
-    (found,) = [p for p in model.check() if p.what == "is doubtful"]
-    assert found.severity == "warning" and found.fix == "Take another"
-    assert found.where.startswith("b (test_warnings.py:")
+    (problem,) = [p for p in model.check() if p.what == "is doubtful"]
+    assert problem.severity == "warning" and problem.fix == "Take another"
+    assert problem.where.startswith("b (test_warnings.py:")
 
 
 def test_a_warning_does_not_prevent_a_run() -> None:
     model = _model()
     assert problems(model.document) == []
     model.require()
-    data = dd.simulate(model, duration=3, dt=1, record="u.activation")
-    assert np.isfinite(data["u.activation"].values).all()
+    record = dd.simulate(model, duration=3, dt=1, record="u.activation")
+    assert np.isfinite(record["u.activation"].values).all()
     session = dd.Session(model, dt=1)
     session.step(2)
     session.set("b.amplitude", 2.0)
@@ -87,8 +87,8 @@ def test_a_linear_field_grows_if_its_kernel_excites_more_than_it_decays(
     kernel = dd.Gaussian(excitation / sigmoid.slope, 1.0, normalized=bool(axes))
     model = dd.Model("linear")
     model.add(dd.Field("u", axes, sigmoid=sigmoid, kernel=[kernel]))
-    found = [p.what for p in model.check() if "grows without bound" in p.what]
-    assert len(found) == grows and all(f"by {excitation:g}" in what for what in found)
+    problems = [p.what for p in model.check() if "grows without bound" in p.what]
+    assert len(problems) == grows and all(f"by {excitation:g}" in text for text in problems)
 
 
 def test_a_window_that_ends_before_it_begins_is_a_problem() -> None:
@@ -96,9 +96,9 @@ def test_a_window_that_ends_before_it_begins_is_a_problem() -> None:
     model.add(
         dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(0, 50), (300, 100)])
     ) >> model.add(dd.Field("u", [X]))
-    (found,) = model.check()
-    assert found.severity == "problem" and found.where.startswith("s (")
-    assert "windows.1 ends at 100, before it begins at 300" in found.what and "(100, 300)" in found.fix
+    (problem,) = model.check()
+    assert problem.severity == "problem" and problem.where.startswith("s (")
+    assert "windows.1 ends at 100, before it begins at 300" in problem.what and "(100, 300)" in problem.fix
 
 
 def test_a_window_without_duration_is_a_warning() -> None:
@@ -106,5 +106,5 @@ def test_a_window_without_duration_is_a_warning() -> None:
     model.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> model.add(
         dd.Field("u", [X])
     )
-    (found,) = model.check()
-    assert found.severity == "warning" and "is never on" in found.what
+    (problem,) = model.check()
+    assert problem.severity == "warning" and "is never on" in problem.what

@@ -19,9 +19,9 @@ MODES = {
 
 class _Counted(MemoryFile):
     def read(self, size=-1):
-        found = super().read(size)
-        FailingFileSystem.bytes_read += len(found)
-        return found
+        content = super().read(size)
+        FailingFileSystem.bytes_read += len(content)
+        return content
 
 
 class FailingFileSystem(MemoryFileSystem):
@@ -77,10 +77,10 @@ class FailingFileSystem(MemoryFileSystem):
         return super().cat_file(path, start, end, **kwargs)
 
     def _open(self, path, mode="rb", **kwargs):
-        found = super()._open(path, mode, **kwargs)
+        file = super()._open(path, mode, **kwargs)
         if mode == "rb":
-            return _Counted(self, path, found.getvalue())
-        return found
+            return _Counted(self, path, file.getvalue())
+        return file
 
 
 def register():

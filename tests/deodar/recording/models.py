@@ -11,12 +11,12 @@ y = dd.Axis("y", 0, 10, samples=6, periodic=True)
 
 
 def model(name: str = "small") -> dd.Model:
-    made = dd.Model(name)
-    made.add(dd.Field("u", [x], tau=10, kernel=[dd.Gaussian(1, 3)], noise=0.5))
-    made.add(dd.Field("n", [], tau=10, noise=0.2))
-    made.add(dd.Field('odd "name". u -> u (π)', [x, y], tau=10, noise=0.1))
-    made.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=7)) >> made["u"]
-    return made
+    model = dd.Model(name)
+    model.add(dd.Field("u", [x], tau=10, kernel=[dd.Gaussian(1, 3)], noise=0.5))
+    model.add(dd.Field("n", [], tau=10, noise=0.2))
+    model.add(dd.Field('odd "name". u -> u (π)', [x, y], tau=10, noise=0.1))
+    model.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=7)) >> model["u"]
+    return model
 
 
 def record(**settings: object) -> xarray.Dataset:

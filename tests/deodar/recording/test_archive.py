@@ -65,9 +65,9 @@ def test_an_array_of_several_chunks_is_read_back(record, monkeypatch):
 def test_other_programs_open_a_record_by_its_name(record, tmp_path):
     (tmp_path / "some.zarr.zip").write_bytes(_written(record))
     with zarr.storage.ZipStore(tmp_path / "some.zarr.zip") as store:
-        found = xarray.open_zarr(store, group="00000001", zarr_format=3, consolidated=False).load()
-    np.testing.assert_array_equal(found["a_field.activation"], record["a field.activation"][:4])
-    assert found["moving"].dtype == bool and found["time"].attrs["units"] == "ms"
+        loaded = xarray.open_zarr(store, group="00000001", zarr_format=3, consolidated=False).load()
+    np.testing.assert_array_equal(loaded["a_field.activation"], record["a field.activation"][:4])
+    assert loaded["moving"].dtype == bool and loaded["time"].attrs["units"] == "ms"
 
 
 def test_chunks_are_compressed_once(record):
@@ -86,12 +86,12 @@ def test_damage_is_an_error_and_never_another_value(record):
             del damaged[chance.randrange(len(damaged)) :]
         try:
             opened = Archive(io.BytesIO(bytes(damaged)), "here")
-            found = [opened.read(f"{k:08}") for k in (0, 1)]
+            arrays = [opened.read(f"{k:08}") for k in (0, 1)]
         except RecordError as error:
             assert str(error).startswith("here: ") and "may be damaged" in str(error)
             wrong += 1
         else:
-            assert found[0].identical(record) and found[1].identical(record.isel(time=slice(4)))
+            assert arrays[0].identical(record) and arrays[1].identical(record.isel(time=slice(4)))
     assert wrong > 75
 
 

@@ -92,8 +92,8 @@ def test_a_chunk_that_is_nan_has_a_file_and_a_missing_one_is_nan(tmp_path: Path)
     assert np.isnan(array.load((0, 0), (8, 3))).all()
 
 
-@pytest.mark.parametrize("how", ["cut", "changed", "longer", "empty"])
-def test_a_damaged_chunk_is_not_read(how: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("damage", ["cut", "changed", "longer", "empty"])
+def test_a_damaged_chunk_is_not_read(damage: str, tmp_path: Path) -> None:
     array = created(tmp_path / "a", (4, 50), (4, 50), "float32")
     array.store((0, 0), np.arange(200, dtype=np.float32).reshape(4, 50))
     content = array.path((0, 0)).read_bytes()
@@ -104,7 +104,7 @@ def test_a_damaged_chunk_is_not_read(how: str, tmp_path: Path) -> None:
             "changed": content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :],
             "longer": content + b"1234",
             "empty": b"",
-        }[how]
+        }[damage]
     )
     with pytest.raises(ChunkError):
         array.load((0, 0), (4, 50))
@@ -146,9 +146,9 @@ def test_xarray_reads_a_record_of_several_leading_dimensions(
     piece: dict[str, int], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("deodar.recording.growing.LONGEST_CHUNK", 3)
-    data = record(trials=3, sweep={"u.resting_level": [-6, -5]})
-    values = {str(name): v.values for name, v in data.data_vars.items()}
-    writer = GrowingRecord(tmp_path / "r.zarr", data.isel(time=slice(0)), piece=piece)
+    recorded = record(trials=3, sweep={"u.resting_level": [-6, -5]})
+    values = {str(name): v.values for name, v in recorded.data_vars.items()}
+    writer = GrowingRecord(tmp_path / "r.zarr", recorded.isel(time=slice(0)), piece=piece)
     sizes = {"u.resting_level": 2, "trial": 3}
     steps = [range(0, n, piece.get(name, n)) for name, n in sizes.items()]
     for starts in itertools.product(*steps):
@@ -156,21 +156,21 @@ def test_xarray_reads_a_record_of_several_leading_dimensions(
             slice(first, min(n, first + piece.get(name, n)))
             for first, (name, n) in zip(starts, sizes.items(), strict=True)
         )
-        for first, stop in ((0, 2), (2, data.sizes["time"])):
+        for first, stop in ((0, 2), (2, recorded.sizes["time"])):
             part = {name: v[region][:, :, first:stop] for name, v in values.items()}
-            writer.put("time", data["time"].values[first:stop], part, first, region)
+            writer.put("time", recorded["time"].values[first:stop], part, first, region)
             writer.commit()
     with xarray.open_zarr(tmp_path / "r.zarr", chunks=None) as plain:
         names = {old: new for new, old in codec.parse(plain.attrs[portable.KEY])["names"].items()}
-        for name, value in values.items():
-            assert plain[names.get(name, name)].values.tobytes() == value.tobytes()
+        for name, array in values.items():
+            assert plain[names.get(name, name)].values.tobytes() == array.tobytes()
     writer.close(True)
-    assert files.load_record(tmp_path / "r.zarr").identical(data)
+    assert files.load_record(tmp_path / "r.zarr").identical(recorded)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         alone = xarray.open_zarr(tmp_path / "r.zarr", consolidated=False, chunks=None)
-    for name, value in values.items():
-        assert alone[names.get(name, name)].values.tobytes() == value.tobytes()
+    for name, array in values.items():
+        assert alone[names.get(name, name)].values.tobytes() == array.tobytes()
 
 
 def test_a_record_of_an_earlier_version_continues_with_its_own_compressor(

@@ -19,10 +19,10 @@ STEPS = 3000
 
 
 def model() -> dd.Model:
-    made = dd.Model("noisy")
+    model = dd.Model("noisy")
     axes = [dd.Axis("x", 0, 20, samples=21)]
-    made.add(dd.Field("u", axes, kernel=[dd.Gaussian(6, 2)], noise=0.5))
-    return made
+    model.add(dd.Field("u", axes, kernel=[dd.Gaussian(6, 2)], noise=0.5))
+    return model
 
 
 def test_a_kill_at_any_moment_leaves_a_beginning_of_the_record(
@@ -32,11 +32,11 @@ def test_a_kill_at_any_moment_leaves_a_beginning_of_the_record(
     out, killed, one_at_a_time = tmp_path / "run", list[Path](), threading.RLock()
 
     def copied_before(call: Callable[..., Any]) -> Callable[..., Any]:
-        def copy_and_call(*args: Any, **more: Any) -> Any:
+        def copy_and_call(*args: Any, **options: Any) -> Any:
             with one_at_a_time:
                 if out.exists():
                     killed.append(Path(shutil.copytree(out, tmp_path / f"killed-{len(killed)}")))
-                return call(*args, **more)
+                return call(*args, **options)
 
         return copy_and_call
 

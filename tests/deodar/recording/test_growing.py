@@ -153,11 +153,11 @@ def test_two_regions_that_are_written_in_turns_keep_their_samples_and_times(
                 ends[trial] = stop
         if k % 3 == 0:
             writer.commit()
-            found = dd.open_record(tmp_path / "r.zarr")
-            assert found["time"].values.tolist() == whole["time"].values[: max(ends)].tolist()
+            stored = dd.open_record(tmp_path / "r.zarr")
+            assert stored["time"].values.tolist() == whole["time"].values[: max(ends)].tolist()
             for trial, end in enumerate(ends):
                 for name in whole.data_vars:
-                    kept = found[name].isel(trial=trial, time=slice(end)).values
+                    kept = stored[name].isel(trial=trial, time=slice(end)).values
                     np.testing.assert_array_equal(kept, whole[name].isel(trial=trial, time=slice(end)).values)
     writer.close(True)
     assert files.load_record(tmp_path / "r.zarr").identical(whole)
@@ -191,8 +191,8 @@ def test_a_full_disk_is_an_error_of_the_next_call_and_keeps_what_was_committed(
             put(writer, whole, 9, 12)
         with pytest.raises(OutputError, match="No space left"):
             writer.close(True)
-    kept = files.load_record(tmp_path / "r.zarr")
-    assert kept.sizes["time"] == 6 and about(kept)["complete"] is False
+    stored = files.load_record(tmp_path / "r.zarr")
+    assert stored.sizes["time"] == 6 and about(stored)["complete"] is False
     GrowingRecord.resumed(tmp_path / "r.zarr", {"time": 6}).close(False)
 
 
@@ -235,11 +235,11 @@ def test_a_damaged_chunk_ends_the_record_before_it(
     else:
         content[len(content) // 2] ^= 255
         chunk.write_bytes(content)
-    kept = files.load_record(tmp_path / "r.zarr")
-    assert kept.sizes["time"] == 8
-    assert kept.drop_attrs().identical(whole.isel(time=slice(8)).drop_attrs())
-    assert "13 of 21 samples of time are left out" in kept.attrs[sound.DAMAGED]
-    assert "u.activation" in kept.attrs[sound.DAMAGED]
+    stored = files.load_record(tmp_path / "r.zarr")
+    assert stored.sizes["time"] == 8
+    assert stored.drop_attrs().identical(whole.isel(time=slice(8)).drop_attrs())
+    assert "13 of 21 samples of time are left out" in stored.attrs[sound.DAMAGED]
+    assert "u.activation" in stored.attrs[sound.DAMAGED]
     lazy = dd.open_record(tmp_path / "r.zarr")
     assert lazy.sizes["time"] == (8 if how == "missing" else 21)
 
@@ -258,10 +258,10 @@ def test_a_commit_waits_for_samples_that_came_during_an_earlier_one(
 ) -> None:
     begun, free, write = threading.Event(), threading.Event(), GrowingRecord._write
 
-    def slow(self: GrowingRecord, *given: Any) -> None:
+    def slow(self: GrowingRecord, *arguments: Any) -> None:
         begun.set()
         free.wait(10)
-        write(self, *given)
+        write(self, *arguments)
 
     monkeypatch.setattr(GrowingRecord, "_write", slow)
     writer = begin(whole, tmp_path / "r.zarr")
@@ -288,17 +288,17 @@ def test_a_run_waits_for_a_slow_disk(
 
 
 def test_a_blank_copy_is_nan_from_the_start(tmp_path: Path) -> None:
-    data = record(trials=3)
-    writer = begin(data, tmp_path / "r.zarr", piece={"trial": 2})
-    values = {str(n): v.values for n, v in data.data_vars.items()}
+    recorded = record(trials=3)
+    writer = begin(recorded, tmp_path / "r.zarr", piece={"trial": 2})
+    values = {str(n): v.values for n, v in recorded.data_vars.items()}
     for part in (slice(0, 2), slice(2, 3)):
-        writer.put("time", data["time"].values, {n: v[part] for n, v in values.items()}, 0, (part,))
+        writer.put("time", recorded["time"].values, {n: v[part] for n, v in values.items()}, 0, (part,))
     writer.commit()
     writer.blank((1,))
     writer.close(True)
-    found = files.load_record(tmp_path / "r.zarr")
-    assert all(np.isnan(v.values[1]).all() for v in found.data_vars.values())
-    assert found.isel(trial=[0, 2]).identical(data.isel(trial=[0, 2]))
+    stored = files.load_record(tmp_path / "r.zarr")
+    assert all(np.isnan(v.values[1]).all() for v in stored.data_vars.values())
+    assert stored.isel(trial=[0, 2]).identical(recorded.isel(trial=[0, 2]))
 
 
 def test_a_flush_that_fails_at_the_end_is_an_error(
@@ -329,11 +329,11 @@ def test_a_record_of_a_newer_version_is_named(
 
 
 def test_a_chunk_that_is_nan_is_not_missing(tmp_path: Path) -> None:
-    data = record(trials=3)
-    data["u.activation"].values[:] = np.nan
-    writer = begin(data, tmp_path / "r.zarr")
-    values = {str(n): v.values for n, v in data.data_vars.items()}
-    writer.put("time", data["time"].values, values, 0, (slice(0, 3),))
+    recorded = record(trials=3)
+    recorded["u.activation"].values[:] = np.nan
+    writer = begin(recorded, tmp_path / "r.zarr")
+    values = {str(n): v.values for n, v in recorded.data_vars.items()}
+    writer.put("time", recorded["time"].values, values, 0, (slice(0, 3),))
     writer.close(True)
     found = files.load_record(tmp_path / "r.zarr")
     assert sound.DAMAGED not in found.attrs and found.sizes["time"] == 5
@@ -351,23 +351,23 @@ def test_samples_of_an_earlier_run_stay_until_they_are_written_again(
     put(writer, whole, 6, 9)
     writer.close(complete)
     n = 9 if complete else 15
-    found = files.load_record(tmp_path / "r.zarr")
-    assert found.drop_attrs().identical(whole.isel(time=slice(n)).drop_attrs())
+    record = files.load_record(tmp_path / "r.zarr")
+    assert record.drop_attrs().identical(whole.isel(time=slice(n)).drop_attrs())
 
 
 def test_the_second_piece_of_copies_leaves_the_times_of_the_first(tmp_path: Path) -> None:
-    data = record(trials=4)
-    writer = begin(data, tmp_path / "r.zarr", piece={"trial": 2})
-    values = {str(n): v.values for n, v in data.data_vars.items()}
+    recorded = record(trials=4)
+    writer = begin(recorded, tmp_path / "r.zarr", piece={"trial": 2})
+    values = {str(n): v.values for n, v in recorded.data_vars.items()}
     first, second = slice(0, 2), slice(2, 4)
-    writer.put("time", data["time"].values, {n: v[first] for n, v in values.items()}, 0, (first,))
+    writer.put("time", recorded["time"].values, {n: v[first] for n, v in values.items()}, 0, (first,))
     writer.put(
-        "time", data["time"].values[:2], {n: v[second][:, :2] for n, v in values.items()}, 0, (second,)
+        "time", recorded["time"].values[:2], {n: v[second][:, :2] for n, v in values.items()}, 0, (second,)
     )
     writer.close(False)
     found = files.load_record(tmp_path / "r.zarr")
-    assert found["time"].values.tolist() == data["time"].values.tolist()
-    assert found.isel(trial=first).drop_attrs().identical(data.isel(trial=first).drop_attrs())
+    assert found["time"].values.tolist() == recorded["time"].values.tolist()
+    assert found.isel(trial=first).drop_attrs().identical(recorded.isel(trial=first).drop_attrs())
     assert np.isnan(found["u.activation"].values[2:, 2:]).all()
 
 
@@ -375,11 +375,11 @@ def test_a_missing_chunk_of_copies_ends_an_incomplete_record(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(growing, "LONGEST_CHUNK", 2)
-    data = record(trials=4)
-    writer = begin(data, tmp_path / "r.zarr", piece={"trial": 2})
+    recorded = record(trials=4)
+    writer = begin(recorded, tmp_path / "r.zarr", piece={"trial": 2})
     part = slice(0, 2)
-    values = {str(n): v.values[part] for n, v in data.data_vars.items()}
-    writer.put("time", data["time"].values, values, 0, (part,))
+    values = {str(n): v.values[part] for n, v in recorded.data_vars.items()}
+    writer.put("time", recorded["time"].values, values, 0, (part,))
     writer.close(False)
     assert files.load_record(tmp_path / "r.zarr").sizes["time"] == 5
     (tmp_path / "r.zarr" / "u.activation" / "c" / "0" / "1" / "0").unlink()
@@ -399,10 +399,10 @@ def test_a_record_that_was_removed_is_not_completed(whole: xarray.Dataset, tmp_p
 
 def test_coordinates_are_added_again(whole: xarray.Dataset, tmp_path: Path) -> None:
     """A run that is made longer may lose further copies."""
-    data = record(trials=3)
-    begin(data, tmp_path / "r.zarr").close(True, diverged.coordinate({"trial": 3}, {(1,): "first"}))
-    more = diverged.coordinate({"trial": 3}, {(1,): "first", (2,): "second"})
-    GrowingRecord.resumed(tmp_path / "r.zarr", {}).close(True, more)
+    recorded = record(trials=3)
+    begin(recorded, tmp_path / "r.zarr").close(True, diverged.coordinate({"trial": 3}, {(1,): "first"}))
+    coordinate = diverged.coordinate({"trial": 3}, {(1,): "first", (2,): "second"})
+    GrowingRecord.resumed(tmp_path / "r.zarr", {}).close(True, coordinate)
     found = files.load_record(tmp_path / "r.zarr")
     assert found["diverged"].values.tolist() == ["", "first", "second"]
     assert found.attrs["diverged"].startswith("2 of 3")

@@ -72,9 +72,9 @@ def test_many_chunks_are_read_by_several_threads(
     monkeypatch.setattr("os.cpu_count", lambda: 3)
     seen, read = set[int](), ChunkedArray.read
 
-    def noted(self: ChunkedArray, *given: Any) -> np.ndarray:
+    def noted(self: ChunkedArray, *arguments: Any) -> np.ndarray:
         seen.add(threading.get_ident())
-        return read(self, *given)
+        return read(self, *arguments)
 
     monkeypatch.setattr(ChunkedArray, "read", noted)
     assert variable.values.tobytes() == values.tobytes()
@@ -84,11 +84,11 @@ def test_many_chunks_are_read_by_several_threads(
     assert seen == {threading.get_ident()}
 
 
-@pytest.mark.parametrize("how", ["grown", "saved"])
-def test_a_record_is_read_without_zarr(how: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("ending", ["grown", "saved"])
+def test_a_record_is_read_without_zarr(ending: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("deodar.recording.growing.LONGEST_CHUNK", 4)
     whole = record(every=1)
-    if how == "saved":
+    if ending == "saved":
         dd.save_record(whole, tmp_path / "r.zarr")
     else:
         writer = GrowingRecord(tmp_path / "r.zarr", whole.isel(time=slice(0)))

@@ -49,8 +49,8 @@ def test_a_wrong_probe_names_its_path(text: str, message: str) -> None:
 
 
 def test_variables_with_equal_times_share_a_dimension() -> None:
-    found = series(["a", "b", "c", "d", "e"], [2, 1, 2, 2, 2], [None, None, None, "peak", "peak"])
-    assert [(one.dimension, one.names) for one in found] == [
+    grouped = series(["a", "b", "c", "d", "e"], [2, 1, 2, 2, 2], [None, None, None, "peak", "peak"])
+    assert [(group.dimension, group.names) for group in grouped] == [
         ("time", ("a", "c")),
         ("b.time", ("b",)),
         ("d.time", ("d",)),
@@ -59,15 +59,15 @@ def test_variables_with_equal_times_share_a_dimension() -> None:
 
 
 def test_only_conditions_leave_no_main_time() -> None:
-    assert [one.dimension for one in series(["a"], [1], ["peak"])] == ["a.time"]
+    assert [group.dimension for group in series(["a"], [1], ["peak"])] == ["a.time"]
 
 
 @pytest.mark.parametrize("parts", [[12], [1] * 12, [5, 1, 6], [3, 4, 5]])
 def test_the_choice_does_not_depend_on_how_samples_arrive(parts: list[int]) -> None:
     values = np.array([0, 0, 2, 2, 0, 3, 3, 3, 0, 0, 0, 4], np.float32)
     times = np.arange(12) * 0.5
-    found = series(["a", "b", "c", "d"], [1, 3, 1, 2], [None, None, "peak", "crossing"])
-    selector, got = Selector(found, dict.fromkeys("abcd", 1.0)), dict[str, list[Any]]()
+    grouped = series(["a", "b", "c", "d"], [1, 3, 1, 2], [None, None, "peak", "crossing"])
+    selector, got = Selector(grouped, dict.fromkeys("abcd", 1.0)), dict[str, list[Any]]()
     first = 0
     for n in parts:
         part = slice(first, first + n)
@@ -90,35 +90,35 @@ def test_thresholds_are_those_of_the_port() -> None:
 
 
 def model() -> dd.Model:
-    made = dd.Model("probed")
+    model = dd.Model("probed")
     x = dd.Axis("x", 0, 20, samples=11)
-    made.add(dd.Field("u", [x], tau=10, noise=0.3))
+    model.add(dd.Field("u", [x], tau=10, noise=0.3))
     window = [dd.Window(20, 60)]
-    made.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=20, windows=window)) >> made["u"]
-    return made
+    model.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=20, windows=window)) >> model["u"]
+    return model
 
 
 def test_a_run_records_each_probe_at_its_times(tmp_path: Path) -> None:
-    given = ["u,every=6", dd.Probe("u.output", every=4, when="peak"), "u.input,when=crossing", "s.output"]
-    data = dd.simulate(model(), 100, seed=2, record=given, every=2, out=tmp_path / "run")
+    probes = ["u,every=6", dd.Probe("u.output", every=4, when="peak"), "u.input,when=crossing", "s.output"]
+    record = dd.simulate(model(), 100, seed=2, record=probes, every=2, out=tmp_path / "run")
     whole = dd.simulate(model(), 100, seed=2, record=["u", "u.output", "u.input", "s.output"])
-    assert data["s.output"].values.tolist() == whole["s.output"].values[::2].tolist()
-    assert data["u.activation"].values.tolist() == whole["u.activation"].values[::6].tolist()
+    assert record["s.output"].values.tolist() == whole["s.output"].values[::2].tolist()
+    assert record["u.activation"].values.tolist() == whole["u.activation"].values[::6].tolist()
     output = whole["u.output"].values[::4]
     high = output.max(1) > 0.5
     assert 0 < high.sum() < high.size
-    assert data["u.output"].values.tolist() == output[high].tolist()
-    assert data["u.output.time"].values.tolist() == (np.arange(26)[high] * 4.0).tolist()
-    assert data["u.input.time"].values.tolist() == [20, 60]
-    assert files.load_record(tmp_path / "run").identical(data)
+    assert record["u.output"].values.tolist() == output[high].tolist()
+    assert record["u.output.time"].values.tolist() == (np.arange(26)[high] * 4.0).tolist()
+    assert record["u.input.time"].values.tolist() == [20, 60]
+    assert files.load_record(tmp_path / "run").identical(record)
 
 
 @pytest.mark.parametrize("after", [30, 50, 70])
 def test_a_resumed_run_has_the_samples_of_a_whole_one(
     after: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    given = ["u,every=6", "u.output,every=4,when=peak", "u.input,when=crossing", "s.output"]
-    whole = dd.simulate(model(), 100, seed=2, record=given, every=2, out=tmp_path / "whole")
+    probes = ["u,every=6", "u.output,every=4,when=peak", "u.input,when=crossing", "s.output"]
+    whole = dd.simulate(model(), 100, seed=2, record=probes, every=2, out=tmp_path / "whole")
     monkeypatch.setattr("deodar.session.run.CHUNK_SECONDS", 0.0)
 
     def stop(done: int) -> None:
@@ -127,7 +127,7 @@ def test_a_resumed_run_has_the_samples_of_a_whole_one(
 
     with pytest.raises(dd.errors.Interrupted):
         dd.simulate(
-            model(), 100, seed=2, record=given, every=2, out=tmp_path / "run", on=dd.Resources(progress=stop)
+            model(), 100, seed=2, record=probes, every=2, out=tmp_path / "run", on=dd.Resources(progress=stop)
         )
     resumed = dd.resume(tmp_path / "run")
     assert resumed.drop_attrs().load().identical(whole.drop_attrs().load())

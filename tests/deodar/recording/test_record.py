@@ -13,16 +13,22 @@ from tests.deodar.recording.models import model, record, x
 
 
 def test_a_record_has_dimensions_coordinates_and_units() -> None:
-    data = record(trials=[4, 2], sweep={"s.amplitude": [1, 2, 3]})
-    u = data["u.activation"]
+    recorded = record(trials=[4, 2], sweep={"s.amplitude": [1, 2, 3]})
+    u = recorded["u.activation"]
     assert u.dims == ("s.amplitude", "trial", "time", "x") and u.shape == (3, 2, 5, 11)
-    assert data["trial"].values.tolist() == [4, 2] and data["time"].values.tolist() == [0, 5, 10, 15, 20]
+    assert recorded["trial"].values.tolist() == [4, 2] and recorded["time"].values.tolist() == [
+        0,
+        5,
+        10,
+        15,
+        20,
+    ]
     assert (
-        data["time"].attrs["units"] == "ms"
-        and data["x"].attrs["units"] == "deg"
-        and data["y"].attrs["periodic"] == 1
+        recorded["time"].attrs["units"] == "ms"
+        and recorded["x"].attrs["units"] == "deg"
+        and recorded["y"].attrs["periodic"] == 1
     )
-    assert np.allclose(data["x"].values, x.points) and data["n.activation"].dims == (
+    assert np.allclose(recorded["x"].values, x.points) and recorded["n.activation"].dims == (
         "s.amplitude",
         "trial",
         "time",
@@ -35,39 +41,43 @@ def test_trial_is_a_dimension_only_where_trials_are_given() -> None:
 
 
 def test_axes_of_equal_name_and_different_sampling_are_separate_dimensions() -> None:
-    made = dd.Model("names")
-    made.add(dd.Field("coarse", [dd.Axis("x", 0, 20, samples=6)]))
-    made.add(dd.Field("fine", [x]))
-    made.add(dd.Field("again", [x]))
-    made.add(dd.Field("clock", [dd.Axis("time", 0, 1, samples=4)]))
-    data = dd.simulate(made, 1)
-    dims = {str(name): v.dims[1:] for name, v in data.data_vars.items()}
+    model = dd.Model("names")
+    model.add(dd.Field("coarse", [dd.Axis("x", 0, 20, samples=6)]))
+    model.add(dd.Field("fine", [x]))
+    model.add(dd.Field("again", [x]))
+    model.add(dd.Field("clock", [dd.Axis("time", 0, 1, samples=4)]))
+    record = dd.simulate(model, 1)
+    dims = {str(name): v.dims[1:] for name, v in record.data_vars.items()}
     assert dims == {
         "coarse.activation": ("x",),
         "fine.activation": ("fine.activation.x",),
         "again.activation": ("again.activation.x",),
         "clock.activation": ("clock.activation.time",),
     }
-    assert len(data["fine.activation.x"]) == 11
+    assert len(record["fine.activation.x"]) == 11
 
 
 def test_a_record_states_document_seed_and_versions() -> None:
-    data = record(precision="float64", dt=0.5)
-    made = about(data)
-    assert made["document"] == json.loads(model().to_json()) and made["seed"] == 3 and made["dt"] == 0.5
+    recorded = record(precision="float64", dt=0.5)
+    provenance = about(recorded)
     assert (
-        made["precision"] == "float64"
-        and made["every"] == 5
-        and made["complete"] is True
-        and made["duration"] == 20
+        provenance["document"] == json.loads(model().to_json())
+        and provenance["seed"] == 3
+        and provenance["dt"] == 0.5
     )
-    assert {"deodar", "jax", "jaxlib", "numpy", "python", "device", "machine"} <= set(made["made_by"])
+    assert (
+        provenance["precision"] == "float64"
+        and provenance["every"] == 5
+        and provenance["complete"] is True
+        and provenance["duration"] == 20
+    )
+    assert {"deodar", "jax", "jaxlib", "numpy", "python", "device", "machine"} <= set(provenance["made_by"])
 
 
 def test_a_record_contains_the_arrays_of_its_document() -> None:
     from deodar.recording.provenance import document
 
-    made = dd.Model("arrays")
-    u = made.add(dd.Field("u", [x]))
-    u >> made.add(Weights(np.arange(121.0).reshape(11, 11), [x], name="w")) >> u
-    assert document(about(dd.simulate(made, 1))) == made.document
+    model = dd.Model("arrays")
+    u = model.add(dd.Field("u", [x]))
+    u >> model.add(Weights(np.arange(121.0).reshape(11, 11), [x], name="w")) >> u
+    assert document(about(dd.simulate(model, 1))) == model.document

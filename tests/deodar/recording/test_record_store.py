@@ -46,13 +46,13 @@ def test_files_are_stored_listed_read_and_replaced(address):
     store.put(NAME, b"first")
     store.put(NAME, b"the second")
     store.put("index.jsonl", b"")
-    again = address.open()
-    assert again.get(NAME) == b"the second"
-    assert again.sizes() == {NAME: 10, "index.jsonl": 0} and again.sizes("records") == {NAME: 10}
-    with again.open(NAME) as file:
+    store_again = address.open()
+    assert store_again.get(NAME) == b"the second"
+    assert store_again.sizes() == {NAME: 10, "index.jsonl": 0} and store_again.sizes("records") == {NAME: 10}
+    with store_again.open(NAME) as file:
         file.seek(4)
         assert file.read(3) == b"sec"
-    with pytest.raises(RecordError, match="there is no such file of records"), again.open("none"):
+    with pytest.raises(RecordError, match="there is no such file of records"), store_again.open("none"):
         pass
     assert "secret" not in store.shown and store.shown == address.shown
 
@@ -177,8 +177,8 @@ def test_addresses_that_cannot_be_used_are_refused(monkeypatch):
 
 
 def test_addresses_of_folders_are_their_paths(tmp_path):
-    for given in (tmp_path, str(tmp_path), tmp_path.as_uri(), f"file://localhost{tmp_path.as_posix()}"):
-        assert StoreAddress.of(given).shown == str(tmp_path)
+    for address in (tmp_path, str(tmp_path), tmp_path.as_uri(), f"file://localhost{tmp_path.as_posix()}"):
+        assert StoreAddress.of(address).shown == str(tmp_path)
     assert isinstance(StoreAddress.of("C://data/records").open(), FolderStore)
 
 

@@ -28,41 +28,41 @@ from tests.deodar.recording.models import record, x
 def test_a_repetition_on_the_same_machine_has_the_same_bits(
     settings: dict[str, object], tmp_path: Path
 ) -> None:
-    data = record(**settings)
-    done = repeat(files.load_record(files.save_record(data, tmp_path / "record.zarr")), simulate)
+    recorded = record(**settings)
+    done = repeat(files.load_record(files.save_record(recorded, tmp_path / "record.zarr")), simulate)
     assert (
         done.same_bits
         and not done.differences
         and done.faithful
-        and done.data.drop_attrs().identical(data.drop_attrs())
+        and done.data.drop_attrs().identical(recorded.drop_attrs())
     )
 
 
 @pytest.mark.parametrize(("version", "port"), [(2, "output"), (3, "activation")])
 def test_the_path_of_a_field_has_the_meaning_of_the_version_of_the_record(version: int, port: str) -> None:
-    data = dd.simulate(dd.Model(document=document(about(record()))), 5, record=f"u.{port}")
-    made = about(data)
-    made |= {"record": ["u"], "document": made["document"] | {"deodar": version}}
-    assert repeat(data.assign_attrs({KEY: json.dumps(made)}), simulate).same_bits
+    recorded = dd.simulate(dd.Model(document=document(about(record()))), 5, record=f"u.{port}")
+    provenance = about(recorded)
+    provenance |= {"record": ["u"], "document": provenance["document"] | {"deodar": version}}
+    assert repeat(recorded.assign_attrs({KEY: json.dumps(provenance)}), simulate).same_bits
 
 
 def test_differences_of_versions_and_machine_are_listed() -> None:
-    data = record()
-    made = about(data)
-    made["made_by"]["jaxlib"] = "0.0.1"
-    made["made_by"]["machine"] = "another"
-    changed = data.copy()
-    changed["u.activation"] = data["u.activation"] + 0.25
-    changed = changed.assign_attrs({KEY: json.dumps(made)})
+    recorded = record()
+    provenance = about(recorded)
+    provenance["made_by"]["jaxlib"] = "0.0.1"
+    provenance["made_by"]["machine"] = "another"
+    changed = recorded.copy()
+    changed["u.activation"] = recorded["u.activation"] + 0.25
+    changed = changed.assign_attrs({KEY: json.dumps(provenance)})
     done = repeat(changed, simulate)
     assert not done.same_bits and done.faithful and done.largest["u.activation"] == pytest.approx(0.25)
     assert {d.what for d in done.differences} == {"jaxlib", "machine"} and "0.0.1 then" in str(done)
 
 
 def test_a_difference_without_an_explanation_is_not_faithful() -> None:
-    data = record()
-    data["u.activation"] = data["u.activation"] + 1
-    done = repeat(data, simulate)
+    recorded = record()
+    recorded["u.activation"] = recorded["u.activation"] + 1
+    done = repeat(recorded, simulate)
     assert not done.faithful and "nothing explains it" in str(done)
 
 
@@ -70,41 +70,41 @@ def test_a_world_is_opened_again_and_must_be_the_same(tmp_path: Path) -> None:
     picture = np.zeros((8, 8, 3), np.uint8)
     picture[2:6, 2:6] = [255, 0, 0]
     Image.fromarray(picture).save(tmp_path / "p.png")
-    data = dd.simulate(
+    record = dd.simulate(
         saliency(), 50, record=["colour.activation"], every=50, world=Picture(tmp_path / "p.png")
     )
-    assert repeat(data, simulate).same_bits
+    assert repeat(record, simulate).same_bits
     picture[0, 0] = 9
     Image.fromarray(picture).save(tmp_path / "p.png")
     with pytest.raises(dd.errors.WorldError, match="--world picture"):
-        repeat(data, simulate)
+        repeat(record, simulate)
     (tmp_path / "p.png").unlink()
     with pytest.raises(dd.errors.WorldError, match="--world picture"):
-        repeat(data, simulate)
+        repeat(record, simulate)
 
 
 def test_repeating_a_record_with_functions_requires_trust() -> None:
-    made = dd.Model("function")
-    made.add(Function("f", [x]))
-    data = dd.simulate(made, 3, record=["f.output"])
+    model = dd.Model("function")
+    model.add(Function("f", [x]))
+    record = dd.simulate(model, 3, record=["f.output"])
     with pytest.raises(dd.errors.Untrusted):
-        repeat(data, simulate)
-    assert repeat(data, simulate, trust=True).same_bits
+        repeat(record, simulate)
+    assert repeat(record, simulate, trust=True).same_bits
 
 
 def test_a_record_without_its_document_cannot_be_repeated() -> None:
-    data = record().assign_attrs({KEY: "{}"})
+    recorded = record().assign_attrs({KEY: "{}"})
     with pytest.raises(dd.errors.RecordError):
-        repeat(data, simulate)
+        repeat(recorded, simulate)
 
 
 def test_nan_in_only_one_of_two_records_is_a_difference() -> None:
-    data = record()
-    diverged = data.copy(deep=True)
+    recorded = record()
+    diverged = recorded.copy(deep=True)
     diverged["u.activation"].values[-1, 0] = np.nan
-    both = compare(diverged, diverged.copy(deep=True))
-    assert both.same_bits and both.largest["u.activation"] == 0
-    for old, new in ((data, diverged), (diverged, data)):
+    comparison = compare(diverged, diverged.copy(deep=True))
+    assert comparison.same_bits and comparison.largest["u.activation"] == 0
+    for old, new in ((recorded, diverged), (diverged, recorded)):
         done = compare(old, new)
         assert not done.same_bits and done.largest["u.activation"] == float("inf")
 
@@ -117,7 +117,7 @@ def test_different_bits_of_nan_are_not_a_difference_of_values() -> None:
 
 
 @pytest.mark.parametrize(
-    ("described", "shown"),
+    ("described", "expected"),
     [
         ({"world": "Nowhere"}, "Nowhere"),
         ({"world": "Nowhere", "file": "a/b.png"}, "Nowhere a/b.png"),
@@ -128,9 +128,9 @@ def test_different_bits_of_nan_are_not_a_difference_of_values() -> None:
     ],
 )
 def test_a_world_of_an_unknown_kind_is_named_as_the_record_describes_it(
-    described: dict[str, str], shown: str
+    described: dict[str, str], expected: str
 ) -> None:
-    says = f"the record was made with the world {shown}, which is not known here"
+    says = f"the record was made with the world {expected}, which is not known here"
     with pytest.raises(dd.errors.WorldError, match=re.escape(says)) as caught:
         _world(described)
     assert caught.value.problems[0].fix == "Give it: --world nowhere:FILE"

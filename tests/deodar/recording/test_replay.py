@@ -18,15 +18,15 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 
 def model() -> dd.Model:
-    made = dd.Model("m")
-    u = made.add(dd.Field("u", [X], noise=0.5, kernel=[dd.Gaussian(1, 2)]))
-    made.add(dd.GaussianStimulus("s", [X], center=5, amplitude=2)) >> u
-    made.add(dd.Field("n", [], resting_level=-1, noise=0.1))
-    return made
+    model = dd.Model("m")
+    u = model.add(dd.Field("u", [X], noise=0.5, kernel=[dd.Gaussian(1, 2)]))
+    model.add(dd.GaussianStimulus("s", [X], center=5, amplitude=2)) >> u
+    model.add(dd.Field("n", [], resting_level=-1, noise=0.1))
+    return model
 
 
 @pytest.fixture(scope="module")
-def data() -> xarray.Dataset:
+def record() -> xarray.Dataset:
     return dd.simulate(
         model(),
         duration=40,
@@ -38,9 +38,9 @@ def data() -> xarray.Dataset:
 
 
 @pytest.fixture(params=["zarr", "nc"])
-def reader(data: xarray.Dataset, tmp_path: Path, request: pytest.FixtureRequest) -> RecordReader:
+def reader(record: xarray.Dataset, tmp_path: Path, request: pytest.FixtureRequest) -> RecordReader:
     path = tmp_path / f"r.{request.param}"
-    dd.save_record(data, path)
+    dd.save_record(record, path)
     return RecordReader(path)
 
 
@@ -49,7 +49,7 @@ def place(reader: RecordReader, path: str) -> tuple[str, str]:
     return next(e.id for e in reader.document.entries if e.path == element), port
 
 
-def test_frames_are_those_of_the_record(reader: RecordReader, data: xarray.Dataset) -> None:
+def test_frames_are_those_of_the_record(reader: RecordReader, record: xarray.Dataset) -> None:
     assert np.array_equal(reader.times, np.arange(0, 41, 2)) and reader.complete and not reader.notes
     assert {d: list(v) for d, v in reader.copies.items()} == {"s.amplitude": [1, 4], "trial": [0, 1, 2]}
     u, n = place(reader, "u.activation"), place(reader, "n.output")
@@ -59,20 +59,22 @@ def test_frames_are_those_of_the_record(reader: RecordReader, data: xarray.Datas
             where = {"time": k, "trial": 0, "s.amplitude": 0, **copy}
             for port, name in ((u, "u.activation"), (n, "n.output")):
                 frame = reader.frame(port, k, copy)
-                np.testing.assert_array_equal(frame, data[name].isel(where).values)
+                np.testing.assert_array_equal(frame, record[name].isel(where).values)
 
 
 def test_the_moment_up_to_a_time_is_found(reader: RecordReader) -> None:
     assert [reader.index(t) for t in (-np.inf, -1, 0, 1.9, 2, 39, 40, np.inf)] == [0, 0, 0, 0, 1, 19, 20, 20]
 
 
-def test_samples_cover_the_record_evenly(reader: RecordReader, data: xarray.Dataset) -> None:
+def test_samples_cover_the_record_evenly(reader: RecordReader, record: xarray.Dataset) -> None:
     u = place(reader, "u.activation")
     for most, stride in ((1000, 1), (21, 1), (10, 3), (1, 21)):
         parts = list(reader.samples(u, {"trial": 1}, most))
         times, values = (np.concatenate([p[i] for p in parts]) for i in range(2))
         assert np.array_equal(times, reader.times[::stride])
-        chosen = data["u.activation"].isel({"trial": 1, "s.amplitude": 0, "time": slice(None, None, stride)})
+        chosen = record["u.activation"].isel(
+            {"trial": 1, "s.amplitude": 0, "time": slice(None, None, stride)}
+        )
         np.testing.assert_array_equal(values, chosen.values)
 
 
@@ -81,8 +83,8 @@ def test_a_port_that_was_not_recorded_is_named(reader: RecordReader) -> None:
         reader.axes(place(reader, "u.output"))
 
 
-def test_a_damaged_chunk_is_an_error_of_its_frames_alone(data: xarray.Dataset, tmp_path: Path) -> None:
-    path = dd.save_record(data, tmp_path / "r.zarr")
+def test_a_damaged_chunk_is_an_error_of_its_frames_alone(record: xarray.Dataset, tmp_path: Path) -> None:
+    path = dd.save_record(record, tmp_path / "r.zarr")
     reader = RecordReader(path)
     for chunk in (path / "u.activation" / "c").rglob("*"):
         if chunk.is_file():
@@ -107,31 +109,31 @@ def test_chunks_are_kept_up_to_a_limit(reader: RecordReader, monkeypatch: pytest
     assert len(reads) == 4
 
 
-def test_a_record_without_its_document_is_refused(data: xarray.Dataset, tmp_path: Path) -> None:
-    plain = dd.save_record(data.assign_attrs(deodar="{}"), tmp_path / "r.zarr")
+def test_a_record_without_its_document_is_refused(record: xarray.Dataset, tmp_path: Path) -> None:
+    plain = dd.save_record(record.assign_attrs(deodar="{}"), tmp_path / "r.zarr")
     with pytest.raises(RecordError, match="does not state the document"):
         RecordReader(plain)
     with pytest.raises(RecordError, match="no such record"):
         RecordReader(tmp_path / "other.zarr")
 
 
-def test_an_incomplete_record_says_so(data: xarray.Dataset, tmp_path: Path) -> None:
-    text = data.attrs["deodar"].replace('"complete": true', '"complete": false')
-    part = data.isel(time=slice(5)).assign_attrs(deodar=text)
-    assert text != data.attrs["deodar"]
+def test_an_incomplete_record_says_so(record: xarray.Dataset, tmp_path: Path) -> None:
+    text = record.attrs["deodar"].replace('"complete": true', '"complete": false')
+    part = record.isel(time=slice(5)).assign_attrs(deodar=text)
+    assert text != record.attrs["deodar"]
     reader = RecordReader(dd.save_record(part, tmp_path / "r.zarr"))
     assert not reader.complete and "incomplete" in reader.notes[0] and len(reader.times) == 5
     assert not reader.refresh()
     shutil.rmtree(tmp_path / "r.zarr")
-    dd.save_record(data, tmp_path / "r.zarr")
+    dd.save_record(record, tmp_path / "r.zarr")
     assert reader.refresh() and reader.complete and len(reader.times) == 21 and not reader.notes
     assert reader.frame(place(reader, "u.activation"), 20, {}) is not None
 
 
 def test_ports_with_intervals_of_their_own_have_their_last_sample_at_each_moment(
-    data: xarray.Dataset, tmp_path: Path
+    record: xarray.Dataset, tmp_path: Path
 ) -> None:
-    sparse = data.isel(trial=0, drop=True).isel({"s.amplitude": 0}, drop=True)
+    sparse = record.isel(trial=0, drop=True).isel({"s.amplitude": 0}, drop=True)
     slow = sparse["n.output"].isel(time=slice(1, None, 4)).rename(time="n.output.time")
     path = dd.save_record(sparse.drop_vars("n.output").assign({"n.output": slow}), tmp_path / "r.zarr")
     reader = RecordReader(path)
@@ -142,15 +144,17 @@ def test_ports_with_intervals_of_their_own_have_their_last_sample_at_each_moment
     assert [len(t) for t, _ in reader.samples(n, {}, 100)] == [5]
 
 
-def test_a_saved_record_has_chunks_of_whole_frames_of_one_copy(data: xarray.Dataset, tmp_path: Path) -> None:
-    opened = dd.open_record(dd.save_record(data, tmp_path / "r.zarr"))
+def test_a_saved_record_has_chunks_of_whole_frames_of_one_copy(
+    record: xarray.Dataset, tmp_path: Path
+) -> None:
+    opened = dd.open_record(dd.save_record(record, tmp_path / "r.zarr"))
     assert opened["u.activation"].encoding["chunks"] == (1, 1, 21, 11)
     assert opened["n.output"].encoding["chunks"] == (1, 1, 21)
 
 
 def test_a_record_written_during_a_run_is_read(tmp_path: Path) -> None:
-    kept = dd.simulate(model(), duration=300, record=["u.activation", "n.output"], out=tmp_path / "r.zarr")
+    record = dd.simulate(model(), duration=300, record=["u.activation", "n.output"], out=tmp_path / "r.zarr")
     reader = RecordReader(tmp_path / "r.zarr")
     u = place(reader, "u.activation")
     for k in (0, 123, 300):
-        np.testing.assert_array_equal(reader.frame(u, k, {}), kept["u.activation"].values[k])
+        np.testing.assert_array_equal(reader.frame(u, k, {}), record["u.activation"].values[k])

@@ -28,7 +28,7 @@ sys.stdin.read()
 
 
 @pytest.fixture
-def other(tmp_path: Path) -> Generator[subprocess.Popen[str]]:
+def holder(tmp_path: Path) -> Generator[subprocess.Popen[str]]:
     """Return a process that writes the record `tmp_path`."""
     process = subprocess.Popen(
         [sys.executable, "-c", HOLD, str(tmp_path)], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE
@@ -39,12 +39,12 @@ def other(tmp_path: Path) -> Generator[subprocess.Popen[str]]:
         process.kill()
 
 
-def test_the_lock_of_a_killed_process_is_released(tmp_path: Path, other: subprocess.Popen[str]) -> None:
+def test_the_lock_of_a_killed_process_is_released(tmp_path: Path, holder: subprocess.Popen[str]) -> None:
     assert writer_lock.is_written(tmp_path) is True
     with pytest.raises(RecordError, match="is being written by another process"):
         writer_lock.lock(tmp_path)
-    other.kill()
-    other.wait()
+    holder.kill()
+    holder.wait()
     assert writer_lock.is_written(tmp_path) is False
     handle = writer_lock.lock(tmp_path)
     assert handle is not None and writer_lock.is_written(tmp_path) is True
@@ -102,5 +102,5 @@ def test_a_file_system_without_locks_tells_nothing(tmp_path: Path, monkeypatch: 
 def test_another_system_locks_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as windows:
         windows.setattr(writer_lock.os, "name", "nt")
-        found = writer_lock.lock(tmp_path), writer_lock.is_written(tmp_path)
-    assert found == (None, None)
+        states = writer_lock.lock(tmp_path), writer_lock.is_written(tmp_path)
+    assert states == (None, None)

@@ -79,15 +79,15 @@ RECORD = [
 def bits(session: dd.Session) -> dict[str, bytes]:
     """Return the whole state of a session, as bytes."""
     session.scene()  # the world advances to the present
-    kept = session.snapshot()
+    snapshot = session.snapshot()
     out = {
-        f"{ident}.{held}.{name}": values.tobytes()
-        for ident, pair in kept.states.items()
-        for held, row in enumerate(pair)
+        f"{ident}.{number}.{name}": values.tobytes()
+        for ident, pair in snapshot.states.items()
+        for number, row in enumerate(pair)
         for name, values in row.items()
     }
-    out["clock"] = repr((kept.clock.tick, kept.clock.time, kept.seed)).encode()
-    if kept.world is not None:
-        out["world"] = b"".join(np.asarray(a).tobytes() for a in jax.tree.leaves(kept.world.world))
-        out["objects"] = repr(kept.world.objects).encode()
+    out["clock"] = repr((snapshot.clock.tick, snapshot.clock.time, snapshot.seed)).encode()
+    if snapshot.world is not None:
+        out["world"] = b"".join(np.asarray(a).tobytes() for a in jax.tree.leaves(snapshot.world.world))
+        out["objects"] = repr(snapshot.world.objects).encode()
     return out

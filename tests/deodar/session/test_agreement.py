@@ -105,10 +105,10 @@ def test_a_heading_in_radians_on_an_axis_in_degrees_is_refused(gain: float, wron
     turn = dd.Axis("turn", -180, 180, 90, periodic=True, unit="deg")
     compass = model.add(dd.Sensor("compass", sensor="heading"))
     compass >> model.add(dd.SpaceCode([turn], 20.0, gain=gain, name="heading"))
-    said = found(model, dd.Arena(LAYOUT))
-    assert bool(said) == wrong
+    message = found(model, dd.Arena(LAYOUT))
+    assert bool(message) == wrong
     if wrong:
-        assert "57.3 times too small" in said[0]
+        assert "57.3 times too small" in message[0]
 
 
 def test_each_number_of_a_pose_has_a_unit_of_its_own() -> None:

@@ -144,14 +144,14 @@ def test_a_step_that_may_grow_keeps_up_and_the_journal_repeats_the_run(every: in
     changes = [c for c in one.journal if c.method == "dt"]
     assert changes and all(dt == round(dt) and 1 <= dt <= 5 for c in changes for dt in c.arguments)
 
-    again = session(every)
+    second = session(every)
     for change in changes:
-        again.step(change.tick - again.tick)
-        change.repeat(again)
-    again.step(one.tick - again.tick)
-    assert again.time == one.time
-    np.testing.assert_array_equal(again.read("u.activation"), one.read("u.activation"))
-    np.testing.assert_array_equal(again.read("slow.activation"), one.read("slow.activation"))
+        second.step(change.tick - second.tick)
+        change.repeat(second)
+    second.step(one.tick - second.tick)
+    assert second.time == one.time
+    np.testing.assert_array_equal(second.read("u.activation"), one.read("u.activation"))
+    np.testing.assert_array_equal(second.read("slow.activation"), one.read("slow.activation"))
 
 
 def test_a_step_at_its_bound_does_not_grow_and_the_run_is_late() -> None:
@@ -188,13 +188,13 @@ def test_a_world_is_read_at_its_period_for_every_step() -> None:
     u = model.add(dd.Field("u", [], tau=50))
     model.add(Sensor("eye", [], sensor="time")) >> u
     world = Told()
-    one = dd.Session(model, world=world)
-    wall = Wall(one, cost=0.0025)
+    session = dd.Session(model, world=world)
+    wall = Wall(session, cost=0.0025)
     meter = wall.live(3000, longest=5)
-    assert {dt for c in one.journal for dt in c.arguments} <= {1, 2, 3, 4}, (
+    assert {dt for c in session.journal for dt in c.arguments} <= {1, 2, 3, 4}, (
         "five steps do not fit into the period"
     )
-    assert meter.lengthened > 500 and one.time == 3000
+    assert meter.lengthened > 500 and session.time == 3000
     gaps = np.diff(world.read)
     assert gaps.min() >= 12 and gaps.max() < 12 + 4 and np.median(gaps) == 12
 

@@ -67,8 +67,10 @@ class Work:
                 args[-2][WHOLE.index("head")] if whole else args[-1] if isinstance(args[-1], np.int32) else 0
             )
             compiled = isinstance(executable, Compiled)  # others run once, with NumPy
-            about = (executable.cost_analysis() if compiled else None) or {}
-            self.done += 1e-9 * (about.get("flops", 0.0) + about.get("transcendentals", 0.0)) * int(steps)
+            analysis = (executable.cost_analysis() if compiled else None) or {}
+            self.done += (
+                1e-9 * (analysis.get("flops", 0.0) + analysis.get("transcendentals", 0.0)) * int(steps)
+            )
             return call(program, executable, *args)
 
         monkeypatch.setattr(Executable, "call", counted)
@@ -161,8 +163,8 @@ def test_the_table_of_costs_prints_its_numbers() -> None:
         and text[3].endswith("once a chunk")
         and "4.500 us" in text[-1]
     )
-    data = costs.data()
-    assert data["sum_us"] == 4 and data["step_us"] == 4.5 and data["elements"][1]["share"] == 0.25
+    summary = costs.data()
+    assert summary["sum_us"] == 4 and summary["step_us"] == 4.5 and summary["elements"][1]["share"] == 0.25
     assert StepCost((), 0.0).sum == 0
 
 

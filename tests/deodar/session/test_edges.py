@@ -29,7 +29,7 @@ def test_a_snapshot_is_restored_after_changes_of_noise_and_structure() -> None:
     reference.step(20)
     s = dd.Session(model, seed=2, precision="float64")
     s.step(5)
-    kept = s.snapshot()
+    snapshot = s.snapshot()
     for path, value in (
         ("u.noise", 0.3),
         ("v.kernel", [dd.Gaussian(1, 3)]),
@@ -38,7 +38,7 @@ def test_a_snapshot_is_restored_after_changes_of_noise_and_structure() -> None:
     ):
         s.set(path, value)
         s.step(3)
-    s.restore(kept)
+    s.restore(snapshot)
     assert s.tick == 5 and s.get("u.noise") == 0
     s.step(15)
     assert np.abs(s.read("u.activation") - reference.read("u.activation")).max() < 1e-10
@@ -48,9 +48,9 @@ def test_a_snapshot_of_a_program_with_noise_set_to_zero_is_restored() -> None:
     s = dd.Session(two(noise=0.1))
     s.step(3)
     s.set("u.noise", 0.0)
-    kept = s.snapshot()
+    snapshot = s.snapshot()
     s.set("u.kernel", [dd.Gaussian(1, 2)])
-    s.restore(kept)
+    s.restore(snapshot)
     s.step(2)
     assert s.tick == 5
 
@@ -64,10 +64,10 @@ def test_a_value_that_is_not_a_snapshot_is_refused(wrong: object) -> None:
 
 def test_snapshots_of_another_model_or_precision_are_refused() -> None:
     s = dd.Session(two())
-    other = dd.Model("other")
-    other.add(dd.Field("z", []))
+    model = dd.Model("other")
+    model.add(dd.Field("z", []))
     with pytest.raises(dd.errors.ParameterError, match="another model"):
-        s.restore(dd.Session(other).snapshot())
+        s.restore(dd.Session(model).snapshot())
     with pytest.raises(dd.errors.ParameterError, match="float64"):
         s.restore(dd.Session(two(), precision="float64").snapshot())
     s.step(2)
@@ -112,12 +112,12 @@ def test_another_function_of_the_same_name_is_another_program() -> None:
     model.add(Function("f", [x], function=step))
     assert dd.simulate(model, 5, record=["f.output"])["f.output"].values[-1, 0] == 5
 
-    def again(state, inputs, time):  # type: ignore[no-untyped-def]
+    def second(state, inputs, time):  # type: ignore[no-untyped-def]
         return state + 100.0
 
-    again.__module__, again.__qualname__ = __name__, "step"
-    globals()["step"] = again
-    model.set("f.function", again)
+    second.__module__, second.__qualname__ = __name__, "step"
+    globals()["step"] = second
+    model.set("f.function", second)
     assert dd.simulate(model, 5, record=["f.output"])["f.output"].values[-1, 0] == 500
 
 
@@ -154,10 +154,10 @@ def test_time_constants_of_a_restored_snapshot_are_compared_with_its_step() -> N
     model.add(dd.Field("u", [x], tau=20))
     s = dd.Session(model, dt=0.1)
     s.set("u.tau", 0.5)
-    kept = s.snapshot()
+    snapshot = s.snapshot()
     s.set("u.tau", 20)
     s.dt = 1
-    s.restore(kept)
+    s.restore(snapshot)
     assert s.dt == 0.1 and s.get("u.tau") == 0.5
 
 
@@ -188,16 +188,16 @@ def test_numbers_that_the_precision_cannot_hold_are_refused() -> None:
 
 
 def test_an_interval_longer_than_any_run_records_the_start() -> None:
-    data = dd.simulate(two(), 10, record=["u.activation"], every=3e9)
-    assert data["time"].values.tolist() == [0.0]
+    record = dd.simulate(two(), 10, record=["u.activation"], every=3e9)
+    assert record["time"].values.tolist() == [0.0]
 
 
 def test_handles_are_accepted_as_paths() -> None:
     model = two()
     s = dd.Session(model)
     assert s.read(model["u"]["activation"]).shape == (21,) and s.read(model["u"]).shape == (21,)
-    data = dd.simulate(model, 2, record=[model["u"]["activation"]])
-    assert list(data.data_vars) == ["u.activation"]
+    record = dd.simulate(model, 2, record=[model["u"]["activation"]])
+    assert list(record.data_vars) == ["u.activation"]
     for wrong in (3, None, ["u"]):
         with pytest.raises(dd.errors.DeodarError):
             s.read(wrong)  # type: ignore[arg-type]

@@ -90,9 +90,9 @@ def test_a_run_in_a_world_is_independent_of_chunks_and_snapshots_restore_the_wor
     for n in (1, 2, 4, 3, 7, 1, 2):
         s.step(n)
         np.testing.assert_array_equal(s.read("u.activation"), whole[s.tick])
-    kept = s.snapshot()
+    snapshot = s.snapshot()
     s.step(13)
-    s.restore(kept)
+    s.restore(snapshot)
     for _ in range(12):
         np.testing.assert_array_equal(s.read("u.activation"), whole[s.tick])
         s.step()
@@ -123,8 +123,8 @@ def test_periods_are_milliseconds_for_every_unit_of_the_document() -> None:
 def test_a_motor_without_a_world_runs_without_effect() -> None:
     model = dd.Model("loose")
     model.add(dd.GaussianStimulus("s", [x], center=2, sigma=1)) >> model.add(Motor("pump", [x], "flow"))
-    data = dd.simulate(model, 5, record=["pump.output", "s.output"])
-    np.testing.assert_array_equal(data["pump.output"].values, data["s.output"].values)
+    record = dd.simulate(model, 5, record=["pump.output", "s.output"])
+    np.testing.assert_array_equal(record["pump.output"].values, record["s.output"].values)
 
 
 def test_axes_that_a_motor_does_not_have_are_refused() -> None:

@@ -17,14 +17,14 @@ STEPS = 120
 
 @pytest.fixture(scope="module")
 def reference() -> dict[str, np.ndarray]:
-    data = dd.simulate(mixed(), STEPS, seed=3, record=RECORD, precision="float64")
-    return {path: data[path].values for path in RECORD}
+    record = dd.simulate(mixed(), STEPS, seed=3, record=RECORD, precision="float64")
+    return {path: record[path].values for path in RECORD}
 
 
-def agree(data: object, reference: dict[str, np.ndarray], prefix: str = "") -> None:
+def agree(record: object, reference: dict[str, np.ndarray], prefix: str = "") -> None:
     for path in RECORD:
-        other = data[prefix + path].values  # type: ignore[index]
-        assert np.abs(other - reference[path]).max() <= 1e-10 * max(1.0, np.abs(reference[path]).max()), path
+        values = record[prefix + path].values  # type: ignore[index]
+        assert np.abs(values - reference[path]).max() <= 1e-10 * max(1.0, np.abs(reference[path]).max()), path
 
 
 def test_the_model_of_these_tests_is_active(reference: dict[str, np.ndarray]) -> None:
@@ -49,8 +49,8 @@ def test_a_run_does_not_depend_on_names_and_groups(reference: dict[str, np.ndarr
         model.move(handle, "inner.group")
         model.rename(handle, f"new name of {handle.element.name}")
     record = [f"inner.group.{dd.quote('new name of ' + p.split('.')[0])}.{p.split('.')[1]}" for p in RECORD]
-    data = dd.simulate(model, STEPS, seed=3, record=record, precision="float64")
-    for variable, path in zip(data.data_vars.values(), RECORD, strict=True):
+    recorded = dd.simulate(model, STEPS, seed=3, record=record, precision="float64")
+    for variable, path in zip(recorded.data_vars.values(), RECORD, strict=True):
         assert np.abs(variable.values - reference[path]).max() <= 1e-10 * max(
             1.0, np.abs(reference[path]).max()
         ), path
@@ -69,10 +69,10 @@ def test_a_run_does_not_depend_on_the_record_and_its_interval(
     reference: dict[str, np.ndarray], every: int
 ) -> None:
     record = ["slow.activation", "u.activation"]
-    data = dd.simulate(mixed(), STEPS, seed=3, record=record, every=every, precision="float64")
+    recorded = dd.simulate(mixed(), STEPS, seed=3, record=record, every=every, precision="float64")
     for path in record:
-        assert np.array_equal(data["time"].values, np.arange(0, STEPS + 1, every))
-        assert np.abs(data[path].values - reference[path][::every]).max() <= 1e-10 * 20
+        assert np.array_equal(recorded["time"].values, np.arange(0, STEPS + 1, every))
+        assert np.abs(recorded[path].values - reference[path][::every]).max() <= 1e-10 * 20
 
 
 @pytest.mark.parametrize("records", [1, 2, 3, 100])
@@ -92,9 +92,9 @@ def test_a_record_does_not_depend_on_the_size_of_the_buffer(
     model = dd.Model("buffer")
     u = model.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=samples)], tau=10, resting_level=-5))
     model.add(Boost("b", [], amplitude=2.0)) >> u
-    data = dd.simulate(model, 60, record="u.activation", every=2)["u.activation"].values
+    values = dd.simulate(model, 60, record="u.activation", every=2)["u.activation"].values
     expected = -5 + 2 * (1 - 0.9 ** np.arange(0, 61, 2))
-    np.testing.assert_allclose(data, np.broadcast_to(expected[:, None], (31, samples)), rtol=1e-5)
+    np.testing.assert_allclose(values, np.broadcast_to(expected[:, None], (31, samples)), rtol=1e-5)
     assert max(sizes) == min(records, max(sizes)) and sum(sizes) >= 31
 
 
@@ -115,18 +115,18 @@ def test_a_session_does_not_depend_on_its_division_into_calls(reference: dict[st
         same(one)
     other = dd.Session(model, seed=3, precision="float64")
     other.step(17)
-    kept = other.snapshot()
+    snapshot = other.snapshot()
     other.run(31)
     same(other)
     other.set("u.tau", 12)
     other.step(5)
-    other.restore(kept)
+    other.restore(snapshot)
     assert other.get("u.tau") == 10 and other.tick == 17
     other.step(50)
     same(other)
     third = dd.Session(model, seed=9, precision="float64")
     third.step(4)
-    third.restore(kept)
+    third.restore(snapshot)
     third.step(STEPS - 17)
     same(third)
     third.reset()
@@ -176,7 +176,7 @@ def test_sweeps_equal_single_runs() -> None:
         '"n>slow".factor', "strength"
     )
     sweep = {"s.amplitude": [5.0, 7.0], "u.kernel.0.sigma": [3.0, 4.0], "strength": [0.5]}
-    data = dd.simulate(
+    record = dd.simulate(
         model,
         60,
         seed=2,
@@ -186,7 +186,14 @@ def test_sweeps_equal_single_runs() -> None:
         sweep=sweep,
         precision="float64",
     )
-    assert data["u.activation"].dims == ("s.amplitude", "u.kernel.0.sigma", "strength", "trial", "time", "x")
+    assert record["u.activation"].dims == (
+        "s.amplitude",
+        "u.kernel.0.sigma",
+        "strength",
+        "trial",
+        "time",
+        "x",
+    )
     single = mixed()
     single.set("s.amplitude", 7.0)
     single.set("u.kernel.0.sigma", 3.0)
@@ -201,7 +208,7 @@ def test_sweeps_equal_single_runs() -> None:
         precision="float64",
     )
     for path in ("u.activation", "slow.activation"):
-        point = data[path].values[1, 0, 0, 1]
+        point = record[path].values[1, 0, 0, 1]
         assert np.abs(point - alone[path].values[0]).max() <= 1e-10
 
 
@@ -227,15 +234,15 @@ def test_noise_kept_for_the_next_step_has_the_bits_of_noise_drawn_in_every_step(
     monkeypatch: pytest.MonkeyPatch, trials: int | None
 ) -> None:
     model = mixed()
-    results = []
+    records = []
     for cells in (1, 10**9):
         monkeypatch.setattr(program, "BLOCKS_FROM", cells)
         executable._shared.cache_clear()
-        data = dd.simulate(dd.Model(document=model.document), 31, trials=trials, seed=3, record=RECORD)
-        results.append({path: data[path].values for path in RECORD})
+        record = dd.simulate(dd.Model(document=model.document), 31, trials=trials, seed=3, record=RECORD)
+        records.append({path: record[path].values for path in RECORD})
     executable._shared.cache_clear()
     for path in RECORD:
-        np.testing.assert_array_equal(results[0][path], results[1][path])
+        np.testing.assert_array_equal(records[0][path], records[1][path])
 
 
 @pytest.mark.parametrize("every", [1, 2])

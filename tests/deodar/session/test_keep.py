@@ -41,7 +41,7 @@ def model():
 
 def seen(session):
     states, by = session.snapshot().states, session.document.by_names()
-    return {name: np.array(states[by[(name,)].id][0][kept]) for name, kept in LEARNED.items()}
+    return {name: np.array(states[by[(name,)].id][0][place]) for name, place in LEARNED.items()}
 
 
 def same(a, b):
@@ -52,11 +52,11 @@ def same(a, b):
 def test_snapshots_contain_learned_weights(precision):
     s = dd.Session(model(), precision=precision)
     s.step(100)
-    kept, before = s.snapshot(), seen(s)
+    snapshot, before = s.snapshot(), seen(s)
     s.step(50)
     after = seen(s)
     assert not any(np.array_equal(before[name], after[name]) for name in LEARNED)
-    s.restore(kept)
+    s.restore(snapshot)
     assert same(seen(s), before)
     s.step(50)
     assert same(seen(s), after)
@@ -76,17 +76,17 @@ def test_kept_weights_are_saved_and_a_run_continues_from_the_file(precision, tmp
     assert same(seen(fresh), seen(s)) and np.array_equal(fresh.read("h.weights"), weights)
     fresh.step(50)
     assert not same(seen(fresh), seen(s))
-    again = fresh.keep()
-    assert np.array_equal(opened.get("p.start").data, fresh.read("p.output")) and len(again) == 4
+    second = fresh.keep()
+    assert np.array_equal(opened.get("p.start").data, fresh.read("p.output")) and len(second) == 4
 
 
 def test_keep_is_one_step_of_the_history_and_does_not_change_the_session():
     m = model()
     before, s = m.document, dd.Session(m)
     s.step(20)
-    here, document = seen(s), s.document
+    values, document = seen(s), s.document
     s.keep()
-    assert same(seen(s), here) and s.document == document
+    assert same(seen(s), values) and s.document == document
     assert m.undo() and m.document == before
 
 

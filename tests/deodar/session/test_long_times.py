@@ -178,8 +178,8 @@ class Watched(Time):
 
 def reads_time(kind: str) -> bool:
     """Return whether a step of the example of a kind depends on the time."""
-    given = example(kind)
-    element = dc.replace(given, windows=[(1, 2)]) if kind in WINDOWED else given  # type: ignore[call-arg]
+    options = example(kind)
+    element = dc.replace(options, windows=[(1, 2)]) if kind in WINDOWED else options  # type: ignore[call-arg]
     here = node(around(element))
     at = Setting(here.ins, here.outs, np.dtype("float32"))
     inputs = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
@@ -201,9 +201,9 @@ def reads_time(kind: str) -> bool:
 
 
 def test_every_kind_that_reads_time_is_tested() -> None:
-    found = {kind for kind in KINDS if reads_time(kind)}
+    kinds = {kind for kind in KINDS if reads_time(kind)}
     lasting = {kind for kind, cls in KINDS.items() if any(p.role == "duration" for p in parameters(cls))}
-    assert found | lasting == {*WINDOWED, *TIMED}, (
+    assert kinds | lasting == {*WINDOWED, *TIMED}, (
         "the test of a kind that reads time has a function timed(t0)"
     )
     assert lasting == set(LASTING), "the test of a kind with a duration has a function lasting(duration)"
@@ -238,9 +238,9 @@ def test_a_run_of_a_month_ends_at_the_exact_step(kind: str, precision: str) -> N
 def test_every_parameter_that_is_a_time_or_duration_is_declared_exact() -> None:
     """Single precision is enough for a rate that multiplies the step, and never the elapsed time."""
     for name, cls in {**KINDS, **PARTS}.items():
-        found = {p.name: p for p in parameters(cls)}
-        found |= {path: p for path, _, p in leaves(any_example(name)) if p.exact}
-        for p in found.values():
+        declared = {p.name: p for p in parameters(cls)}
+        declared |= {path: p for path, _, p in leaves(any_example(name)) if p.exact}
+        for p in declared.values():
             assert p.exact or p.role not in ("moment", "duration"), (name, p.name)
             assert p.exact or "/time" not in p.unit or not (name in KINDS and reads_time(name)), (
                 name,

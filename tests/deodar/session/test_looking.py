@@ -65,21 +65,21 @@ def test_it_is_computed_once_for_each_picture(monkeypatch):
 def test_every_value_is_that_of_a_program_that_computes_it_in_each_chunk():
     model, record = film_model(), ["colours", "field.activation", "node.activation"]
     options = dict(record=record, every=1, world=Film())
-    held = dd.simulate(model, 24, **options)
+    recorded = dd.simulate(model, 24, **options)
     swept = dd.simulate(model, 24, sweep={"gain.factor": [2.0]}, **options)
-    for name in held.data_vars:
-        np.testing.assert_allclose(held[name].values, swept[name].values[0], atol=1e-6)
-    assert np.ptp(held["field.activation"].values[-1]) > 0.1
+    for name in recorded.data_vars:
+        np.testing.assert_allclose(recorded[name].values, swept[name].values[0], atol=1e-6)
+    assert np.ptp(recorded["field.activation"].values[-1]) > 0.1
 
 
 def test_a_changed_parameter_and_a_restored_moment_are_seen_at_once(monkeypatch):
     session = dd.Session(film_model(), world=Film())
     session.step(7)
-    kept, before = session.snapshot(), np.asarray(session.read("colours"))
+    snapshot, before = session.snapshot(), np.asarray(session.read("colours"))
     session.set("colours.sigma", 60.0)
     wide = np.asarray(session.read("colours"))
     assert not np.allclose(wide, before)
     session.step(6)
     assert not np.allclose(session.read("colours"), wide), "another picture"
-    session.restore(kept)
+    session.restore(snapshot)
     np.testing.assert_array_equal(session.read("colours"), before)

@@ -58,13 +58,13 @@ def built(row: Mapping[str, Any]) -> dd.Model:
     kernels = [dd.Gaussian(scale, 2.0, normalized=True), dd.Gaussian(-0.4 * scale, 5.0, normalized=True)]
     count = {"none": 0, "one": 1, "two": 2}[row["kernel"]] if axes else 0
     quadrature = row["quadrature"] if axes else "point"
-    given = {
+    options = {
         "kernel": kernels[:count],
         "quadrature": quadrature,
         "noise": row["noise"],
         "resting_level": -2.0,
     }
-    u = model.add(dd.Field("u", axes, **given), ticks=row["ticks"])
+    u = model.add(dd.Field("u", axes, **options), ticks=row["ticks"])
     v = model.add(dd.Field("v", axes, tau=10.0, noise=row["noise"]))
     for k in range(2 if row["sources"] == "two" else 1):
         windows = [(5.0, 20.0)] if row["sources"] == "window" else []
@@ -85,14 +85,16 @@ def built(row: Mapping[str, Any]) -> dd.Model:
 @pytest.mark.parametrize("row", rows_of_pairs(FEATURES), ids=str)
 def test_every_way_to_run_a_model_has_its_values(row: dict[str, Any]) -> None:
     model = built(row)
-    how: dict[str, Any] = {"seed": 4, "precision": row["precision"]}
-    run = dd.simulate(model, 40.0, record=["u", "v.output"], every=4.0, **how)
-    near = {"rtol": 2e-4, "atol": 2e-4} if row["precision"] == "float32" else {"rtol": 1e-10, "atol": 1e-10}
+    settings: dict[str, Any] = {"seed": 4, "precision": row["precision"]}
+    run = dd.simulate(model, 40.0, record=["u", "v.output"], every=4.0, **settings)
+    tolerance = (
+        {"rtol": 2e-4, "atol": 2e-4} if row["precision"] == "float32" else {"rtol": 1e-10, "atol": 1e-10}
+    )
 
-    session = dd.Session(model, **how)
+    session = dd.Session(model, **settings)
     for k, _ in enumerate(run["time"].values):
-        np.testing.assert_allclose(session.read("u.activation"), run["u.activation"].values[k], **near)
-        np.testing.assert_allclose(session.read("v.output"), run["v.output"].values[k], **near)
+        np.testing.assert_allclose(session.read("u.activation"), run["u.activation"].values[k], **tolerance)
+        np.testing.assert_allclose(session.read("v.output"), run["v.output"].values[k], **tolerance)
         session.step(4)
 
     path = {"": "u.resting_level", "tau": "u.tau", "noise": "u.noise"}[row["swept"]]
@@ -100,11 +102,11 @@ def test_every_way_to_run_a_model_has_its_values(row: dict[str, Any]) -> None:
     if path == "u.noise" and not row["noise"]:
         path, values = "v.tau", [25.0, 10.0]
     swept = dd.simulate(
-        model, 40.0, record=["u", "v.output"], every=4.0, trials=2, sweep={path: values}, **how
+        model, 40.0, record=["u", "v.output"], every=4.0, trials=2, sweep={path: values}, **settings
     )
     for name in run.data_vars:
         point = swept[name].isel({path: 1, "trial": 0}).transpose(*run[name].dims)
-        np.testing.assert_allclose(point.values, run[name].values, **near)
+        np.testing.assert_allclose(point.values, run[name].values, **tolerance)
     other = swept["u.activation"].isel({path: 0, "trial": 0})
     assert path.startswith("v") or not np.array_equal(other.values, run["u.activation"].values)
     same = [swept["v.output"].isel({path: 1, "trial": k}).values for k in range(2)]

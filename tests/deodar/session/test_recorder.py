@@ -23,11 +23,11 @@ x = dd.Axis("x", 0, 20, samples=11)
 
 
 def model() -> dd.Model:
-    made = dd.Model("recorded")
-    made.add(dd.Field("u", [x], tau=10, kernel=[dd.Gaussian(2, 3)], noise=0.5))
-    made.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=9)) >> made["u"]
-    made.add(dd.Field("n", [], tau=10, noise=0.2))
-    return made
+    model = dd.Model("recorded")
+    model.add(dd.Field("u", [x], tau=10, kernel=[dd.Gaussian(2, 3)], noise=0.5))
+    model.add(dd.GaussianStimulus("s", [x], center=10, sigma=3, amplitude=9)) >> model["u"]
+    model.add(dd.Field("n", [], tau=10, noise=0.2))
+    return model
 
 
 Act = Callable[[dd.Session], object]
@@ -69,9 +69,9 @@ def read_along(acts: list[Act]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     }
 
 
-def compare(found: xarray.Dataset, expected: dict[str, tuple[np.ndarray, np.ndarray]]) -> None:
+def compare(record: xarray.Dataset, expected: dict[str, tuple[np.ndarray, np.ndarray]]) -> None:
     for name, (times, values) in expected.items():
-        variable = found[name]
+        variable = record[name]
         dimension = time_dimension(variable)
         assert dimension is not None
         at = variable[dimension].values
@@ -100,11 +100,11 @@ def test_the_samples_are_the_states_that_a_reader_sees(tmp_path: Path) -> None:
     for act in ACTS:
         act(session)
     recorder.close()
-    found = dd.open_record(tmp_path / "run")
-    compare(found, read_along(ACTS))
-    assert found["time"].values.tolist() == [7 + 2 * k for k in range(37)]
-    assert found["n.activation.time"].values.tolist() == [7 + 6 * k for k in range(13)]
-    assert about(found)["complete"] is True and (tmp_path / "run" / "model.json").is_file()
+    record = dd.open_record(tmp_path / "run")
+    compare(record, read_along(ACTS))
+    assert record["time"].values.tolist() == [7 + 2 * k for k in range(37)]
+    assert record["n.activation.time"].values.tolist() == [7 + 6 * k for k in range(13)]
+    assert about(record)["complete"] is True and (tmp_path / "run" / "model.json").is_file()
 
 
 def test_a_new_step_keeps_the_times_of_the_samples(tmp_path: Path) -> None:
@@ -118,10 +118,10 @@ def test_a_new_step_keeps_the_times_of_the_samples(tmp_path: Path) -> None:
     with session.record(tmp_path / "r.zarr", ["u", "n,every=4"], every=2):
         for act in acts:
             act(session)
-    found = dd.open_record(tmp_path / "r.zarr")
-    compare(found, read_along(acts))
-    assert found["time"].values.tolist() == [7, 9, 11, 13, 15, 17, 19, 21]
-    assert found["n.activation.time"].values.tolist() == [7, 11, 15, 19]
+    record = dd.open_record(tmp_path / "r.zarr")
+    compare(record, read_along(acts))
+    assert record["time"].values.tolist() == [7, 9, 11, 13, 15, 17, 19, 21]
+    assert record["n.activation.time"].values.tolist() == [7, 11, 15, 19]
 
 
 def test_changes_are_in_the_record_with_their_ticks(tmp_path: Path) -> None:
@@ -166,9 +166,9 @@ def test_a_record_ends_where_it_cannot_continue_and_the_session_runs_on(
     act(session)
     session.step(10)
     assert not recorder.open and reason in recorder.ended
-    found = dd.open_record(tmp_path / "r.zarr")
-    assert found.sizes["time"] == 6 and about(found)["complete"] is False
-    assert reason in about(found)["ended"]
+    record = dd.open_record(tmp_path / "r.zarr")
+    assert record.sizes["time"] == 6 and about(record)["complete"] is False
+    assert reason in about(record)["ended"]
     session.record(tmp_path / "next.zarr", "u").close()
 
 
@@ -263,15 +263,15 @@ def test_an_exception_in_the_block_ends_the_record_as_incomplete(tmp_path: Path)
     with pytest.raises(ZeroDivisionError), session.record(tmp_path / "r.zarr", "u"):
         session.step(4)
         _ = 1 / 0
-    found = dd.open_record(tmp_path / "r.zarr")
-    assert found.sizes["time"] == 5 and about(found)["complete"] is False
-    assert "ZeroDivisionError" in about(found)["ended"]
+    record = dd.open_record(tmp_path / "r.zarr")
+    assert record.sizes["time"] == 5 and about(record)["complete"] is False
+    assert "ZeroDivisionError" in about(record)["ended"]
 
 
 def test_a_live_run_is_recorded(tmp_path: Path) -> None:
     session = dd.Session(model(), seed=3)
     with session.record(tmp_path / "r.zarr", ["u", "n"], every=5):
         session.run_live(200, speed=None)
-    data = dd.simulate(model(), 200, seed=3, record=["u", "n"], every=5)
-    found = files.load_record(tmp_path / "r.zarr")
-    assert found.drop_attrs().identical(data.drop_attrs())
+    expected = dd.simulate(model(), 200, seed=3, record=["u", "n"], every=5)
+    record = files.load_record(tmp_path / "r.zarr")
+    assert record.drop_attrs().identical(expected.drop_attrs())

@@ -55,10 +55,10 @@ def lowest_with_a_peak(model: dd.Model, low: float, high: float) -> float:
     """
     for _ in range(2):
         amplitudes = np.linspace(low, high, 12)
-        data = dd.simulate(
+        record = dd.simulate(
             model, 900, record=["top.output"], every=900, sweep={"tested.amplitude": amplitudes}
         )
-        peak = data["top.output"].values[:, -1] > 0
+        peak = record["top.output"].values[:, -1] > 0
         assert peak[-1] and not peak[0], "the threshold lies outside the range that is searched"
         first = int(np.argmax(peak))
         low, high = float(amplitudes[first - 1]), float(amplitudes[first])
@@ -67,9 +67,9 @@ def lowest_with_a_peak(model: dd.Model, low: float, high: float) -> float:
 
 def place(model: dd.Model, dimensions: int) -> np.ndarray:
     model.set("tested.amplitude", 8.0)
-    data = dd.simulate(model, 300)["u.activation"].isel(time=-1)
-    weight = np.maximum(data.values, 0)
-    grids = np.meshgrid(*(data[name].values for name in "xy"[:dimensions]), indexing="ij")
+    activation = dd.simulate(model, 300)["u.activation"].isel(time=-1)
+    weight = np.maximum(activation.values, 0)
+    grids = np.meshgrid(*(activation[name].values for name in "xy"[:dimensions]), indexing="ij")
     return np.array([(g * weight).sum() / weight.sum() for g in grids])
 
 
@@ -131,6 +131,6 @@ def test_white_noise_keeps_its_spatial_integral() -> None:
         model.add(dd.Field("u", over, tau=10, noise=1.0)) >> model.add(dd.Project([], name="total"))
         model.disconnect("u", "total")
         model.connect(model["u"]["activation"], "total")
-        data = dd.simulate(model, 100, record=["total.output"], every=100, trials=1500, precision="float64")
-        spread.append(float(data["total.output"].values[:, -1].std()))
+        record = dd.simulate(model, 100, record=["total.output"], every=100, trials=1500, precision="float64")
+        spread.append(float(record["total.output"].values[:, -1].std()))
     assert max(spread) / min(spread) < 1.10, spread

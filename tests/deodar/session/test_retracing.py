@@ -65,9 +65,9 @@ def test_a_second_session_compiles_nothing(counter: Counter) -> None:
     second.step(4)
     second.read("u.activation")
     second.reset()
-    kept = second.snapshot()
+    snapshot = second.snapshot()
     second.step(2)
-    second.restore(kept)
+    second.restore(snapshot)
     assert counter.events == []
 
 

@@ -36,14 +36,14 @@ def test_a_change_acts_from_the_next_step_and_is_recorded_in_the_journal() -> No
     s.step(1)
     assert np.allclose(s.read("u.activation"), 1 + 0.1 * (2 - 1), atol=1e-12)
     assert s.set("u.kernel", [dd.Gaussian(0.5, 2)]) == "recompile"
-    kept = s.snapshot()
+    snapshot = s.snapshot()
     s.step(2)
-    s.restore(kept)
+    s.restore(snapshot)
     s.reset()
     assert [(c.tick, c.method, c.arguments[0]) for c in s.journal] == [
         (3, "set", "u.resting_level"),
         (4, "set", "u.kernel"),
-        (6, "restore", kept),
+        (6, "restore", snapshot),
         (4, "reset", 0),
     ]
 
@@ -79,8 +79,8 @@ def test_time_keeps_its_digits_over_a_day_in_float32() -> None:
     model.set("s.amplitude", 1.0)
     model.set("s.windows", [(86_400_000.0, 86_400_008.0)])
     model.set("s.sigma", 1e6)
-    data = dd.simulate(model, 20, record=["s.output"])["s.output"]
-    assert data["time"].values[data.values[:, 0] > 0.5].tolist() == [86_400_000.0 + k for k in range(8)]
+    record = dd.simulate(model, 20, record=["s.output"])["s.output"]
+    assert record["time"].values[record.values[:, 0] > 0.5].tolist() == [86_400_000.0 + k for k in range(8)]
 
 
 def test_windows_are_half_open_for_any_step_and_division_of_the_run() -> None:
@@ -139,11 +139,11 @@ def test_a_value_that_is_not_finite_names_element_step_and_fix() -> None:
     ) as caught:
         s.step(500)
     step = int(str(caught.value).split("step ")[1].split()[0])
-    again = dd.Session(model)
-    again.step(step - 1)
-    assert np.isfinite(again.read("v.activation")).all()
+    session = dd.Session(model)
+    session.step(step - 1)
+    assert np.isfinite(session.read("v.activation")).all()
     with pytest.raises(dd.errors.NotFinite, match=f"in step {step} "):
-        again.step(1)
+        session.step(1)
     with pytest.raises(dd.errors.NotFinite, match=f"in step {step} "):
         dd.simulate(model, 500, record=["v.activation"], trials=2)
 
@@ -164,10 +164,10 @@ def test_ctrl_c_returns_the_record_so_far(monkeypatch: pytest.MonkeyPatch) -> No
         dd.simulate(model, 100_000, record=["u.activation"])
     from deodar.recording.record import about
 
-    data = caught.value.data
-    assert 1 < data.sizes["time"] < 100_001 and not about(data)["complete"]
-    assert np.array_equal(data["time"].values, np.arange(data.sizes["time"]))
-    assert np.allclose(data["u.activation"].values, 1)
+    record = caught.value.data
+    assert 1 < record.sizes["time"] < 100_001 and not about(record)["complete"]
+    assert np.array_equal(record["time"].values, np.arange(record.sizes["time"]))
+    assert np.allclose(record["u.activation"].values, 1)
 
 
 class Ramp(World):
@@ -190,17 +190,17 @@ def test_a_world_is_sensed_at_its_period_for_any_chunks() -> None:
     model.add(Sensor("eye", [x], sensor="clock"))
     expected = [4.0 * (t // 4) for t in range(21)]
     world = Ramp()
-    data = dd.simulate(model, 20, record=["eye.output"], world=world)
-    assert data["eye.output"].values[:, 0].tolist() == expected and world.asked == [0, 4, 8, 12, 16, 20]
+    record = dd.simulate(model, 20, record=["eye.output"], world=world)
+    assert record["eye.output"].values[:, 0].tolist() == expected and world.asked == [0, 4, 8, 12, 16, 20]
     s = dd.Session(model, world=Ramp())
     for n in (1, 2, 5, 7):
         s.step(n)
         assert s.read("eye.output")[0] == expected[s.tick]
     early = dd.Session(model, world=Ramp())
     early.step(6)
-    kept = early.snapshot()
+    snapshot = early.snapshot()
     early.step(7)
-    early.restore(kept)  # inside a period: the sensor has its old reading again
+    early.restore(snapshot)  # inside a period: the sensor has its old reading again
     for _ in range(9):
         assert early.read("eye.output")[0] == expected[early.tick]
         early.step(1)

@@ -16,11 +16,11 @@ from tests.deodar.worlds.test_recorded_run import driving
 
 def test_a_single_run_continues_with_the_bits_of_an_undisturbed_session(tmp_path: Path) -> None:
     dd.simulate(mixed(), 60, seed=4, record=["u", "v"], every=5, out=tmp_path / "run")
-    said: list[tuple[int, int]] = []
-    session = dd.session_at(tmp_path / "run", 37, on=dd.Resources(progress=lambda *at: said.append(at)))
+    reports: list[tuple[int, int]] = []
+    session = dd.session_at(tmp_path / "run", 37, on=dd.Resources(progress=lambda *at: reports.append(at)))
     script = dd.Session(mixed(), seed=4)
     script.step(37)
-    assert bits(session) == bits(script) and said[-1] == (37, 37)
+    assert bits(session) == bits(script) and reports[-1] == (37, 37)
     session.step(50)
     script.step(50)
     assert bits(session) == bits(script)
@@ -95,9 +95,9 @@ def test_a_record_that_cannot_be_continued_states_why(
 
 
 def test_a_record_with_other_values_is_refused(tmp_path: Path) -> None:
-    data = dd.simulate(mixed(), 6, record=["u"], every=1)
-    data["u.activation"][4] += 1
-    dd.save_record(data, tmp_path / "run.nc")
+    record = dd.simulate(mixed(), 6, record=["u"], every=1)
+    record["u.activation"][4] += 1
+    dd.save_record(record, tmp_path / "run.nc")
     assert dd.session_at(tmp_path / "run.nc", 3).tick == 3
     with pytest.raises(RecordError, match=r"other values of u\.activation at 4 than the record"):
         dd.session_at(tmp_path / "run.nc", 4)
@@ -108,9 +108,9 @@ def test_a_record_with_other_values_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_time_between_samples_is_compared_with_the_sample_before_it(tmp_path: Path) -> None:
-    data = dd.simulate(mixed(), 40, record=["u"], every=5)
-    data["u.activation"][4] += 1
-    dd.save_record(data, tmp_path / "run.nc")
+    record = dd.simulate(mixed(), 40, record=["u"], every=5)
+    record["u.activation"][4] += 1
+    dd.save_record(record, tmp_path / "run.nc")
     assert dd.session_at(tmp_path / "run.nc", 19).tick == 19
     with pytest.raises(RecordError, match=r"other values of u\.activation at 20 than the record"):
         dd.session_at(tmp_path / "run.nc", 23)

@@ -18,14 +18,14 @@ from tests.deodar.worlds.test_recorded_run import driving
 
 def model() -> dd.Model:
     """Return a model with learned weights, a slow part, noise, and a delay."""
-    made = dd.Model("kept")
+    model = dd.Model("kept")
     x = dd.Axis("x", 0, 10, samples=8)
-    made.add(dd.Field("u", [x], tau=10, noise=0.5))
-    made.add(dd.Field("v", [x], tau=30, noise=0.2), ticks=3)
-    made.add(dd.GaussianStimulus("s", [x], center=5, sigma=2, amplitude=8)) >> made["u"]
-    made["u"] >> made.add(dd.Hebbian([x], "oja", rate=0.05, initial=0.1, name="w")) >> made["v"]
-    made["s"] >> made.add(dd.DelayLine("late", delay=4.0)) >> made["v"]
-    return made
+    model.add(dd.Field("u", [x], tau=10, noise=0.5))
+    model.add(dd.Field("v", [x], tau=30, noise=0.2), ticks=3)
+    model.add(dd.GaussianStimulus("s", [x], center=5, sigma=2, amplitude=8)) >> model["u"]
+    model["u"] >> model.add(dd.Hebbian([x], "oja", rate=0.05, initial=0.1, name="w")) >> model["v"]
+    model["s"] >> model.add(dd.DelayLine("late", delay=4.0)) >> model["v"]
+    return model
 
 
 CHILD = """
@@ -48,10 +48,10 @@ def test_another_process_continues_with_the_same_bits(tmp_path: Path) -> None:
     session.run(50)
     command = [sys.executable, "-c", CHILD, str(tmp_path / "moment.npz"), str(tmp_path / "out.npz")]
     subprocess.run(command, check=True, cwd=Path(__file__).parents[3])
-    with np.load(tmp_path / "out.npz") as found:
-        assert found["u"].tobytes() == session.read("u").tobytes()
-        assert found["v"].tobytes() == session.read("v").tobytes()
-        assert found["time"] == session.time == 90 and found["seed"] == 3
+    with np.load(tmp_path / "out.npz") as arrays:
+        assert arrays["u"].tobytes() == session.read("u").tobytes()
+        assert arrays["v"].tobytes() == session.read("v").tobytes()
+        assert arrays["time"] == session.time == 90 and arrays["seed"] == 3
 
 
 def test_a_snapshot_is_read_as_it_was_written(tmp_path: Path) -> None:
@@ -73,12 +73,12 @@ def test_a_world_continues_too(tmp_path: Path) -> None:
     first = session()
     first.run(640)
     dd.save_snapshot(first.snapshot(), tmp_path / "moment.npz")
-    again = session()
-    again.restore(dd.load_snapshot(tmp_path / "moment.npz"))
-    for one in (first, again):
+    restored = session()
+    restored.restore(dd.load_snapshot(tmp_path / "moment.npz"))
+    for one in (first, restored):
         one.run(640)
     for path in ("eyes", "u", "left.output"):
-        assert first.read(path).tobytes() == again.read(path).tobytes()
+        assert first.read(path).tobytes() == restored.read(path).tobytes()
 
 
 class Keeps(World):
@@ -95,9 +95,9 @@ class Keeps(World):
 
 
 def test_a_state_that_a_file_cannot_hold_names_its_world(tmp_path: Path) -> None:
-    made = dd.Model("kept")
-    made.add(dd.Sensor("s", [], sensor="s"))
-    session = dd.Session(made, world=Keeps())
+    model = dd.Model("kept")
+    model.add(dd.Sensor("s", [], sensor="s"))
+    session = dd.Session(model, world=Keeps())
     with pytest.raises(RecordError, match="the world Keeps"):
         dd.save_snapshot(session.snapshot(), tmp_path / "moment.npz")
     assert list(tmp_path.iterdir()) == []
@@ -112,21 +112,21 @@ def test_an_existing_file_is_replaced_only_with_force(tmp_path: Path) -> None:
 
 
 def test_a_snapshot_of_another_document_is_refused(tmp_path: Path) -> None:
-    other = dd.Model("other")
-    other.add(dd.Field("z", []))
-    dd.save_snapshot(dd.Session(other).snapshot(), tmp_path / "moment.npz")
+    stranger = dd.Model("other")
+    stranger.add(dd.Field("z", []))
+    dd.save_snapshot(dd.Session(stranger).snapshot(), tmp_path / "moment.npz")
     with pytest.raises(ParameterError, match="another model, 'other'"):
         dd.Session(model()).restore(dd.load_snapshot(tmp_path / "moment.npz"))
 
 
-@pytest.mark.parametrize("how", ["absent", "cut", "text", "record"])
-def test_a_file_that_is_not_a_sound_snapshot_is_one_error(how: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("damage", ["absent", "cut", "text", "record"])
+def test_a_file_that_is_not_a_sound_snapshot_is_one_error(damage: str, tmp_path: Path) -> None:
     path = dd.save_snapshot(dd.Session(model()).snapshot(), tmp_path / "moment.npz")
-    if how == "absent":
+    if damage == "absent":
         path.unlink()
-    elif how == "cut":
+    elif damage == "cut":
         path.write_bytes(path.read_bytes()[:-100])
-    elif how == "text":
+    elif damage == "text":
         path.write_text("no archive")
     else:
         np.savez(path, a=np.zeros(3))
@@ -154,12 +154,12 @@ def test_a_file_contains_the_objects_of_the_world(tmp_path: Path) -> None:
     first.place("late", (0.9, 0.4), (0.04, 0.04))
     here = first.scene()
     dd.save_snapshot(first.snapshot(), tmp_path / "moment.npz")
-    again = session()
-    again.restore(dd.load_snapshot(tmp_path / "moment.npz"))
-    assert again.scene() == here
-    for one in (first, again):
+    restored = session()
+    restored.restore(dd.load_snapshot(tmp_path / "moment.npz"))
+    assert restored.scene() == here
+    for one in (first, restored):
         one.run(320)
-    assert first.read("u").tobytes() == again.read("u").tobytes()
+    assert first.read("u").tobytes() == restored.read("u").tobytes()
 
 
 def test_objects_that_are_no_plain_data_name_their_world(tmp_path: Path) -> None:

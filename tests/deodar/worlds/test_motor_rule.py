@@ -39,7 +39,7 @@ def test_a_rule_is_read_as_it_is_written_and_bad_ones_are_refused():
     rule = MotorRule((-1.0, 2.0), 5.0, 0.5, 100.0)
     assert MotorRule.from_data(rule.to_data(), "m") == rule
     assert MotorRule.from_data({}, "m") == MotorRule()
-    for data in (
+    for record in (
         {"limits": [1]},
         {"limits": [2, 1]},
         {"limits": [0, float("inf")]},
@@ -52,4 +52,4 @@ def test_a_rule_is_read_as_it_is_written_and_bad_ones_are_refused():
         {"limits": [1, 2]},
     ):
         with pytest.raises(WorldError, match=r"^m: "):
-            MotorRule.from_data(data, "m")
+            MotorRule.from_data(record, "m")

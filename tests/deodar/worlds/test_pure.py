@@ -66,10 +66,10 @@ def test_worlds_of_other_structure_or_axes_have_programs_of_their_own() -> None:
 
 
 def test_a_change_of_a_world_does_not_affect_another_world() -> None:
-    one = Counter(4.0)
-    assert counted(one) == [4.0]
-    one.by = 9.0
-    assert counted(one) == [9.0]
+    counter = Counter(4.0)
+    assert counted(counter) == [4.0]
+    counter.by = 9.0
+    assert counted(counter) == [9.0]
     assert counted(Counter(4.0), copies=2) == [4.0, 4.0], (
         "another number of copies: traced again, from the stored copy"
     )
@@ -183,6 +183,6 @@ def test_a_held_reading_is_the_same_inside_the_step() -> None:
     for inside in (True, False):
         world = Slow(1.0)
         world.inside = inside
-        data = dd.simulate(model, 8, record=["count.output", "now.output"], every=1, world=world)
-        assert data["count.output"].values.tolist() == [0, 0, 0, 3, 3, 3, 6, 6, 6]
-        assert data["now.output"].values.tolist() == list(range(9))
+        record = dd.simulate(model, 8, record=["count.output", "now.output"], every=1, world=world)
+        assert record["count.output"].values.tolist() == [0, 0, 0, 3, 3, 3, 6, 6, 6]
+        assert record["now.output"].values.tolist() == list(range(9))

@@ -53,41 +53,41 @@ def run() -> Any:
 
 
 def test_a_model_in_a_replayed_world_repeats_its_run(run: Any) -> None:
-    again = dd.simulate(
+    record = dd.simulate(
         driving(), 640, record=["eyes.output", "u.activation", "left.output"], seed=4, world=Recording(run)
     )
-    np.testing.assert_array_equal(run["eyes.output"].values, again["eyes.output"].values)
+    np.testing.assert_array_equal(run["eyes.output"].values, record["eyes.output"].values)
     for name in run.data_vars:  # another program: it may add in another order
-        np.testing.assert_allclose(run[name].values, again[name].values, rtol=1e-5)
+        np.testing.assert_allclose(run[name].values, record[name].values, rtol=1e-5)
 
 
 def test_a_replay_in_double_precision_agrees_to_1e_10() -> None:
     run = recorded(precision="float64")
-    again = dd.simulate(
+    record = dd.simulate(
         driving(), 640, record=["u.activation"], seed=4, world=Recording(run), precision="float64"
     )
-    np.testing.assert_allclose(run["u.activation"].values, again["u.activation"].values, atol=1e-10)
+    np.testing.assert_allclose(run["u.activation"].values, record["u.activation"].values, atol=1e-10)
 
 
 def test_a_record_at_the_period_of_the_world_is_sufficient_for_a_replay(run: Any) -> None:
     sparse = run[["eyes.output"]].isel(time=slice(None, None, 4))
     sparse.attrs = run.attrs
-    again = dd.simulate(driving(), 640, record=["u.activation"], seed=4, world=Recording(sparse))
-    np.testing.assert_allclose(run["u.activation"].values, again["u.activation"].values, rtol=1e-5)
+    record = dd.simulate(driving(), 640, record=["u.activation"], seed=4, world=Recording(sparse))
+    np.testing.assert_allclose(run["u.activation"].values, record["u.activation"].values, rtol=1e-5)
 
 
 def test_a_replay_with_another_seed_has_the_same_sensor_readings(run: Any) -> None:
-    again = dd.simulate(driving(), 640, record=["eyes.output", "u.activation"], seed=5, world=Recording(run))
-    np.testing.assert_array_equal(run["eyes.output"].values, again["eyes.output"].values)
-    assert np.abs(run["u.activation"].values - again["u.activation"].values).max() > 0.01
+    record = dd.simulate(driving(), 640, record=["eyes.output", "u.activation"], seed=5, world=Recording(run))
+    np.testing.assert_array_equal(run["eyes.output"].values, record["eyes.output"].values)
+    assert np.abs(run["u.activation"].values - record["u.activation"].values).max() > 0.01
 
 
 def test_a_replay_from_a_file_can_be_repeated_from_its_record(run: Any, tmp_path: Path) -> None:
     files.save_record(run, tmp_path / "run.zarr")
     world = opened(Recording, str(tmp_path / "run.zarr"))
-    again = dd.simulate(driving(), 320, record=["u.activation"], seed=4, world=world)
-    np.testing.assert_allclose(run["u.activation"].values[:21], again["u.activation"].values, rtol=1e-5)
-    repeated = repeat(again, dd.simulate)
+    record = dd.simulate(driving(), 320, record=["u.activation"], seed=4, world=world)
+    np.testing.assert_allclose(run["u.activation"].values[:21], record["u.activation"].values, rtol=1e-5)
+    repeated = repeat(record, dd.simulate)
     assert repeated.same_bits and not repeated.differences
 
 

@@ -49,7 +49,7 @@ def test_positions_that_fit_are_accepted() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "center", "size", "said"),
+    ("name", "center", "size", "message"),
     [
         ("crate", (2.1, 0.5), (0.1, 0.1), r"crate: \(2.1, 0.5\) lies outside the border, 0 to 2, 0 to 1 m"),
         ("goal", (1.0, 0.9), None, "goal: .* lies inside 'wall'"),
@@ -61,9 +61,9 @@ def test_positions_that_fit_are_accepted() -> None:
     ],
 )
 def test_positions_that_do_not_fit_are_refused_with_the_reason(
-    name: str, center: Any, size: Any, said: str
+    name: str, center: Any, size: Any, message: str
 ) -> None:
-    assert re.search(said, refusal(name, center, size))
+    assert re.search(message, refusal(name, center, size))
 
 
 def test_a_missing_or_fixed_object_cannot_be_moved() -> None:

@@ -23,9 +23,9 @@ AXES = Video.example_axes("picture")
 FINE = dd.Axis("x", 0, 63, 64), dd.Axis("y", 0, 47, 48), dd.Axis("channel", 0, 2, 3)
 
 
-def middle(shown: np.ndarray) -> float:
+def middle(picture: np.ndarray) -> float:
     """Return the column of the middle of the red pixels."""
-    red = np.clip(shown[:, :, 0] - shown[:, :, 2] - 0.3, 0, None).sum(axis=1)
+    red = np.clip(picture[:, :, 0] - picture[:, :, 2] - 0.3, 0, None).sum(axis=1)
     return float((red * np.arange(len(red))).sum() / red.sum())
 
 
@@ -41,17 +41,17 @@ def test_a_video_follows_the_time_of_the_model(film: Path) -> None:
         assert abs(middle(world.sense("picture", FINE, moment)) - (2 * (moment // 40) + 7.5)) < 1.0
     model = dd.Model("watching")
     model.add(Sensor("eye", FINE, "picture"))
-    data = dd.simulate(model, 400, dt=10, record=["eye.output"], every=10, world=Video(film, period=80))
-    seen = [middle(v) for v in data["eye.output"].values]
+    record = dd.simulate(model, 400, dt=10, record=["eye.output"], every=10, world=Video(film, period=80))
+    seen = [middle(v) for v in record["eye.output"].values]
     assert all((abs(a - b) < 0.1) == (k % 8 != 7) for k, (a, b) in enumerate(itertools.pairwise(seen)))
 
 
 def test_a_video_keeps_its_last_picture_or_repeats(film: Path) -> None:
     last = Video(film).sense("picture", FINE, 960.0)
     np.testing.assert_array_equal(Video(film).sense("picture", FINE, 5000.0), last)
-    again = Video(film, loop=True)
+    looped = Video(film, loop=True)
     for moment, place in ((80.0, 80.0), (1080.0, 80.0), (10_400.0, 400.0)):
-        assert abs(middle(again.sense("picture", FINE, moment)) - (2 * (place // 40) + 7.5)) < 1.0
+        assert abs(middle(looped.sense("picture", FINE, moment)) - (2 * (place // 40) + 7.5)) < 1.0
 
 
 def test_a_repeated_video_is_read_once_for_each_repetition(
@@ -75,8 +75,8 @@ def test_a_video_can_be_pickled(film: Path) -> None:
 
 
 def test_a_record_names_the_video(film: Path) -> None:
-    said = Video(film).describe()
-    assert Video.again(said).describe() == said and len(said["sha256"]) == 64
+    description = Video(film).describe()
+    assert Video.again(description).describe() == description and len(description["sha256"]) == 64
 
 
 def test_files_that_are_not_a_video_are_refused(tmp_path: Path) -> None:
@@ -139,5 +139,5 @@ def test_without_opencv_the_error_names_the_package_to_install(
 def test_worlds_are_opened_from_the_command_line(film: Path) -> None:
     from deodar.cli._options import world
 
-    found: Any = world(f"video:{film}")
-    assert isinstance(found, Video) and isinstance(world("camera:2"), Camera)
+    opened: Any = world(f"video:{film}")
+    assert isinstance(opened, Video) and isinstance(world("camera:2"), Camera)

@@ -9,8 +9,8 @@ from deodar.analysis.continuation.confirmation import confirmed
 from tests.deodar.analysis.continuation.models import line, node, plane
 
 MODELS = {
-    "line": line(),
-    "memory": line(excitation=22, inhibition=0.4),
+    "line": line(51),
+    "memory": line(51, excitation=22, inhibition=0.4),
     "a node": node(),
     "plane": plane(),
 }

@@ -35,7 +35,7 @@ def assert_same(a: SteadyBranch, b: SteadyBranch) -> None:
 @functools.cache
 def whole_line() -> SteadyBranch:
     """Return a branch with both folds, each also on a finer grid."""
-    return dd.continuation(line(), "s.amplitude", (0, 8))
+    return dd.continuation(line(51), "s.amplitude", (0, 8))
 
 
 @pytest.mark.parametrize("name", ["branch.nc", "branch.zarr"])
@@ -55,11 +55,12 @@ def test_a_branch_survives_its_file(tmp_path, name):
 def test_other_programs_find_states_by_path_axis_and_parameter(tmp_path):
     branch = whole_line()
     record = dd.load_record(branch.save(tmp_path / "branch.nc"))
-    assert record["u.activation"].dims == ("state", "x") and record["x"].size == 101
+    assert record["u.activation"].dims == ("state", "x") and record["x"].size == 51
     assert record["value"].attrs["long_name"] == "s.amplitude"
     assert np.array_equal(record["u.activation"].values, branch.states)
     assert np.array_equal(record["bifurcation"], [b.value for b in branch.bifurcations])
-    assert record["bifurcation:u.activation"].shape == record["mode:u.activation"].shape == (2, 101)
+    shape = len(branch.bifurcations), 51
+    assert record["bifurcation:u.activation"].shape == record["mode:u.activation"].shape == shape
 
 
 def test_a_loaded_branch_is_left_at_its_branch_point_and_followed_in_a_second_parameter(tmp_path):

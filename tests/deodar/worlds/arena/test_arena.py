@@ -94,23 +94,23 @@ def test_the_vehicle_stays_in_the_maze_and_slides_or_sticks_at_walls() -> None:
             and y.max() < high - 0.0369
         )
         boxes = np.asarray([t.box for t in load("z").objects])
-        away = np.hypot(
+        distance = np.hypot(
             np.maximum(np.maximum(boxes[:, 0] - x[:, None], x[:, None] - boxes[:, 2]), 0),
             np.maximum(np.maximum(boxes[:, 1] - y[:, None], y[:, None] - boxes[:, 3]), 0),
         )
-        assert away.min() > 0.0369
+        assert distance.min() > 0.0369
         walked = np.linalg.norm(np.diff(poses[0, :, :2], axis=0), axis=1)
         assert bool((walked[200:] > 1e-4).mean() > 0.5) == moving
 
 
 def test_a_closed_loop_keeps_clear_of_walls() -> None:
-    data = dd.simulate(
+    record = dd.simulate(
         avoiding(), 64 * 600, record=["pose.output", "eyes.output", "touching.output"], world=Arena("z")
     )
-    pose = data["pose.output"].values
+    pose = record["pose.output"].values
     assert np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum() > 1.0, "it continues to drive"
-    assert data["eyes.output"].values[300:].max() > 100, "it meets walls"
-    assert data["touching.output"].values.mean() < 0.05
+    assert record["eyes.output"].values[300:].max() > 100, "it meets walls"
+    assert record["touching.output"].values.mean() < 0.05
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
@@ -158,11 +158,11 @@ def test_place_every_holds_a_reading_for_several_periods() -> None:
 
 
 def test_infrared_noise_can_be_switched_off() -> None:
-    near = {**EMPTY, "start": [0.039, 1.5], "heading": np.pi}
-    quiet = [begun(near, infrared_noise=0.0, trials=[k]).sense("infrared", (EIGHT,), 0.0) for k in (0, 1)]
+    layout = {**EMPTY, "start": [0.039, 1.5], "heading": np.pi}
+    quiet = [begun(layout, infrared_noise=0.0, trials=[k]).sense("infrared", (EIGHT,), 0.0) for k in (0, 1)]
     np.testing.assert_array_equal(quiet[0], quiet[1])
     np.testing.assert_allclose(quiet[0][0, 0], quiet[0][0, 7], rtol=1e-3)
-    loud = begun(near).sense("infrared", (EIGHT,), 0.0)
+    loud = begun(layout).sense("infrared", (EIGHT,), 0.0)
     assert quiet[0].max() > 1000 and np.abs(loud - quiet[0]).max() > 10
 
 
@@ -342,14 +342,14 @@ def test_an_object_is_placed_and_moved_in_each_trial_to_its_own_place() -> None:
 def test_an_arena_for_each_trial_is_described_arranged_and_drawn() -> None:
     world = Arena(OWN)
     world.place("block", [(1.0, 2.0), (2.0, 2.0), (2.5, 2.0)], (0.1, 0.1), height=[0.1, 0.2, 0.3])
-    again = Arena.again(world.describe())
-    assert again.describe() == world.describe()
+    reopened = Arena.again(world.describe())
+    assert reopened.describe() == world.describe()
     for name, values in world.own([2, 1]).items():
-        np.testing.assert_array_equal(again.own([2, 1])[name], values)
-    before, kept = world.describe(), world.arrangement()
+        np.testing.assert_array_equal(reopened.own([2, 1])[name], values)
+    before, arrangement = world.describe(), world.arrangement()
     world.move("red", (2.5, 2.5))
     world.remove("block")
-    world.arrange(kept)
+    world.arrange(arrangement)
     assert world.describe() == before
     world.reset(0, [1])
     scene = world.scene()
@@ -494,9 +494,9 @@ def test_an_arena_is_created_again_from_its_description() -> None:
     )
     world.place("obstacle", (-65, 90), (10, 20), windows=(100, 300))
     world.remove("Maze_Wall3")
-    again = Arena.again(world.describe())
-    assert again.describe() == world.describe()
-    a, b = (begun_as(w) for w in (world, again))
+    reopened = Arena.again(world.describe())
+    assert reopened.describe() == world.describe()
+    a, b = (begun_as(w) for w in (world, reopened))
     np.testing.assert_array_equal(drive(a, 30), drive(b, 30))
 
 

@@ -30,11 +30,11 @@ def test_the_published_mazes_are_read_unchanged() -> None:
             and layout.border[0] == -start[1]
             and layout.border[2] == -start[0]
         )
-        for item, wall in zip(layout.objects, raw[name]["walls"], strict=True):
+        for block, wall in zip(layout.objects, raw[name]["walls"], strict=True):
             first, second = 100 * (wall["center"][0] + 0.95) + 10, 100 * (0.95 - wall["center"][1]) + 10
-            x, y = item.center
+            x, y = block.center
             np.testing.assert_allclose([105 - 100 * y, 105 + 100 * x], [first, second], rtol=1e-9)
-            assert item.size == (wall["size"][1], wall["size"][0]) and item.name == wall["name"]
+            assert block.size == (wall["size"][1], wall["size"][0]) and block.name == wall["name"]
     assert load("z").goal == (-0.6489, 0.6502)
 
 
@@ -70,22 +70,22 @@ def test_layouts_are_read_from_files_in_any_unit_and_by_name(tmp_path: Path) -> 
 
 def test_the_description_of_a_layout_is_read_as_the_same_layout() -> None:
     for name in builtin():
-        again = load(load(name).to_data())
+        reloaded = load(load(name).to_data())
         assert (
-            again.border == load(name).border
-            and again.goal == load(name).goal
-            and again.start == load(name).start
+            reloaded.border == load(name).border
+            and reloaded.goal == load(name).goal
+            and reloaded.start == load(name).start
         )
-        assert [t.box for t in again.objects] == [t.box for t in load(name).objects]
+        assert [t.box for t in reloaded.objects] == [t.box for t in load(name).objects]
 
 
 @pytest.mark.parametrize("color", [(0.0, 0.0, 0.0), (0.0, 0.5, 1.0), (0.25, 1.0, 0.0)])
 def test_start_goal_and_colours_are_written_and_read(color: tuple[float, float, float]) -> None:
     block = {"name": "b", "center": [0.5, 0.2], "size": [0.1, 0.2], "color": list(color)}
     layout = load({**ROOM, "blocks": [block], "start": [0.3, 0.4], "heading": 1.5, "goal": [1.8, 0.5]})
-    again = load(layout.to_data())
-    assert again == layout and (again.start, again.goal) == ((0.3, 0.4, 1.5), (1.8, 0.5))
-    assert [t.color for t in again.objects] == [(0.45, 0.45, 0.45), color]
+    reloaded = load(layout.to_data())
+    assert reloaded == layout and (reloaded.start, reloaded.goal) == ((0.3, 0.4, 1.5), (1.8, 0.5))
+    assert [t.color for t in reloaded.objects] == [(0.45, 0.45, 0.45), color]
 
 
 @pytest.mark.parametrize(

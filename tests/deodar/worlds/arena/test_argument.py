@@ -22,7 +22,7 @@ def test_settings_of_the_argument_are_passed_to_the_arena():
     arena = Arena.open(
         "z, unit=cm, start=-45 55 1.5, goal=-65 65, place_noise=0.5, place_every=2, contact=stick"
     )
-    again = Arena(
+    reopened = Arena(
         "z",
         (-45, 55, 1.5),
         (-65, 65),
@@ -30,9 +30,9 @@ def test_settings_of_the_argument_are_passed_to_the_arena():
         physics=ArenaPhysics(place_every=2, contact="stick"),
         noise=ArenaNoise(place_noise=0.5),
     )
-    assert arena.describe()["settings"] == again.describe()["settings"]
-    np.testing.assert_array_equal(arena.starts, again.starts)
-    np.testing.assert_array_equal(arena.goals, again.goals)
+    assert arena.describe()["settings"] == reopened.describe()["settings"]
+    np.testing.assert_array_equal(arena.starts, reopened.starts)
+    np.testing.assert_array_equal(arena.goals, reopened.goals)
 
 
 def test_a_start_without_a_heading_faces_along_x():
@@ -53,7 +53,7 @@ def test_an_arena_with_a_vehicle_of_your_own_is_not_opened_again():
 
 
 @pytest.mark.parametrize(
-    ("argument", "said"),
+    ("argument", "message"),
     [
         ("z, gaol=1 2", "no setting 'gaol'. Did you mean 'goal'"),
         ("z, goal", "no setting 'goal'"),
@@ -65,6 +65,6 @@ def test_an_arena_with_a_vehicle_of_your_own_is_not_opened_again():
         ("z, unit=mile", "unit is 'mile'"),
     ],
 )
-def test_invalid_arguments_are_reported(argument, said):
-    with pytest.raises(WorldError, match=said):
+def test_invalid_arguments_are_reported(argument, message):
+    with pytest.raises(WorldError, match=message):
         Arena.open(argument)

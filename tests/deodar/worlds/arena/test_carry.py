@@ -20,14 +20,14 @@ def model() -> dd.Model:
     return m
 
 
-def arena(**more: object) -> dd.Arena:
+def arena(**options: object) -> dd.Arena:
     layout = {
         "unit": "mm",
         "arena": {"x": [-500, 500], "y": [-500, 500]},
         "blocks": [{"name": "block", "center": [300, 300], "size": [50, 50]}],
     }
     return dd.Arena(
-        layout, (0, 0, 0), unit="mm", vehicle="khepera", physics=dd.ArenaPhysics(period=20), **more
+        layout, (0, 0, 0), unit="mm", vehicle="khepera", physics=dd.ArenaPhysics(period=20), **options
     )  # type: ignore[arg-type]
 
 
@@ -54,8 +54,8 @@ def test_a_batch_carries_the_vehicle_of_each_trial() -> None:
 def test_a_second_trial_starts_at_the_start() -> None:
     world = arena()
     first = run_alone(model(), 600.0, world, watch=["pose.output"], actions=CARRIED)
-    again = run_alone(model(), 600.0, world, watch=["pose.output"], actions=CARRIED)
-    np.testing.assert_array_equal(first.values["pose.output"], again.values["pose.output"])
+    trial = run_alone(model(), 600.0, world, watch=["pose.output"], actions=CARRIED)
+    np.testing.assert_array_equal(first.values["pose.output"], trial.values["pose.output"])
 
 
 @pytest.mark.parametrize(("place", "why"), [((300.0, 300.0), "inside 'block'"), ((499.0, 0.0), "outside")])

@@ -54,18 +54,20 @@ def outline(
     size: tuple[int, int] = (80, 60),
 ) -> tuple[float, float, float, float]:
     """Project the eight corners of an object: least and largest column and row, in pixels."""
-    item = next(t for t in world.layout.objects if t.name == name)
-    x0, y0, x1, y1 = item.box
-    assert camera is not None and item.height is not None
+    block_shown = next(t for t in world.layout.objects if t.name == name)
+    x0, y0, x1, y1 = block_shown.box
+    assert camera is not None and block_shown.height is not None
     c, s = math.cos(pose[2]), math.sin(pose[2])
-    found = []
+    corners = []
     for x in (x0, x1):
         for y in (y0, y1):
-            for z in (0.0, item.height):
+            for z in (0.0, block_shown.height):
                 dx, dy = x - pose[0], y - pose[1]
-                depth, left = c * dx + s * dy - camera.forward, c * dy - s * dx
-                found.append((left / depth / math.tan(camera.horizontal / 2), (z - camera.height) / depth))
-    across, up = np.asarray(found).T
+                depth, leftwards = c * dx + s * dy - camera.forward, c * dy - s * dx
+                corners.append(
+                    (leftwards / depth / math.tan(camera.horizontal / 2), (z - camera.height) / depth)
+                )
+    across, up = np.asarray(corners).T
     columns = (1 - across) * size[0] / 2
     rows = (1 - up / math.tan(camera.vertical / 2)) * size[1] / 2
     return columns.min(), columns.max(), rows.min(), rows.max()
@@ -143,9 +145,9 @@ def meets(world: Arena, pose: Any, slope: tuple[float, float]) -> np.ndarray:
     left, low, right, high = world.layout.border
     hit = np.full(len(depth), -1)
     hit[(z <= 0)] = -2
-    for k, item in enumerate(world.layout.objects):
-        x0, y0, x1, y1 = item.box
-        top = world.layout.height if item.height is None else item.height
+    for k, block_shown in enumerate(world.layout.objects):
+        x0, y0, x1, y1 = block_shown.box
+        top = world.layout.height if block_shown.height is None else block_shown.height
         hit[(x >= x0) & (x <= x1) & (y >= y0) & (y <= y1) & (z >= 0) & (z <= top)] = k
     outside = (x <= left) | (x >= right) | (y <= low) | (y >= high)
     hit[outside & (z >= 0) & (z <= world.layout.height)] = -3
@@ -164,8 +166,8 @@ def agrees(world: Arena, pose: Any) -> float:
         for j in range(24):
             across = math.tan(CAMERA.horizontal / 2) * (1 - (2 * i + 1) / 32)
             up = math.tan(CAMERA.vertical / 2) * (1 - (2 * j + 1) / 24)
-            near = [meets(world, pose, (across + d, up + e)) for d, e in ((0, 0), (3e-3, 0), (0, 3e-3))]
-            right.append(min(np.abs(picture[i, j] - n).max() for n in near) < 1e-6)
+            around = [meets(world, pose, (across + d, up + e)) for d, e in ((0, 0), (3e-3, 0), (0, 3e-3))]
+            right.append(min(np.abs(picture[i, j] - n).max() for n in around) < 1e-6)
     return float(np.mean(right))
 
 
@@ -291,10 +293,10 @@ def test_heights_are_part_of_the_description() -> None:
     )
     world.place("red", (50, 50), (5, 5), RED, height=7)
     world.place("bare", (50, 20), (5, 5), GREEN)
-    again = Arena.again(world.describe())
-    assert again.describe()["sha256"] == world.describe()["sha256"]
-    np.testing.assert_allclose(again.objects.heights([0])[0], world.objects.heights([0])[0])
-    assert sorted(set(again.objects.heights([0])[0].round(6))) == [0.07, 0.2]
+    reopened = Arena.again(world.describe())
+    assert reopened.describe()["sha256"] == world.describe()["sha256"]
+    np.testing.assert_allclose(reopened.objects.heights([0])[0], world.objects.heights([0])[0])
+    assert sorted(set(reopened.objects.heights([0])[0].round(6))) == [0.07, 0.2]
 
 
 # ------------------------------------------------------------------------------- a camera with its own period
@@ -321,8 +323,8 @@ PORTS = ["camera.output", "line.output", "heading.output"]
 
 
 def test_a_picture_is_held_for_several_periods() -> None:
-    data = dd.simulate(turning(), 64 * 12, record=PORTS, every=16, world=Arena("blocks", **SLOW))
-    pictures, headings = data["camera.output"].values, data["heading.output"].values
+    record = dd.simulate(turning(), 64 * 12, record=PORTS, every=16, world=Arena("blocks", **SLOW))
+    pictures, headings = record["camera.output"].values, record["heading.output"].values
     changed = 1 + np.flatnonzero(np.ptp(np.diff(headings)[:, None], axis=1) + (np.abs(np.diff(headings)) > 0))
     assert set(changed % 4) == {0}, "the robot turns in each period of 4 steps"
     seen = 1 + np.flatnonzero(np.abs(np.diff(pictures, axis=0)).max(axis=(1, 2, 3)) > 0)
@@ -347,9 +349,9 @@ def beside(world: Arena) -> Arena:
 def test_a_snapshot_between_two_pictures_is_restored() -> None:
     session = dd.Session(turning(), world=Arena("blocks", **SLOW))
     session.step(4 * 4 + 2)
-    kept, seen = session.snapshot(), []
+    snapshot, seen = session.snapshot(), []
     for _ in range(2):
-        session.restore(kept)
+        session.restore(snapshot)
         frames = []
         for _ in range(12):
             frames.append(np.array(session.read("camera")))
@@ -425,42 +427,44 @@ def pictures(world: Arena, count: int, axes: Any = AXES) -> np.ndarray:
 
 
 def test_pixel_noise_has_its_standard_deviation_in_each_channel() -> None:
-    found = pictures(wall([0, 1], pixel_noise=0.04), 3)[..., :30, :] - np.asarray((0.2, 0.7, 0.2), np.float32)
-    np.testing.assert_allclose(found.std(axis=(0, 1, 2, 3)), 0.04, rtol=0.02)
-    assert np.abs(found.mean(axis=(0, 1, 2, 3))).max() < 0.001
-    between = np.corrcoef(found.reshape(-1, 3).T) - np.eye(3)
-    frames = np.corrcoef(found.reshape(6, -1)) - np.eye(6)
-    pixels = np.corrcoef(found[..., 1:, :].ravel(), found[..., :-1, :].ravel())[0, 1]
+    noise = pictures(wall([0, 1], pixel_noise=0.04), 3)[..., :30, :] - np.asarray((0.2, 0.7, 0.2), np.float32)
+    np.testing.assert_allclose(noise.std(axis=(0, 1, 2, 3)), 0.04, rtol=0.02)
+    assert np.abs(noise.mean(axis=(0, 1, 2, 3))).max() < 0.001
+    between = np.corrcoef(noise.reshape(-1, 3).T) - np.eye(3)
+    frames = np.corrcoef(noise.reshape(6, -1)) - np.eye(6)
+    pixels = np.corrcoef(noise[..., 1:, :].ravel(), noise[..., :-1, :].ravel())[0, 1]
     assert max(np.abs(between).max(), np.abs(frames).max(), abs(pixels)) < 0.03
     line = pictures(wall(pixel_noise=0.04), 1, (COLUMNS, CHANNEL))[0, 0] - np.asarray((0.2, 0.7, 0.2))
-    alike = np.corrcoef(line[:30].ravel(), found[0, 0, 0].ravel())[0, 1]
+    alike = np.corrcoef(line[:30].ravel(), noise[0, 0, 0].ravel())[0, 1]
     assert abs(alike) < 0.3, "the line has noise of its own"
 
 
 def test_pixels_stay_between_0_and_1() -> None:
-    found = pictures(wall(pixel_noise=1.0), 1)
-    assert found.min() == 0 and found.max() == 1 and np.isfinite(found).all()
+    noisy = pictures(wall(pixel_noise=1.0), 1)
+    assert noisy.min() == 0 and noisy.max() == 1 and np.isfinite(noisy).all()
 
 
 def test_hue_noise_changes_the_hue_alone() -> None:
-    found = hues(pictures(wall(hue_noise=6.0), 2)[..., :30, :])
-    np.testing.assert_allclose(found[..., 0].std(), 6.0, rtol=0.02)
-    np.testing.assert_allclose(found[..., 0].mean(), 120.0, atol=0.2)
-    np.testing.assert_allclose(found[..., 1], 5 / 7, atol=1e-5)
-    np.testing.assert_allclose(found[..., 2], 0.7, atol=1e-6)
-    assert abs(np.corrcoef(found[0, 0, :, :, 0].ravel(), found[0, 1, :, :, 0].ravel())[0, 1]) < 0.03
+    noisy = hues(pictures(wall(hue_noise=6.0), 2)[..., :30, :])
+    np.testing.assert_allclose(noisy[..., 0].std(), 6.0, rtol=0.02)
+    np.testing.assert_allclose(noisy[..., 0].mean(), 120.0, atol=0.2)
+    np.testing.assert_allclose(noisy[..., 1], 5 / 7, atol=1e-5)
+    np.testing.assert_allclose(noisy[..., 2], 0.7, atol=1e-6)
+    assert abs(np.corrcoef(noisy[0, 0, :, :, 0].ravel(), noisy[0, 1, :, :, 0].ravel())[0, 1]) < 0.03
 
 
 @pytest.mark.parametrize("share", [0.05, 0.3, 1.0])
 def test_a_share_of_the_pixels_are_outliers_with_any_hue(share: float) -> None:
-    found = hues(pictures(wall(hue_noise=6.0, outliers=share), 4)[..., :30, :]).reshape(-1, 3)
-    away = found[:, 1] > 0.99
-    np.testing.assert_allclose(away.mean(), share, atol=4 * math.sqrt(share * (1 - share) / len(away)) + 1e-9)
-    counts = np.histogram(found[away, 0], bins=12, range=(-180, 180))[0]
-    np.testing.assert_allclose(counts / away.sum(), 1 / 12, atol=4 * math.sqrt(1 / 12 / away.sum()))
-    np.testing.assert_allclose(found[away, 2], 1.0, atol=1e-6)
+    noisy = hues(pictures(wall(hue_noise=6.0, outliers=share), 4)[..., :30, :]).reshape(-1, 3)
+    outliers = noisy[:, 1] > 0.99
+    np.testing.assert_allclose(
+        outliers.mean(), share, atol=4 * math.sqrt(share * (1 - share) / len(outliers)) + 1e-9
+    )
+    counts = np.histogram(noisy[outliers, 0], bins=12, range=(-180, 180))[0]
+    np.testing.assert_allclose(counts / outliers.sum(), 1 / 12, atol=4 * math.sqrt(1 / 12 / outliers.sum()))
+    np.testing.assert_allclose(noisy[outliers, 2], 1.0, atol=1e-6)
     if share < 1:
-        np.testing.assert_allclose(found[~away, 0].std(), 6.0, rtol=0.03)
+        np.testing.assert_allclose(noisy[~outliers, 0].std(), 6.0, rtol=0.03)
 
 
 def test_strips_of_clutter_cover_a_share_of_the_background() -> None:
@@ -475,9 +479,9 @@ def test_strips_of_clutter_cover_a_share_of_the_background() -> None:
     assert red.any() and not covered[:, red].any()
     free = ~red.any(axis=1)
     np.testing.assert_allclose(covered[:, free].sum(axis=2), 30, atol=1)
-    found = hues(np.where(covered[..., None], seen[:, 0], 0.0))
+    colors = hues(np.where(covered[..., None], seen[:, 0], 0.0))
     strips = [
-        found[k, 8 * n : 8 * n + 8][covered[k, 8 * n : 8 * n + 8]] for k in range(12) for n in range(20)
+        colors[k, 8 * n : 8 * n + 8][covered[k, 8 * n : 8 * n + 8]] for k in range(12) for n in range(20)
     ]
     assert all(np.ptp(s[:, 0]) < 1e-3 for s in strips if len(s))
     chosen = np.asarray([s[0, 0] for s in strips if len(s)])
@@ -503,9 +507,9 @@ def test_noise_of_a_trial_is_that_in_a_batch(precision: Any) -> None:
 
 
 def test_noise_of_a_held_picture_is_held() -> None:
-    found = pictures(wall(pixel_noise=0.1, camera_every=2), 4)[0]
-    np.testing.assert_array_equal(found[0], found[1])
-    assert np.abs(found[1] - found[2]).max() > 0.1
+    frames = pictures(wall(pixel_noise=0.1, camera_every=2), 4)[0]
+    np.testing.assert_array_equal(frames[0], frames[1])
+    assert np.abs(frames[1] - frames[2]).max() > 0.1
 
 
 def test_noises_of_the_camera_are_settings() -> None:

@@ -46,8 +46,8 @@ def free(rng: np.random.Generator, boxes: np.ndarray, n: int) -> np.ndarray:
     out: list[np.ndarray] = []
     while len(out) < n:
         p = rng.uniform(0, 1, 2).astype(np.float32)
-        away = p - np.clip(p, boxes[:, :2], boxes[:, 2:])
-        if np.sqrt((away**2).sum(1)).min() > RADIUS + 1e-4:
+        distance = p - np.clip(p, boxes[:, :2], boxes[:, 2:])
+        if np.sqrt((distance**2).sum(1)).min() > RADIUS + 1e-4:
             out.append(p)
     return np.asarray(out)
 
@@ -57,8 +57,8 @@ def gap(positions: np.ndarray, boxes: np.ndarray) -> np.ndarray:
     inside a box.
     """
     p = np.asarray(positions, np.float64)[..., None, :]
-    away = p - np.clip(p, boxes[:, :2].astype(float), boxes[:, 2:].astype(float))
-    return np.sqrt((away**2).sum(-1)).min(-1) - RADIUS
+    distance = p - np.clip(p, boxes[:, :2].astype(float), boxes[:, 2:].astype(float))
+    return np.sqrt((distance**2).sum(-1)).min(-1) - RADIUS
 
 
 @pytest.mark.parametrize("sticks", [False, True])
@@ -164,5 +164,5 @@ def test_a_disc_touches_a_box_within_the_rounding_error(gap: float, touches: boo
 def test_a_point_on_a_disc_enters_it_inwards_and_neither_along_it_nor_outwards(
     step: tuple[float, float], share: float
 ) -> None:
-    found = contact._into_disc(np.array([1.0, 0.0]), np.array(step), np.zeros((1, 2)), 1.0)
-    np.testing.assert_array_equal(found, np.float32([share]))
+    moved = contact._into_disc(np.array([1.0, 0.0]), np.array(step), np.zeros((1, 2)), 1.0)
+    np.testing.assert_array_equal(moved, np.float32([share]))

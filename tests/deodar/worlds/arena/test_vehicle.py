@@ -15,8 +15,8 @@ NOTHING = jnp.zeros((1, 4)), jnp.zeros(1, bool)
 
 
 def test_a_full_turn_of_both_wheels_covers_their_circumference() -> None:
-    way, turn = drive(EPUCK, jnp.asarray(0.0), jnp.asarray([1000.0, 1000.0]))
-    np.testing.assert_allclose(way, [2 * np.pi * 0.0205, 0], rtol=1e-6, atol=1e-9)
+    distance, turn = drive(EPUCK, jnp.asarray(0.0), jnp.asarray([1000.0, 1000.0]))
+    np.testing.assert_allclose(distance, [2 * np.pi * 0.0205, 0], rtol=1e-6, atol=1e-9)
     assert turn == 0
 
 
@@ -29,18 +29,18 @@ def test_constant_wheel_speeds_give_a_circle(steps: tuple[float, float]) -> None
     expected = radius * np.array(
         [np.sin(heading + angle) - np.sin(heading), np.cos(heading) - np.cos(heading + angle)]
     )
-    way, turn = drive(EPUCK, jnp.asarray(heading), jnp.asarray(steps))
-    np.testing.assert_allclose(way, expected, atol=2e-7)
+    distance, turn = drive(EPUCK, jnp.asarray(heading), jnp.asarray(steps))
+    np.testing.assert_allclose(distance, expected, atol=2e-7)
     np.testing.assert_allclose(turn, angle, rtol=1e-5)
 
 
 def test_many_short_periods_end_at_the_pose_of_one_long_period() -> None:
     place, heading = np.zeros(2), 0.3
     for _ in range(50):
-        way, turn = drive(EPUCK, jnp.asarray(heading), jnp.asarray([4.0, 6.0]))
-        place, heading = place + np.asarray(way), heading + float(turn)
-    way, turn = drive(EPUCK, jnp.asarray(0.3), jnp.asarray([200.0, 300.0]))
-    np.testing.assert_allclose(place, way, atol=1e-6)
+        distance, turn = drive(EPUCK, jnp.asarray(heading), jnp.asarray([4.0, 6.0]))
+        place, heading = place + np.asarray(distance), heading + float(turn)
+    distance, turn = drive(EPUCK, jnp.asarray(0.3), jnp.asarray([200.0, 300.0]))
+    np.testing.assert_allclose(place, distance, atol=1e-6)
     np.testing.assert_allclose(heading, 0.3 + float(turn), rtol=1e-6)
 
 
@@ -98,8 +98,8 @@ def test_without_obstacles_every_sensor_reads_the_last_entry_of_the_table() -> N
 
 
 def test_the_khepera_has_the_published_wheels() -> None:
-    way, _ = drive(KHEPERA, jnp.asarray(0.0), jnp.asarray([1200.0, 1200.0]))
-    np.testing.assert_allclose(way, [0.1, 0], atol=1e-6)
+    distance, _ = drive(KHEPERA, jnp.asarray(0.0), jnp.asarray([1200.0, 1200.0]))
+    np.testing.assert_allclose(distance, [0.1, 0], atol=1e-6)
     _, turn = drive(KHEPERA, jnp.asarray(0.0), jnp.asarray([-12.0, 12.0]))
     np.testing.assert_allclose(turn, 2 / 53, rtol=1e-5)
 
