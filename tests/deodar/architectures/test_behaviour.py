@@ -17,9 +17,9 @@ X = dd.Axis("x", 0, 100, samples=51)
 
 def on(model: dd.Model, names: list[str], duration: float = 1200, trials: int = 20) -> dict[str, np.ndarray]:
     """Return for each node or field whether it is above threshold, (trials, time), every ms."""
-    data = dd.simulate(model, duration, record=[f"{name}.activation" for name in names], trials=trials)
+    record = dd.simulate(model, duration, record=[f"{name}.activation" for name in names], trials=trials)
     return {
-        name: (data[f"{name}.activation"].values > 0).reshape(trials, int(duration) + 1, -1).any(-1)
+        name: (record[f"{name}.activation"].values > 0).reshape(trials, int(duration) + 1, -1).any(-1)
         for name in names
     }
 

@@ -23,10 +23,10 @@ def trial(sample: tuple[float, ...], **sweep: list[float]) -> xarray.Dataset:
     )
 
 
-def answers(data: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
+def answers(trials: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
     """Return whether `same` and `different` are on when the test ends."""
-    now = data.sel(time=TEST[1] - 10)
-    return now["same.activation"].values > 0, now["different.activation"].values > 0
+    before = trials.sel(time=TEST[1] - 10)
+    return before["same.activation"].values > 0, before["different.activation"].values > 0
 
 
 @pytest.fixture(scope="module")
@@ -56,12 +56,12 @@ def test_decision_nodes_are_inactive_before_and_after_the_test(three: xarray.Dat
 
 def test_items_move_from_the_contrast_field_to_the_memory_field(three: xarray.Dataset) -> None:
     for k in range(TRIALS):
-        one = three.isel({"test 3.center": 2, "trial": k})
-        held = sorted(p.position[0] for p in peaks(one["memory.activation"].sel(time=TEST[0])))
-        assert held == pytest.approx(SAMPLE, abs=8)
-        assert not peaks(one["contrast.activation"].sel(time=TEST[0] - 100)), "what is held is no news"
+        trial = three.isel({"test 3.center": 2, "trial": k})
+        memories = sorted(p.position[0] for p in peaks(trial["memory.activation"].sel(time=TEST[0])))
+        assert memories == pytest.approx(SAMPLE, abs=8)
+        assert not peaks(trial["contrast.activation"].sel(time=TEST[0] - 100)), "what is held is no news"
         assert [
-            p.position[0] for p in peaks(one["contrast.activation"].sel(time=TEST[0] + 70))
+            p.position[0] for p in peaks(trial["contrast.activation"].sel(time=TEST[0] + 70))
         ] == pytest.approx([285], abs=4)
 
 

@@ -56,8 +56,8 @@ def test_a_node_forgets_a_colour_that_is_taken_away_before_it_was_in_the_middle(
 
 
 def test_a_mode_set_back_to_teaching_forgets_the_colour_of_the_first_node() -> None:
-    shown = {"side": (800.0, 1200.0), "middle": (1200.0, 2000.0)}
-    trial = taught(shown, 4200.0, dd.Set(2400.0, "mode", 1.0), dd.Set(3200.0, "mode", 0.0))
+    windows = {"side": (800.0, 1200.0), "middle": (1200.0, 2000.0)}
+    trial = taught(windows, 4200.0, dd.Set(2400.0, "mode", 1.0), dd.Set(3200.0, "mode", 0.0))
     strongest, at = trial.values[WEIGHTS].max(axis=1), trial.times
     # production changes no weights
     assert strongest[(at > 2300.0) & (at < 3200.0)].min() > 0.9

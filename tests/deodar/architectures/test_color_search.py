@@ -17,7 +17,7 @@ PRODUCED = 2400.0
 
 def arena() -> dd.Arena:
     """A green block behind the vehicle, a red one ahead of it; both appear after the lesson."""
-    made = dd.Arena(
+    world = dd.Arena(
         {"unit": "mm", "arena": {"x": [-300, 300], "y": [-300, 300]}},
         (0, 0, 0),
         unit="mm",
@@ -31,8 +31,8 @@ def arena() -> dd.Arena:
         ("red", (230, 60), RED, PRODUCED, 1e7),
         ("green", (-200, 0), GREEN, PRODUCED, 1e7),
     ):
-        made.place(name, center, (50, 50), color, (begins, ends), height=70)
-    return made
+        world.place(name, center, (50, 50), color, (begins, ends), height=70)
+    return world
 
 
 @pytest.fixture(scope="module")
@@ -45,13 +45,13 @@ def trial() -> dd.Trial:
         "satisfaction.activation",
         "pose.output",
     ]
-    found = [
+    events = [
         dd.Crosses("later", "item 2.node.activation", times=200, ends=False),
         dd.Reached("produced", PRODUCED + 1000, ends=False),
         dd.All("over", ["later", "produced"]),
     ]
     change = [dd.Set(PRODUCED, "mode", 1.0)]
-    return run_alone(model, 20_000.0, arena(), watch=watch, events=found, actions=change, every=4.0)
+    return run_alone(model, 20_000.0, arena(), watch=watch, events=events, actions=change, every=4.0)
 
 
 def _at(trial: dd.Trial, path: str, time: float) -> np.ndarray:
@@ -89,20 +89,20 @@ def test_the_model_has_no_problem_and_a_chain_has_at_least_one_item() -> None:
 def test_a_block_that_is_in_view_at_once_does_not_start_the_chain_again() -> None:
     model, hues = color_search(2), np.arange(180)
     model.set("start.amplitude", 0.0)  # there is no lesson
-    for item, hue in ((1, 0), (2, 60)):
+    for number, hue in ((1, 0), (2, 60)):
         weights = np.exp(-(((hues - hue + 90) % 180 - 90) ** 2) / 8)
-        model.set(f"item {item}.meaning.start", weights)
-    made = dd.Arena(
+        model.set(f"item {number}.meaning.start", weights)
+    world = dd.Arena(
         {"unit": "mm", "arena": {"x": [-300, 300], "y": [-300, 300]}},
         (0, 0, 0),
         unit="mm",
         vehicle="khepera",
         physics=dd.ArenaPhysics(period=20, camera_every=4),
     )
-    made.place("red", (100, 0), (50, 50), RED, height=70)
+    world.place("red", (100, 0), (50, 50), RED, height=70)
     nodes = [f"item {k}.node.activation" for k in (1, 2)]
     [begins, ends] = 100.0, 1200.0
-    trial = run_alone(model, ends, made, watch=nodes, actions=[dd.Set(begins, "mode", 1.0)], every=2.0)
+    trial = run_alone(model, ends, world, watch=nodes, actions=[dd.Set(begins, "mode", 1.0)], every=2.0)
     first, second = (trial.values[path] > 0 for path in nodes)
     produced = trial.times > begins + 250
     rises = np.flatnonzero(np.diff((first & produced).astype(int)) == 1)

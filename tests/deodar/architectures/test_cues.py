@@ -118,8 +118,8 @@ def test_the_sequence_of_the_cue_is_produced(chain: Chain, cue: float, sequence:
     chain.begin(cue)
     for k, place in enumerate(sequence, 1):
         assert chain.node() == k and chain.action() == pytest.approx(place, abs=2)
-        for other in {*FIRST, *SECOND} - {place}:
-            chain.perceive(other)
+        for silent in {*FIRST, *SECOND} - {place}:
+            chain.perceive(silent)
             assert chain.node() == k  # it waits for its own outcome
         chain.perceive(place)
     assert chain.action() is None
@@ -163,16 +163,16 @@ def test_weights_of_another_cue_do_not_change_a_bit(chain: Chain) -> None:
 def test_a_chain_of_one_cue_is_that_without_cues_and_more_cues_add_only_their_parts() -> None:
     """Rows of earlier runs stay valid: their documents are the same, and their elements in larger ones."""
     cued = color_search(3, cues=2)
-    single, same, both = (elements(model) for model in (color_search(3), color_search(3, cues=1), cued))
+    single, same, two_cues = (elements(model) for model in (color_search(3), color_search(3, cues=1), cued))
     assert single == same
-    assert {path for path in both if path not in single} == {
+    assert {path for path in two_cues if path not in single} == {
         "cue input",
         "cue nodes",
         "cue number",
         "taught cue",
         *(f"item {k}.cued" for k in (1, 2, 3)),
     }
-    assert {path: both[path] for path in single} == single
+    assert {path: two_cues[path] for path in single} == single
     assert document_files.dumps(color_search(3).document) == document_files.dumps(
         color_search(3, cues=1).document
     )

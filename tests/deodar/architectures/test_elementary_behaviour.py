@@ -43,7 +43,7 @@ def test_sixty_steps_of_a_behaviour_agree_with_its_equations() -> None:
     for name, values, target in (("goal", goal, "motivation"), ("place", place, "satisfaction")):
         model.add(Pattern(name, [X, Y], values)) >> model[target]  # type: ignore[arg-type]
     names = ("motivation", "precondition", "intention", "satisfaction")
-    data = dd.simulate(
+    record = dd.simulate(
         model, STEPS, record=[f"{n}.activation" for n in names], every=STEPS, precision="float64"
     )
 
@@ -60,15 +60,15 @@ def test_sixty_steps_of_a_behaviour_agree_with_its_equations() -> None:
         u = {n: u[n] + (-u[n] - 5 + rates[n]) / 5 for n in names}
     for n in names:
         assert u[n].max() > 0, "the plan has reached the place, and is carried out"
-        np.testing.assert_allclose(data[f"{n}.activation"].values[-1], u[n], atol=1e-6)
+        np.testing.assert_allclose(record[f"{n}.activation"].values[-1], u[n], atol=1e-6)
 
 
 def test_copies_share_one_document_parameter_for_each_strength() -> None:
     model = dd.Model("two")
-    for name, way in (("left", -1), ("right", 1)):
-        model.insert(elementary_behaviour([X], [5.0 * way]), name)
-    for strength, value in STRENGTHS.items():
-        model.set(strength, 2 * value)
+    for name, direction in (("left", -1), ("right", 1)):
+        model.insert(elementary_behaviour([X], [5.0 * direction]), name)
+    for strength, expected in STRENGTHS.items():
+        model.set(strength, 2 * expected)
     assert (
         model.get("left.precondition to motivation.factor")
         == model.get("right.precondition to motivation.factor")

@@ -49,27 +49,27 @@ def test_a_cue_activates_the_other_feature_of_its_object(cue: int, brings: int) 
     names = ("space", "feature")
     model = scene()
     model.set(f"{names[cue]} cue.amplitude", 6.0)
-    found = at_end(model, {f"{names[cue]} cue.center": [at[cue] for at in SCENE]})
+    table = at_end(model, {f"{names[cue]} cue.center": [at[cue] for at in SCENE]})
     for k, at in enumerate(SCENE):
         for trial in range(5):
-            one = found.isel({f"{names[cue]} cue.center": k, "trial": trial})
-            for name, place, near in (("space", at[0], 3), ("feature", at[1], 12)):
-                (peak,) = peaks(one[f"{name}.activation"])
+            trial_end = table.isel({f"{names[cue]} cue.center": k, "trial": trial})
+            for name, place, tolerance in (("space", at[0], 3), ("feature", at[1], 12)):
+                (peak,) = peaks(trial_end[f"{name}.activation"])
                 apart = abs(peak.position[0] - place)
-                assert min(apart, 360 - apart) < near
-            assert len(peaks(one["bound.activation"])) == 1
+                assert min(apart, 360 - apart) < tolerance
+            assert len(peaks(trial_end["bound.activation"])) == 1
 
 
 def test_a_cue_without_a_matching_object_activates_nothing() -> None:
     model = scene()
     model.set("feature cue.amplitude", 6.0)
-    found = at_end(model, {"feature cue.center": [60.0, 180.0]}, 390)
-    assert float(found["space.activation"].max()) < 0 and float(found["bound.activation"].max()) < 0
+    table = at_end(model, {"feature cue.center": [60.0, 180.0]}, 390)
+    assert float(table["space.activation"].max()) < 0 and float(table["bound.activation"].max()) < 0
 
 
 def test_nothing_is_selected_without_a_cue() -> None:
-    found = dd.simulate(scene(), 1000, record=["bound.activation"], every=10, trials=10)
-    assert float(found["bound.activation"].max()) < 0
+    record = dd.simulate(scene(), 1000, record=["bound.activation"], every=10, trials=10)
+    assert float(record["bound.activation"].max()) < 0
 
 
 def test_conflicting_cues_create_no_peak() -> None:

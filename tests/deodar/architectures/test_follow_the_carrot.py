@@ -22,8 +22,8 @@ BEND = {
 START, GOAL = [(10, 10, 0), (10, 15, 2.0)], [(10, 50), (15, 45)]
 
 
-def arena(**given):
-    return Arena(BEND, START, GOAL, "cm", **arguments(Arena, given))
+def arena(**options):
+    return Arena(BEND, START, GOAL, "cm", **arguments(Arena, options))
 
 
 def planned():
@@ -66,9 +66,9 @@ def test_the_vehicle_reaches_goals_behind_a_wall(contact):
 
 def test_noise_is_keyed_by_the_trial():
     paths = planned()
-    both = follow(arena(place_noise=1.0), paths, [0, 1], ending=Ending(limit=60))
-    one = follow(arena(place_noise=1.0), paths[1:], [1], ending=Ending(limit=60))
-    np.testing.assert_allclose(both.pose[:, 1], one.pose[:, 0], atol=1e-4)
+    together = follow(arena(place_noise=1.0), paths, [0, 1], ending=Ending(limit=60))
+    alone = follow(arena(place_noise=1.0), paths[1:], [1], ending=Ending(limit=60))
+    np.testing.assert_allclose(together.pose[:, 1], alone.pose[:, 0], atol=1e-4)
 
 
 def test_a_run_stops_at_the_limit_of_steps():

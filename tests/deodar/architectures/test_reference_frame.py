@@ -32,21 +32,21 @@ def test_both_couplings_give_the_same_values() -> None:
         place = model.add(Pattern("place", [GAZE], (GAZE.points == gaze) / GAZE.step))
         number = model.add(Boost("number", [], amplitude=gaze))
         expanded = pattern >> model.add(Project([RETINA, GAZE], name="expand"))
-        both = model.add(Product(name="both"))
-        expanded >> both
+        product = model.add(Product(name="both"))
+        expanded >> product
         model.connect(place >> model.add(Project([RETINA, GAZE], name="gaze expands")), "both.factor")
-        both >> model.add(DiagonalSum([BODY], name="diagonal"))
+        product >> model.add(DiagonalSum([BODY], name="diagonal"))
         (
             pattern
             >> model.add(Resample([wide], name="wide"))
             >> model.add(SteeredShift([RETINA.name], name="steered"))
         )
         model.connect(number, "steered.by")
-        data = dd.simulate(model, 0, record=["diagonal.output", "steered.output"], precision="float64").isel(
-            time=0
-        )
-        assert np.abs(data["diagonal.output"].values).max() > 1
-        assert data["diagonal.output"].values == pytest.approx(data["steered.output"].values, abs=1e-12)
+        record = dd.simulate(
+            model, 0, record=["diagonal.output", "steered.output"], precision="float64"
+        ).isel(time=0)
+        assert np.abs(record["diagonal.output"].values).max() > 1
+        assert record["diagonal.output"].values == pytest.approx(record["steered.output"].values, abs=1e-12)
 
 
 @pytest.mark.parametrize("form", ["diagonal", "steered"])
@@ -56,7 +56,7 @@ def test_a_peak_is_at_the_sum_of_position_and_gaze(form: str) -> None:
     gaze >> model["gaze"]
     model.add(dd.GaussianStimulus("object", [RETINA], center=0.0, sigma=3, amplitude=6)) >> model["retina"]
     places, gazes = [-15.0, -3.5, 0.0, 8.0, 20.0], [-20.0, -6.25, 0.0, 11.0, 20.0]
-    found = dd.simulate(
+    record = dd.simulate(
         model,
         400,
         record=["body.activation"],
@@ -66,7 +66,7 @@ def test_a_peak_is_at_the_sum_of_position_and_gaze(form: str) -> None:
     for x in places:
         for g in gazes:
             (peak,) = peaks(
-                found["body.activation"].isel(time=-1).sel({"object.center": x, "at.amplitude": g})
+                record["body.activation"].isel(time=-1).sel({"object.center": x, "at.amplitude": g})
             )
             assert peak.position[0] == pytest.approx(x + g, abs=0.5), (x, g)
 
@@ -82,11 +82,11 @@ def test_several_objects_are_transformed_together(form: str) -> None:
             )
             >> model["retina"]
         )
-    found = dd.simulate(model, 500, record=["body.activation"], every=500, trials=5)["body.activation"].isel(
+    record = dd.simulate(model, 500, record=["body.activation"], every=500, trials=5)["body.activation"].isel(
         time=-1
     )
     for trial in range(5):
-        assert sorted(p.position[0] for p in peaks(found.isel(trial=trial))) == pytest.approx(
+        assert sorted(p.position[0] for p in peaks(record.isel(trial=trial))) == pytest.approx(
             [-10, 10, 30], abs=0.6
         )
 

@@ -14,20 +14,20 @@ from deodar.worlds.picture import Picture
 def test_the_document_of_the_model_names_no_file(tmp_path: Path) -> None:
     model = saliency()
     dd.save(model, tmp_path / "saliency.json")
-    again = dd.load(tmp_path / "saliency.json")
-    assert again.document == model.document and not again.check()
+    loaded = dd.load(tmp_path / "saliency.json")
+    assert loaded.document == model.document and not loaded.check()
     assert "jpg" not in (tmp_path / "saliency.json").read_text()
 
 
 def test_the_ridge_has_the_strength_that_its_constant_states() -> None:
-    data = dd.simulate(
+    record = dd.simulate(
         saliency(hue=100.0),
         CUE_AT + 1000,
         record=["ridge.output", "colour.activation"],
         every=500,
         world=Picture.example(),
     )
-    ridge = data["ridge.output"].values
+    ridge = record["ridge.output"].values
     assert ridge[1].max() < 0.05 and 3.6 < ridge[-1].max() < 4.0
-    assert abs(data["hue"].values[ridge[-1].argmax()] - 100) <= 12
-    assert np.all(data["colour.activation"].values[1] < 0)
+    assert abs(record["hue"].values[ridge[-1].argmax()] - 100) <= 12
+    assert np.all(record["colour.activation"].values[1] < 0)

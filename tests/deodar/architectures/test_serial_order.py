@@ -20,9 +20,9 @@ RELEASED = 250.0
 """Time after the start of production, in ms, at which cleared nodes are off."""
 
 
-def assert_right(found: list[ActionTransition], sequence: list[float]) -> None:
-    assert [t.item for t in found] == list(range(1, len(sequence) + 1))
-    assert [t.place for t in found] == pytest.approx(sequence, abs=1.5)
+def assert_right(transitions: list[ActionTransition], sequence: list[float]) -> None:
+    assert [t.item for t in transitions] == list(range(1, len(sequence) + 1))
+    assert [t.place for t in transitions] == pytest.approx(sequence, abs=1.5)
 
 
 @pytest.mark.parametrize(
@@ -34,10 +34,10 @@ def test_a_sequence_is_learned_and_produced_in_every_trial(sequence: list[float]
         lesson(sequence, PLACES), lesson_end(n, len(PLACES)), record=cascade_paths(n), trials=8
     )
     for trial in range(8):
-        data = runs.isel(trial=trial)
+        record = runs.isel(trial=trial)
         learned, produced = (
-            cascade(data, 0.0, production_start(n)),
-            cascade(data, production_start(n) + RELEASED),
+            cascade(record, 0.0, production_start(n)),
+            cascade(record, production_start(n) + RELEASED),
         )
         assert_right(learned, sequence)
         assert_right(produced, sequence)
@@ -51,16 +51,16 @@ def test_a_sequence_is_learned_and_produced_in_every_trial(sequence: list[float]
 def test_the_order_of_percepts_does_not_matter() -> None:
     sequence = [30.0, 6.0, 54.0]
     for seen in (PLACES, PLACES[::-1]):
-        data = dd.simulate(lesson(sequence, seen), lesson_end(3, 5), record=cascade_paths(3))
-        assert_right(cascade(data, production_start(3) + RELEASED), sequence)
+        record = dd.simulate(lesson(sequence, seen), lesson_end(3, 5), record=cascade_paths(3))
+        assert_right(cascade(record, production_start(3) + RELEASED), sequence)
 
 
 def test_an_action_waits_for_its_own_condition_of_satisfaction() -> None:
-    data = dd.simulate(lesson([30.0, 6.0], [18.0, 42.0]), lesson_end(2, 2), record=cascade_paths(2))
-    assert cascade(data, production_start(2) + RELEASED) == []
+    record = dd.simulate(lesson([30.0, 6.0], [18.0, 42.0]), lesson_end(2, 2), record=cascade_paths(2))
+    assert cascade(record, production_start(2) + RELEASED) == []
     assert (
-        float(data["item 1.node.activation"][-1]) > 0
-        and float(data["satisfaction.activation"].sel(time=slice(4000, None)).max()) < 0
+        float(record["item 1.node.activation"][-1]) > 0
+        and float(record["satisfaction.activation"].sel(time=slice(4000, None)).max()) < 0
     )
 
 
@@ -104,10 +104,10 @@ def test_each_node_learns_its_own_action_and_a_snapshot_holds_it() -> None:
         w = _weights(session, model, k)
         active = np.flatnonzero(w > 0.5)
         assert w.max() > 0.95 and 3 <= len(active) <= 9 and abs(active.mean() - place) < 2
-    kept = session.snapshot()
+    snapshot = session.snapshot()
     session.run(3000)
     later = session.read("action.activation").copy()
-    session.restore(kept)
+    session.restore(snapshot)
     session.run(3000)
     assert np.array_equal(session.read("action.activation"), later)
 
@@ -115,9 +115,9 @@ def test_each_node_learns_its_own_action_and_a_snapshot_holds_it() -> None:
 def test_a_chain_may_be_longer_than_the_sequence() -> None:
     """The node after the last one switches on, and represents no item."""
     model = lesson([30.0, 6.0], PLACES, items=3)
-    data = dd.simulate(model, lesson_end(2, len(PLACES)), record=cascade_paths(3))
-    assert_right(cascade(data, production_start(2) + RELEASED), [30.0, 6.0])
-    assert float(data["item 3.node.activation"][-1]) > 0 > float(data["action.activation"][-1].max())
+    record = dd.simulate(model, lesson_end(2, len(PLACES)), record=cascade_paths(3))
+    assert_right(cascade(record, production_start(2) + RELEASED), [30.0, 6.0])
+    assert float(record["item 3.node.activation"][-1]) > 0 > float(record["action.activation"][-1].max())
 
 
 @pytest.mark.parametrize("items", [0, 51, 2.5, True])
@@ -145,5 +145,5 @@ def test_a_transition_in_another_order_is_reported() -> None:
 
 
 def _weights(session: dd.Session, model: dd.Model, k: int) -> np.ndarray:
-    shown, _ = session.snapshot().states[model[f"item {k}.meaning"].id]
-    return np.array(shown["weights"])
+    memory, _ = session.snapshot().states[model[f"item {k}.meaning"].id]
+    return np.array(memory["weights"])

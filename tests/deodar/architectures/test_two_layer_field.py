@@ -36,7 +36,7 @@ def test_the_steps_are_those_of_the_equations():
         "two",
     )
     model.add(dd.GaussianStimulus("s", [RING], center=30, sigma=6, amplitude=5)) >> model["two.excitatory"]
-    data = dd.simulate(
+    record = dd.simulate(
         model, 60, record=["two.excitatory.activation", "two.inhibitory.activation"], precision="float64"
     )
 
@@ -50,8 +50,8 @@ def test_the_steps_are_those_of_the_equations():
     s = 5 * np.exp(-0.5 * ((d - 100 * np.round(d / 100)) / 6) ** 2)
     u, v = np.full(50, -3.0), np.full(50, -6.0)
     for k in range(121):
-        np.testing.assert_allclose(data["two.excitatory.activation"].values[k], u, atol=1e-6)
-        np.testing.assert_allclose(data["two.inhibitory.activation"].values[k], v, atol=1e-6)
+        np.testing.assert_allclose(record["two.excitatory.activation"].values[k], u, atol=1e-6)
+        np.testing.assert_allclose(record["two.inhibitory.activation"].values[k], v, atol=1e-6)
         g, g_v = 1 / (1 + np.exp(-3 * u)), 1 / (1 + np.exp(-v))
         u, v = (
             u + 0.5 / 12 * (-u - 3 + s + excites @ g + inhibits @ g_v - 0.2 * RING.step * g_v.sum()),
@@ -113,11 +113,11 @@ def falls_in_proportion(distance):
 def test_the_three_forms_converge_as_inhibition_becomes_faster():
     model = selection(X, (), 0.6, pool=True)
     record = ["one.activation", "two.excitatory.activation", "pool.interaction", "slow.activation"]
-    data = dd.simulate(
+    recorded = dd.simulate(
         model, 300, record=record, sweep={"tau_v": list(TAU * RATIOS)}, every=1, precision="float64"
     )
-    one, two = data["one.activation"].values, data["two.excitatory.activation"].values
-    pool = (data["pool.interaction"] + data["slow.activation"] + H).values
+    one, two = recorded["one.activation"].values, recorded["two.excitatory.activation"].values
+    pool = (recorded["pool.interaction"] + recorded["slow.activation"] + H).values
     left, right = one[0, 240, 15], one[0, 240, 35]
     assert left > 0 > right, "the one-layer field selects the stronger input"
     for other in (two, pool):
@@ -131,11 +131,11 @@ def test_two_layers_with_local_inhibition_converge_to_one_layer():
     """
     model = selection(RING, (dd.Gaussian(-9, 12, normalized=True),), 0.2, pool=False)
     record = ["one.activation", "two.excitatory.activation"]
-    data = dd.simulate(
+    recorded = dd.simulate(
         model, 300, record=record, sweep={"tau_v": list(TAU * RATIOS)}, every=1, precision="float64"
     )
     falls_in_proportion(
-        np.abs(data["two.excitatory.activation"] - data["one.activation"]).max(("time", "x")).values
+        np.abs(recorded["two.excitatory.activation"] - recorded["one.activation"]).max(("time", "x")).values
     )
 
 

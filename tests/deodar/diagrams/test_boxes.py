@@ -34,8 +34,8 @@ def test_the_glyph_of_a_field_lies_inside_its_place(dims: int) -> None:
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_loops_stand_side_by_side_over_the_middle_of_their_box(form: str, count: int) -> None:
     loops = [boxes.Loop(sign) for sign in ("+", "-", "±")[:count]]
-    item = Item("a", form, "a field", "", () if form == "node" else (Axis("x", 0, 10, 5),))  # type: ignore[arg-type]
-    drawn = boxes.prepare(item, [], [], loops, 1)
+    box = Item("a", form, "a field", "", () if form == "node" else (Axis("x", 0, 10, 5),))  # type: ignore[arg-type]
+    drawn = boxes.prepare(box, [], [], loops, 1)
     curves = [
         s
         for s in paint._item(drawn, 100, 50).content

@@ -22,32 +22,32 @@ GROUPS = {("g",): "", ("g", "h"): "", ("k",): "a template"}
 
 
 def graph(*wires: Wire) -> Graph:
-    return Graph("g", ITEMS, wires, GROUPS, {item.id: (0.0, 0.0) for item in ITEMS})
+    return Graph("g", ITEMS, wires, GROUPS, {box.id: (0.0, 0.0) for box in ITEMS})
 
 
 def test_every_group_is_one_box_and_connections_end_at_it() -> None:
-    found = fold(graph(Wire("a", "b", "out", "gate", "-", ("× −2",)), Wire("b", "c"), Wire("c", "d")), 0)
-    assert [(i.form, i.name, i.kind) for i in found.items] == [
+    folded = fold(graph(Wire("a", "b", "out", "gate", "-", ("× −2",)), Wire("b", "c"), Wire("c", "d")), 0)
+    assert [(i.form, i.name, i.kind) for i in folded.items] == [
         ("field", "a", ""),
         ("group", "g", "2 elements"),
         ("group", "k", "linked to a template"),
     ]
-    a, g, k = (i.id for i in found.items)
-    assert found.wires == (Wire(a, g, "out", "", "-", ("× −2",)), Wire(g, k)), (
+    a, g, k = (i.id for i in folded.items)
+    assert folded.wires == (Wire(a, g, "out", "", "-", ("× −2",)), Wire(g, k)), (
         "the connection inside is left out"
     )
-    assert not found.groups and not found.places
+    assert not folded.groups and not folded.places
 
 
 def test_groups_down_to_the_depth_stay_open() -> None:
-    found = fold(graph(Wire("a", "b"), Wire("b", "c"), Wire("c", "d")), 1)
-    assert [(i.form, i.name, i.group) for i in found.items] == [
+    folded = fold(graph(Wire("a", "b"), Wire("b", "c"), Wire("c", "d")), 1)
+    assert [(i.form, i.name, i.group) for i in folded.items] == [
         ("field", "a", ()),
         ("node", "b", ("g",)),
         ("group", "h", ("g",)),
         ("node", "d", ("k",)),
     ]
-    assert len(found.wires) == 3 and found.groups == {("g",): "", ("k",): "a template"}
+    assert len(folded.wires) == 3 and folded.groups == {("g",): "", ("k",): "a template"}
     whole = graph(Wire("a", "b"))
     assert fold(whole, 2) is whole
 

@@ -23,7 +23,7 @@ def big(fields=40, couplings=150, seed=0):
     """Return a random architecture with groups and long names."""
     draw = random.Random(seed)
     model = dd.Model("big")
-    found = [
+    handles = [
         model.add(
             dd.Field(f"field number {i} of many" if i % 5 else f"u{i}", [X] if i % 4 else []),
             group=f"group {i % 4}" if i % 3 else "",
@@ -31,7 +31,7 @@ def big(fields=40, couplings=150, seed=0):
         for i in range(fields)
     ]
     for _ in range(couplings):
-        a, b = draw.choice(found), draw.choice(found)
+        a, b = draw.choice(handles), draw.choice(handles)
         a >> dd.Gain(draw.choice([-2.0, 1.5])) >> b
     return sketch(model.document)
 
@@ -39,11 +39,11 @@ def big(fields=40, couplings=150, seed=0):
 def laid_out(graph):
     """Return the boxes (x, y, width, height), the layout, and the painted connections."""
     scene = paint.paint(graph, legend=False)
-    drawn, found = paint.lay_out(graph)[:2]
+    drawn, routes = paint.lay_out(graph)[:2]
     return (
         scene,
-        {i: (x, y, drawn[i].box.width, drawn[i].box.height) for i, (x, y) in found.boxes.items()},
-        found,
+        {i: (x, y, drawn[i].box.width, drawn[i].box.height) for i, (x, y) in routes.boxes.items()},
+        routes,
     )
 
 
@@ -91,20 +91,20 @@ def along(shape):
     ],
 )
 def test_boxes_do_not_overlap_and_connections_are_routed_around_them(graph):
-    scene, places, found = laid_out(graph)
-    shown = list(places.items())
-    for k, (one, a) in enumerate(shown):
+    scene, places, routes = laid_out(graph)
+    boxes_placed = list(places.items())
+    for k, (place, a) in enumerate(boxes_placed):
         assert (
             a[0] >= -0.01
-            and a[0] + a[2] <= found.width + 0.01
+            and a[0] + a[2] <= routes.width + 0.01
             and a[1] >= -0.01
-            and a[1] + a[3] <= found.height + 0.01
+            and a[1] + a[3] <= routes.height + 0.01
         )
-        for other, b in shown[k + 1 :]:
-            assert apart(a, b), (one, other)
-    group = {item.id: item.group for item in graph.items}
-    for ident, (x, y, w, h) in shown:
-        for g, (fx, fy, fw, fh) in found.frames.items():
+        for other, b in boxes_placed[k + 1 :]:
+            assert apart(a, b), (place, other)
+    group = {box.id: box.group for box in graph.items}
+    for ident, (x, y, w, h) in boxes_placed:
+        for g, (fx, fy, fw, fh) in routes.frames.items():
             inside = group[ident][: len(g)] == g
             assert (
                 (fx < x and fy < y and x + w < fx + fw and y + h < fy + fh)
@@ -117,19 +117,19 @@ def test_boxes_do_not_overlap_and_connections_are_routed_around_them(graph):
     edge = paint.MARGIN
     for wire, line in zip(wires, lines, strict=True):
         for x, y in along(line):
-            for ident, (bx, by, bw, bh) in shown:
+            for ident, (bx, by, bw, bh) in boxes_placed:
                 inside = bx + 0.5 < x - edge < bx + bw - 0.5 and by + 0.5 < y - edge < by + bh - 0.5
                 assert not inside or ident in (wire.source, wire.target), (wire, ident)
 
 
 def test_captions_do_not_overlap_boxes_or_each_other():
     for graph in (big(20, 60), sketch(dd.load(EXAMPLES[0]).document)):
-        drawn, found, sizes = paint.lay_out(graph)
-        rects = [(x, y, drawn[i].box.width, drawn[i].box.height) for i, (x, y) in found.boxes.items()]
+        drawn, routes, sizes = paint.lay_out(graph)
+        rects = [(x, y, drawn[i].box.width, drawn[i].box.height) for i, (x, y) in routes.boxes.items()]
         rects += [
-            (x - sizes[w][0] / 2, y - sizes[w][1] / 2, *sizes[w]) for w, (x, y) in found.captions.items()
+            (x - sizes[w][0] / 2, y - sizes[w][1] / 2, *sizes[w]) for w, (x, y) in routes.captions.items()
         ]
-        assert len(found.captions) > 10
+        assert len(routes.captions) > 10
         assert all(apart(a, b) for k, a in enumerate(rects) for b in rects[k + 1 :])
 
 
@@ -145,17 +145,15 @@ def test_captions_do_not_overlap_boxes_or_each_other():
     ],
 )
 def test_text_is_inside_its_box(form, name):
-    item = Item(
-        "a", form, name, "kind of a thing", (X, dd.Axis("y", -180, 180, 5, periodic=True, unit="deg"))
-    )
-    drawn = boxes.prepare(item, ["gate"], ["activation"], [boxes.Loop("+", ("× 2",)), boxes.Loop("-")], 9)
-    for one in boxes.paint(drawn, 0, 0):
-        if isinstance(one, TextLine):
-            half = text.width(one.text, one.size, one.bold) / 2
+    box = Item("a", form, name, "kind of a thing", (X, dd.Axis("y", -180, 180, 5, periodic=True, unit="deg")))
+    drawn = boxes.prepare(box, ["gate"], ["activation"], [boxes.Loop("+", ("× 2",)), boxes.Loop("-")], 9)
+    for element in boxes.paint(drawn, 0, 0):
+        if isinstance(element, TextLine):
+            half = text.width(element.text, element.size, element.bold) / 2
             assert (
-                one.x - half >= -0.01
-                and one.x + half <= drawn.box.width + 0.01
-                and 0 < one.y <= drawn.box.height
+                element.x - half >= -0.01
+                and element.x + half <= drawn.box.width + 0.01
+                and 0 < element.y <= drawn.box.height
             )
     heights = drawn.box.top, drawn.box.body
     assert heights[0] >= boxes.LOOP + boxes.SMALL_LINE and heights[1] >= 8 * boxes.CLOSEST
@@ -169,14 +167,14 @@ def test_given_positions_are_kept():
         {("g",): ""},
         {"a": (300, 40), "b": (0, 0)},
     )
-    drawn, found, _ = paint.lay_out(graph)
-    assert found.boxes["a"][0] - found.boxes["b"][0] == pytest.approx(300 * given.GIVEN)
-    assert found.boxes["a"][1] - found.boxes["b"][1] == pytest.approx(40 * given.GIVEN)
-    x, y, w, h = found.frames["g",]
+    drawn, routes, _ = paint.lay_out(graph)
+    assert routes.boxes["a"][0] - routes.boxes["b"][0] == pytest.approx(300 * given.GIVEN)
+    assert routes.boxes["a"][1] - routes.boxes["b"][1] == pytest.approx(40 * given.GIVEN)
+    x, y, w, h = routes.frames["g",]
     assert (
-        x < found.boxes["b"][0]
-        and x + w > found.boxes["b"][0] + drawn["b"].box.width
-        and y < found.boxes["b"][1] < y + h
+        x < routes.boxes["b"][0]
+        and x + w > routes.boxes["b"][0] + drawn["b"].box.width
+        and y < routes.boxes["b"][1] < y + h
     )
     part = Graph("g", graph.items, graph.wires, graph.groups, {"a": (300, 40)})
     assert paint.lay_out(part)[1].boxes["a"][0] > paint.lay_out(part)[1].boxes["b"][0], (
@@ -190,8 +188,8 @@ def test_the_order_of_columns_avoids_crossings():
     columns = [["a", "b", "c"], ["x", "y", "z"]]
     assert layers.crossings(columns, after | {"x": [], "y": [], "z": []}) == 1
     full = after | {"x": [], "y": [], "z": []}
-    found = layers.order(columns, full, before | {"a": [], "b": [], "c": []})
-    assert layers.crossings(found, full) == 0
+    ordered = layers.order(columns, full, before | {"a": [], "b": [], "c": []})
+    assert layers.crossings(ordered, full) == 0
 
 
 def test_few_edges_run_backwards():
@@ -222,35 +220,35 @@ def test_marks_differ_in_shape_and_not_only_in_colour():
         sign: [s for s in paint.wires.mark((10, 10), (1, 0), sign) if isinstance(s, Shape)]
         for sign in ("+", "-", "±")
     }
-    kinds = {sign: [len(s.path) for s in found] for sign, found in shapes.items()}
+    kinds = {sign: [len(s.path) for s in shape] for sign, shape in shapes.items()}
     assert kinds == {"+": [4], "-": [6], "±": [4, 6]}
 
 
 def test_a_caption_is_in_the_middle_of_a_segment_of_its_connection():
     graph = big(20, 60)
-    _, found, sizes = paint.lay_out(graph)
+    _, routes, sizes = paint.lay_out(graph)
     assert (
-        set(found.captions)
+        set(routes.captions)
         == set(sizes)
         == {k for k, w in enumerate(graph.wires) if w.captions and w.source != w.target}
     )
-    for wire, (x, y) in found.captions.items():
+    for wire, (x, y) in routes.captions.items():
         half = sizes[wire][0] / 2
         assert any(
             run.y == pytest.approx(y) and run.x0 - 0.01 <= x - half and x + half <= run.x1 + 0.01
-            for run in found.runs[wire]
-        ), (wire, x, y, found.runs[wire])
+            for run in routes.runs[wire]
+        ), (wire, x, y, routes.runs[wire])
 
 
 def test_the_space_between_columns_grows_with_the_climb_of_connections():
     items = [Item(name, "field", name) for name in ("a", *(f"b{k}" for k in range(9)))]
-    wires = [Wire("a", item.id) for item in items[1:]]
+    wires = [Wire("a", box.id) for box in items[1:]]
     fan = paint.lay_out(Graph("fan", tuple(items), tuple(wires), {}))[1]
     pair = paint.lay_out(Graph("pair", tuple(items[:2]), tuple(wires[:1]), {}))[1]
     spaces: dict[str, list[float]] = {}
-    for name, found in (("fan", fan), ("pair", pair)):
-        steps = [step for runs in found.runs.values() for step in itertools.pairwise(runs)]
-        spaces[name] = [other.x0 - one.x1 for one, other in steps]
+    for name, routes in (("fan", fan), ("pair", pair)):
+        steps = [step for runs in routes.runs.values() for step in itertools.pairwise(runs)]
+        spaces[name] = [other.x0 - before.x1 for before, other in steps]
         # a space and the one after it, with the lanes of connections between them
         for (one, other), space in zip(steps, spaces[name], strict=True):
             assert space >= 2 * layout.GAP + layout.STEEPEST * abs(other.y - one.y) - 0.01
@@ -262,9 +260,9 @@ def test_the_space_between_columns_grows_with_the_climb_of_connections():
 def test_connections_at_one_side_share_the_height_of_a_box(form, count):
     items = [Item("end", form, "end"), *(Item(f"s{k}", "node", f"s{k}") for k in range(count))]
     graph = Graph("ends", tuple(items), tuple(Wire(i.id, "end") for i in items[1:]), {})
-    drawn, found, _ = paint.lay_out(graph)
-    box, top = drawn["end"].box, found.boxes["end"][1]
-    ends = sorted(runs[-1].y for runs in found.runs.values())
+    drawn, routes, _ = paint.lay_out(graph)
+    box, top = drawn["end"].box, routes.boxes["end"][1]
+    ends = sorted(runs[-1].y for runs in routes.runs.values())
     steps = [b - a for a, b in itertools.pairwise(ends)]
     assert steps == pytest.approx([min(layout.SPACING, (box.body - 6) / (count - 1))] * (count - 1))
     assert min(steps) >= boxes.CLOSEST - 0.01
@@ -275,17 +273,17 @@ def test_connections_pass_a_box_at_the_same_distance_above_and_below():
     draw, n = random.Random(1), 14
     items = tuple(Item(f"e{k}", "field", f"e{k}") for k in range(n))
     wires = [Wire(f"e{a}", f"e{b}") for a in range(n) for b in range(a + 1, n) if draw.random() < 0.35]
-    drawn, found, _ = paint.lay_out(Graph("lanes", items, tuple(wires), {}))
+    drawn, routes, _ = paint.lay_out(Graph("lanes", items, tuple(wires), {}))
     above, below, boxes_apart = [], [], []
-    for ident, (x, y) in found.boxes.items():
+    for ident, (x, y) in routes.boxes.items():
         width, height = drawn[ident].box.width, drawn[ident].box.height
         passing = [
-            r.y for runs in found.runs.values() for r in runs if r.x0 <= x + 0.01 and r.x1 >= x + width
+            r.y for runs in routes.runs.values() for r in runs if r.x0 <= x + 0.01 and r.x1 >= x + width
         ]
         above += [y - at for at in passing if at < y]
         below += [at - y - height for at in passing if at > y + height]
         beside = [
-            (by, i) for i, (bx, by) in found.boxes.items() if bx < x + width and x < bx + drawn[i].box.width
+            (by, i) for i, (bx, by) in routes.boxes.items() if bx < x + width and x < bx + drawn[i].box.width
         ]
         boxes_apart += [by - y - height for by, i in beside if i != ident and by > y]
     assert len(above) > 10 and len(below) > 10

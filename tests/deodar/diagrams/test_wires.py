@@ -48,9 +48,9 @@ def test_an_arrow_points_in_its_direction(direction: tuple[float, float]) -> Non
         assert across == pytest.approx(side * wires.ARROW * math.tan(math.radians(24)))
     for sign in ("-", "±"):
         *_, dot = wires.mark((x, y), direction, sign)
-        near = wires.DOT if sign == "-" else wires.ARROW + wires.DOT
+        length = wires.DOT if sign == "-" else wires.ARROW + wires.DOT
         for point in ends(dot):
-            assert math.dist(point, (x - dx * near, y - dy * near)) == pytest.approx(wires.DOT)
+            assert math.dist(point, (x - dx * length, y - dy * length)) == pytest.approx(wires.DOT)
 
 
 def test_inhibition_is_dashed_and_a_delayed_connection_dotted() -> None:

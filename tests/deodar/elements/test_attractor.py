@@ -12,7 +12,7 @@ RING = dd.Axis("phi", 0, 360, samples=36, periodic=True)
 
 
 def driven(axes: list[dd.Axis], **given: object) -> dd.Model:
-    made = dd.Model("motor")
+    model = dd.Model("motor")
     stimulus = dd.GaussianStimulus(
         "s",
         axes,
@@ -20,8 +20,8 @@ def driven(axes: list[dd.Axis], **given: object) -> dd.Model:
         sigma=[a.range / 10 for a in axes],
         amplitude=3.0,
     )
-    made.add(stimulus) >> made.add(dd.Attractor("phi", tau=50.0, **given))  # type: ignore[arg-type]
-    return made
+    model.add(stimulus) >> model.add(dd.Attractor("phi", tau=50.0, **given))  # type: ignore[arg-type]
+    return model
 
 
 @pytest.mark.parametrize("axis", [X, RING], ids=["line", "ring"])
@@ -42,9 +42,9 @@ def test_a_source_with_two_axes_requires_the_axis() -> None:
 
 
 def test_a_source_without_an_axis_cannot_drive_it() -> None:
-    made = dd.Model("motor")
-    made.add(dd.Boost("b", [], 1.0)) >> made.add(dd.Attractor("phi"))
-    [problem] = [p for p in made.check() if p.severity == "problem"]
+    model = dd.Model("motor")
+    model.add(dd.Boost("b", [], 1.0)) >> model.add(dd.Attractor("phi"))
+    [problem] = [p for p in model.check() if p.severity == "problem"]
     assert problem.what == "the source has no axis, so it has no positions"
 
 
@@ -54,7 +54,7 @@ def test_gain_and_offset_are_refused_on_the_periodic_axis_of_the_source() -> Non
 
 
 def test_the_document_states_that_the_axis_is_inferred() -> None:
-    made = driven([X])
-    again = dd.Model(document=made.document)
-    assert made["phi"].axis is None and '"axis": null' in again.to_json()
-    assert not [p for p in again.check() if p.severity == "problem"]
+    model = driven([X])
+    reopened = dd.Model(document=model.document)
+    assert model["phi"].axis is None and '"axis": null' in reopened.to_json()
+    assert not [p for p in reopened.check() if p.severity == "problem"]

@@ -61,11 +61,11 @@ def line_cases():
                 ["reflect"],
                 *([None] if name in ("gaussian", "custom") else []),
             ):
-                shown = (
+                case = (
                     f"{'ring' if axis.periodic else 'line'}, {name},"
                     f" {boundary[0] if boundary else 'by the axis'}"
                 )
-                yield shown, axis, bounded(kernel, boundary)
+                yield case, axis, bounded(kernel, boundary)
 
 
 def stimulus_on(axes, amplitude=9.0):
@@ -78,7 +78,7 @@ def compare(model, expected, record="activation", dt=DT, many=12):
     """Run the model, and require that each field's activation equals the reference to 1e-9 of its largest
     value.
     """
-    data = dd.simulate(
+    recorded = dd.simulate(
         model,
         STEPS * dt,
         dt=dt,
@@ -91,10 +91,10 @@ def compare(model, expected, record="activation", dt=DT, many=12):
         reference = fields.run(
             field, lambda k, s=stimulus: fields.stimulus(s, k * dt) if s else 0.0, STEPS, dt, many
         )[::EVERY]
-        found = data[f"{name}.{record}"].values
-        assert found.dtype == np.float64
+        values = recorded[f"{name}.{record}"].values
+        assert values.dtype == np.float64
         assert np.ptp(reference) > 0.1, f"{name}: the activation is constant, so the test shows nothing"
-        error = abs(found - reference).max() / abs(reference).max()
+        error = abs(values - reference).max() / abs(reference).max()
         if not error < 1e-9:
             wrong.append(f"{name}: off by {error:.1e}")
     assert not wrong, "\n".join(wrong)
@@ -111,19 +111,19 @@ def test_fields_with_every_kernel_and_boundary_agree_with_the_oracle():
                 dd.GaussianStimulus(name, [axis], center=s.center, sigma=s.sigma, amplitude=s.amplitude)
             ),
         )
-    for shown, axis, kernel in line_cases():
-        field = dd.Field(shown, [axis], tau=10, resting_level=-3, kernel=[kernel], sigmoid=dd.Logistic(2.0))
+    for case, axis, kernel in line_cases():
+        field = dd.Field(case, [axis], tau=10, resting_level=-3, kernel=[kernel], sigmoid=dd.Logistic(2.0))
         s, handle = sources[axis]
         model.connect(handle, model.add(field))
-        expected[shown] = field, s
+        expected[case] = field, s
     compare(model, expected)
 
 
-def alone(shown, field, stimulus, many=12):
+def alone(case, field, stimulus, many=12):
     """Return one field with one stimulus."""
     model = dd.Model("alone")
     model.connect(model.add(stimulus), model.add(field))
-    compare(model, {shown: (field, stimulus)}, many=many)
+    compare(model, {case: (field, stimulus)}, many=many)
 
 
 PLANE = (dd.Axis("x", 0, 14, 8), dd.Axis("y", -9, 9, 9, periodic=True))
@@ -151,9 +151,9 @@ def test_fields_over_two_axes_with_mixed_boundaries_agree_with_the_oracle():
         "custom spaced": Custom(lopsided, 0.4, spacing=[2.9, 1.5]),
     }.items():
         for boundary in (None, ["reflect", "zero"], ["periodic", "reflect"], ["zero", "zero"]):
-            shown = f"{name}, {boundary}"
+            case = f"{name}, {boundary}"
             field = dd.Field(
-                shown,
+                case,
                 PLANE,
                 tau=12,
                 resting_level=-3,
@@ -161,7 +161,7 @@ def test_fields_over_two_axes_with_mixed_boundaries_agree_with_the_oracle():
                 global_inhibition=0.02,
             )
             model.connect(source, model.add(field))
-            expected[shown] = field, s
+            expected[case] = field, s
     compare(model, expected, many=4)
 
 
@@ -247,18 +247,18 @@ def test_output_and_interaction_agree_with_the_oracle():
     )
     model = dd.Model("ports")
     model.connect(model.add(s), model.add(field))
-    data = dd.simulate(
+    record = dd.simulate(
         model, 60, record=["u.output", "u.interaction", "u.input"], every=60, precision="float64"
     )
     reference = fields.Field(field)
     for time in range(2):
-        for port, value in {
+        for port, expected in {
             "output": reference.output,
             "interaction": reference.interaction,
             "input": fields.stimulus(s, 0),
         }.items():
             np.testing.assert_allclose(
-                data[f"u.{port}"].values[time], value, rtol=1e-9, atol=1e-9 * abs(value).max()
+                record[f"u.{port}"].values[time], expected, rtol=1e-9, atol=1e-9 * abs(expected).max()
             )
         for _ in range(60):
             reference.step(fields.stimulus(s, 0), 1.0)

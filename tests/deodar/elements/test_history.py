@@ -18,8 +18,8 @@ def test_the_latest_time_comes_first(dt, interval):
     model = dd.Model("history", dt=dt)
     u = model.add(dd.Field("u", [X], tau=10, resting_level=-3))
     model.connect(u, model.add(History("past", [X], dd.Axis("slot", 0, 2, 3), interval)))
-    data = dd.simulate(model, 12, record=["u.output", "past.output"], precision="float64")
-    g, past = data["u.output"].values, data["past.output"].values
+    record = dd.simulate(model, 12, record=["u.output", "past.output"], precision="float64")
+    g, past = record["u.output"].values, record["past.output"].values
     kept = np.zeros((3, 4))
     for k in range(len(g)):
         assert np.array_equal(past[k], kept)

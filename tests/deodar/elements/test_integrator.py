@@ -18,11 +18,11 @@ def test_the_integrator_sums_its_input(rate, start):
     u = model.add(dd.Field("u", [X], tau=10, resting_level=1))
     model.connect(model.add(dd.GaussianStimulus("s", [X], center=1, sigma=1, amplitude=3)), u)
     model.connect(u, model.add(Integrator("x", [X], rate, 0.25, start)))
-    data = dd.simulate(model, 5, record=["u.output", "x.output"], precision="float64")
+    record = dd.simulate(model, 5, record=["u.output", "x.output"], precision="float64")
     x = np.full(4, 0.25) if start is None else np.array(start)
     for k in range(11):
-        assert np.allclose(data["x.output"].values[k], x, rtol=0, atol=1e-12)
-        x = x + 0.5 * rate * data["u.output"].values[k]
+        assert np.allclose(record["x.output"].values[k], x, rtol=0, atol=1e-12)
+        x = x + 0.5 * rate * record["u.output"].values[k]
 
 
 def test_the_value_is_constant_without_input():

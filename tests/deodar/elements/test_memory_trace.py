@@ -21,16 +21,16 @@ def test_a_trace_grows_at_peaks_decays_elsewhere_and_is_constant_without_peaks()
     p = model.add(MemoryTrace("p", [X], tau_build=10, tau_decay=50, threshold=0.5))
     model["a"] >> p
     model["b"] >> p
-    data = dd.simulate(model, 80, dt=0.5, record=["p.output", "p.active", "p.input"], precision="float64")
-    found, active, s = (data[name].values for name in ("p.output", "p.active", "p.input"))
-    wanted = np.zeros(31)
-    for k in range(len(found)):
-        assert np.allclose(found[k], wanted, rtol=0, atol=1e-13)
+    record = dd.simulate(model, 80, dt=0.5, record=["p.output", "p.active", "p.input"], precision="float64")
+    output, active, s = (record[name].values for name in ("p.output", "p.active", "p.input"))
+    expected = np.zeros(31)
+    for k in range(len(output)):
+        assert np.allclose(output[k], expected, rtol=0, atol=1e-13)
         if (s[k] > 0.5).any():
-            wanted = wanted + 0.5 * np.where(s[k] > 0.5, (s[k] - wanted) / 10, -wanted / 50)
+            expected = expected + 0.5 * np.where(s[k] > 0.5, (s[k] - expected) / 10, -expected / 50)
     assert np.array_equal(active[1:], s[:-1] > 0.5)
-    assert np.array_equal(found[40], found[60]) and found[40].max() > 1  # nothing is active from 20 to 30
-    assert found[-1, 8] < found[40, 8]
+    assert np.array_equal(output[40], output[60]) and output[40].max() > 1  # nothing is active from 20 to 30
+    assert output[-1, 8] < output[40, 8]
 
 
 # ----------------------------------------------------------------------- closed forms, and what can be chosen
@@ -94,11 +94,11 @@ def test_a_trace_of_another_shape_is_refused():
 
 
 def test_a_sigmoid_in_place_of_the_threshold_weights_growth_and_decay():
-    wanted = np.array([0.0, 0.7])
+    expected = np.array([0.0, 0.7])
     a = 1 / (1 + np.exp(-4 * (np.array([0.9, 0.2]) - 0.5)))
     for _ in range(50):
-        wanted = wanted + 0.5 * (a * ([0.9, 0.2] - wanted) / 10 - (1 - a) * wanted / 50)
-    found = course(0.9, 50, others=0.2, start=[0.0, 0.7], activity=dd.Logistic(4.0, 0.5))
-    np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
+        expected = expected + 0.5 * (a * ([0.9, 0.2] - expected) / 10 - (1 - a) * expected / 50)
+    output = course(0.9, 50, others=0.2, start=[0.0, 0.7], activity=dd.Logistic(4.0, 0.5))
+    np.testing.assert_allclose(output, expected, rtol=0, atol=1e-12)
     with pytest.raises(ParameterError, match="activity: is a sigmoid, and graded takes the input itself"):
         course(0.9, 1, graded=True, activity=dd.Logistic(4.0, 0.5))

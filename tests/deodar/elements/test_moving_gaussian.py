@@ -19,8 +19,8 @@ RING = dd.Axis("phi", 0, 360, 36, periodic=True)
 def seen(duration=40.0, dt=0.5, precision="float64", **values):
     model = dd.Model("stimulus", dt=dt)
     model.add(MovingGaussian("s", **values))
-    data = dd.simulate(model, duration, record=["s.output"], precision=precision)["s.output"]
-    return data["time"].values, data.values
+    record = dd.simulate(model, duration, record=["s.output"], precision=precision)["s.output"]
+    return record["time"].values, record.values
 
 
 def plain(axis, places, sigma):
@@ -86,18 +86,20 @@ def test_a_document_keeps_the_waypoints(tmp_path):
 def test_a_document_of_version_2_names_the_waypoints_path():
     model = dd.Model("moving")
     model.add(MovingGaussian("s", [X], waypoints=[[0, 1], [10, 5]]))
-    data, arrays = document_files.to_data(model.document)
-    body = {"path" if key == "waypoints" else key: value for key, value in data["elements"]["s"].items()}
-    assert data["deodar"] == 3 and "path" in body
+    document, arrays = document_files.to_data(model.document)
+    body = {
+        "path" if key == "waypoints" else key: content for key, content in document["elements"]["s"].items()
+    }
+    assert document["deodar"] == 3 and "path" in body
     for version in (1, 2):
         assert (
-            document_files.from_data({**data, "deodar": version, "elements": {"s": body}}, arrays)
+            document_files.from_data({**document, "deodar": version, "elements": {"s": body}}, arrays)
             == model.document
         )
 
 
 @pytest.mark.parametrize(
-    ("waypoints", "what"),
+    ("waypoints", "problem"),
     [
         ([[0, 1, 2]], "rows of 2 numbers"),
         ([1.0, 2.0], "rows of 2 numbers"),
@@ -105,8 +107,8 @@ def test_a_document_of_version_2_names_the_waypoints_path():
         ([[5, 1], [0, 2]], "back in"),
     ],
 )
-def test_waypoints_of_another_shape_are_refused(waypoints, what):
-    with pytest.raises(ParameterError, match=what):
+def test_waypoints_of_another_shape_are_refused(waypoints, problem):
+    with pytest.raises(ParameterError, match=problem):
         MovingGaussian("s", [X], waypoints=waypoints)
 
 

@@ -14,8 +14,8 @@ VALUES = np.arange(8.0).reshape(4, 2)
 def test_the_output_is_the_values_times_the_amplitude_in_the_windows():
     model = dd.Model("pattern")
     model.add(Pattern("s", [X, Y], VALUES, 0.5, windows=[(2, 4)]))
-    found = dd.simulate(model, 5, record=["s.output"])["s.output"].values
-    assert np.array_equal(found, [0.5 * VALUES * (2 <= t < 4) for t in range(6)])
+    output = dd.simulate(model, 5, record=["s.output"])["s.output"].values
+    assert np.array_equal(output, [0.5 * VALUES * (2 <= t < 4) for t in range(6)])
 
 
 def test_values_of_another_shape_are_reported():

@@ -17,5 +17,5 @@ def test_a_placeholder_in_a_loop_outputs_zero():
     p = model.add(Placeholder("p", [X], "Camera: reads a camera"))
     u >> p >> u
     assert not problems(model.document)
-    data = dd.simulate(model, 5, record=["p.output", "u.activation"])
-    assert not np.any(data["p.output"]) and np.allclose(data["u.activation"], 2.0)
+    record = dd.simulate(model, 5, record=["p.output", "u.activation"])
+    assert not np.any(record["p.output"]) and np.allclose(record["u.activation"], 2.0)

@@ -38,11 +38,11 @@ def bumpy(axes, seed=0):
 def test_cell_means_agree_with_the_oracle(g, axes):
     u = bumpy(axes)
     with jax.enable_x64(True):
-        found = np.asarray(cell_means(g, jnp.asarray(u), tuple(axes)))
-    np.testing.assert_allclose(found, fields.cell_means(g, u, axes), rtol=1e-9, atol=1e-10)
+        means = np.asarray(cell_means(g, jnp.asarray(u), tuple(axes)))
+    np.testing.assert_allclose(means, fields.cell_means(g, u, axes), rtol=1e-9, atol=1e-10)
     single = np.asarray(jax.jit(lambda u: cell_means(g, u, tuple(axes)))(jnp.asarray(u, jnp.float32)))
     assert single.dtype == np.float32
-    np.testing.assert_allclose(single, found, atol=3e-5)
+    np.testing.assert_allclose(single, means, atol=3e-5)
 
 
 @pytest.mark.parametrize("axes", [[LINE], [LINE, RING]], ids=["1-D", "2-D"])
@@ -65,13 +65,13 @@ def test_a_field_sums_cell_means_for_every_target(axes):
     model.add(s) >> u
     u >> model.add(dd.Project([], name="total"))
     ports = ["u.output", "u.activation", "u.interaction", "total.output"]
-    data = dd.simulate(model, 40, record=ports, every=40, precision="float64")
+    record = dd.simulate(model, 40, record=ports, every=40, precision="float64")
     plain = fields.Field(u.element)
     for _ in range(40):
         plain.step(fields.stimulus(s, 0), 1.0)
-    wanted = [plain.output, plain.u, plain.interaction, plain.output.sum() * fields.volume(axes)]
-    for port, value in zip(ports, wanted, strict=True):
-        np.testing.assert_allclose(data[port].values[-1], value, rtol=1e-9, atol=1e-10)
+    expected = [plain.output, plain.u, plain.interaction, plain.output.sum() * fields.volume(axes)]
+    for port, values in zip(ports, expected, strict=True):
+        np.testing.assert_allclose(record[port].values[-1], values, rtol=1e-9, atol=1e-10)
 
 
 def test_a_node_and_an_axis_of_one_sample_take_the_sigmoid_itself():
@@ -106,9 +106,9 @@ def test_a_document_without_a_quadrature_uses_points(tmp_path):
     model.add(dd.Field("u", [LINE], quadrature="cell"))
     dd.save(model, tmp_path / "new.json")
     assert dd.load(tmp_path / "new.json")["u"].element.quadrature == "cell"
-    data = json.loads((tmp_path / "new.json").read_text())
-    del data["elements"]["u"]["quadrature"]
-    (tmp_path / "old.json").write_text(json.dumps(data))
+    document = json.loads((tmp_path / "new.json").read_text())
+    del document["elements"]["u"]["quadrature"]
+    (tmp_path / "old.json").write_text(json.dumps(document))
     assert dd.load(tmp_path / "old.json")["u"].element.quadrature == "point"
 
 

@@ -68,10 +68,10 @@ CASES = [
 
 @pytest.mark.parametrize(("reads", "back"), CASES)
 def test_previous_current_and_delayed_reads_agree_with_the_oracle(reads, back):
-    data, reference = run(reads, back), by_hand(reads, back)
+    record, reference = run(reads, back), by_hand(reads, back)
     for k, name in enumerate(("u.activation", "v.activation")):
         scale = abs(reference[:, k]).max()
-        np.testing.assert_allclose(data[name].values, reference[:, k], rtol=0, atol=1e-9 * scale)
+        np.testing.assert_allclose(record[name].values, reference[:, k], rtol=0, atol=1e-9 * scale)
 
 
 def test_previous_current_and_delayed_reads_differ():
@@ -91,7 +91,7 @@ def test_parts_with_other_steps_agree_with_the_oracle(slow, fast):
     u, v = model.add(U, ticks=slow), model.add(V, ticks=fast)
     s >> u
     u >> v >> dd.Gain(-2.0) >> u
-    data = dd.simulate(model, STEPS, dt=0.5, record=["u.activation", "v.activation"], precision="float64")
+    record = dd.simulate(model, STEPS, dt=0.5, record=["u.activation", "v.activation"], precision="float64")
     parts = {"u": fields.Field(U), "v": fields.Field(V)}
     every, coming = {"u": slow, "v": fast}, {}
     seen = []
@@ -103,16 +103,16 @@ def test_parts_with_other_steps_agree_with_the_oracle(slow, fast):
         inputs = {"u": fields.stimulus(S, 0.5 * tick) - 2.0 * parts["v"].output, "v": parts["u"].output}
         for name, part in parts.items():
             if tick % every[name] == 0:
-                shown = part.u
+                activation = part.u
                 part.step(inputs[name], 0.5 * every[name])
-                coming[name], part.u = part.u, shown
+                coming[name], part.u = part.u, activation
     for k, name in enumerate(("u.activation", "v.activation")):
         reference = np.array([pair[k] for pair in seen])
-        np.testing.assert_allclose(data[name].values, reference, rtol=0, atol=1e-9 * abs(reference).max())
+        np.testing.assert_allclose(record[name].values, reference, rtol=0, atol=1e-9 * abs(reference).max())
 
 
 def test_the_state_of_a_slow_part_is_constant_between_its_ticks():
     model = dd.Model("slow")
     model.add(Boost("b", [], 4.0)) >> model.add(dd.Field("n", [], tau=20), ticks=4)
-    data = dd.simulate(model, 40, record="n.activation")["n.activation"].values
-    assert np.flatnonzero(np.diff(data)).tolist() == [3, 7, 11, 15, 19, 23, 27, 31, 35, 39]
+    activation = dd.simulate(model, 40, record="n.activation")["n.activation"].values
+    assert np.flatnonzero(np.diff(activation)).tolist() == [3, 7, 11, 15, 19, 23, 27, 31, 35, 39]

@@ -20,12 +20,12 @@ def test_each_slot_contains_the_input_at_its_time(empty):
     times = [2.0, 0.0, 3.1, 99.0]
     past = model.add(SampledHistory("past", [X], dd.Axis("slot", 0, 3, 4), times, empty))
     model.connect(u, past, reads="current")
-    data = dd.simulate(model, 5, record=["u.output", "past.output"], precision="float64")
-    g, found = data["u.output"].values, data["past.output"].values
+    record = dd.simulate(model, 5, record=["u.output", "past.output"], precision="float64")
+    g, samples = record["u.output"].values, record["past.output"].values
     nothing = np.full(4, np.nan if empty == "nan" else 0.0)
     for k in range(11):
-        wanted = [g[4] if k >= 4 else nothing, nothing, g[6] if k >= 6 else nothing, nothing]
-        assert np.array_equal(found[k], wanted, equal_nan=True)
+        expected = [g[4] if k >= 4 else nothing, nothing, g[6] if k >= 6 else nothing, nothing]
+        assert np.array_equal(samples[k], expected, equal_nan=True)
 
 
 def test_a_time_for_each_slot_is_required():

@@ -19,10 +19,10 @@ def settled(evidence=EVIDENCE, duration=1500, **values):
     model = dd.Model("pool")
     pool = model.add(SoftWinnerTakeAll("pool", [ITEMS], **values))
     model.add(Pattern("evidence", [ITEMS], evidence)) >> pool
-    data = dd.simulate(
+    record = dd.simulate(
         model, duration, record=["pool.output", "pool.inhibitory"], every=duration, precision="float64"
     )
-    return data["pool.output"].values[-1], float(data["pool.inhibitory"].values[-1])
+    return record["pool.output"].values[-1], float(record["pool.inhibitory"].values[-1])
 
 
 def test_the_steps_are_those_of_the_equations():
@@ -46,14 +46,16 @@ def test_the_steps_are_those_of_the_equations():
         )
     )
     model.add(dd.GaussianStimulus("s", [x], center=4, sigma=2, amplitude=2)) >> pool
-    data = dd.simulate(model, 40, record=["pool", "pool.inhibitory", "pool.interaction"], precision="float64")
+    record = dd.simulate(
+        model, 40, record=["pool", "pool.inhibitory", "pool.interaction"], precision="float64"
+    )
     s = 2 * np.exp(-0.5 * ((x.points - 4) / 2) ** 2)
     weights = 0.3 * np.exp(-0.5 * ((x.points[:, None] - x.points) / 1.5) ** 2) * x.step
     r, v = np.zeros(21), 0.0
     for k in range(81):
         lateral = 0.7 * r + weights @ r - 1.1 * v
-        for port, wanted in (("output", r), ("inhibitory", v), ("interaction", lateral)):
-            np.testing.assert_allclose(data[f"pool.{port}"].values[k], wanted, atol=1e-12)
+        for port, expected in (("output", r), ("inhibitory", v), ("interaction", lateral)):
+            np.testing.assert_allclose(record[f"pool.{port}"].values[k], expected, atol=1e-12)
         new = r + 0.5 / 8 * (-r + 1 / (1 + np.exp(-2 * (s + lateral - 0.25))))
         v = v + 0.5 / 3 * (-v + 1 / (1 + np.exp(-3 * (0.4 * x.step * r.sum() - 0.15))))
         r = new
@@ -76,7 +78,7 @@ def test_without_self_excitation_several_units_are_active():
 
 def test_inhibition_depends_on_the_units_and_not_on_the_grid_step():
     """The same pool with twice the samples: the integral over the axis drives the inhibition."""
-    found = []
+    winners = []
     for samples in (51, 101):
         x = dd.Axis("x", 0, 100, samples)
         model = dd.Model("fine")
@@ -91,12 +93,12 @@ def test_inhibition_depends_on_the_units_and_not_on_the_grid_step():
             )
         )
         model.add(dd.GaussianStimulus("s", [x], center=50, sigma=8, amplitude=2)) >> pool
-        found.append(
+        winners.append(
             dd.simulate(model, 400, record=["pool"], every=400, precision="float64")["pool.output"].values[-1]
         )
     # the edge of what is active falls between samples
-    np.testing.assert_allclose(found[1][::2], found[0], atol=0.01 * found[0].max())
-    assert found[0].max() > 1
+    np.testing.assert_allclose(winners[1][::2], winners[0], atol=0.01 * winners[0].max())
+    assert winners[0].max() > 1
 
 
 def test_noise_lets_either_of_two_equals_win():
@@ -138,9 +140,9 @@ def test_with_filtered_input_the_pool_is_a_field_with_inhibition_one_step_late()
     stimulus = model.add(dd.GaussianStimulus("s", [x], center=40, sigma=5, amplitude=6, windows=[(20, 150)]))
     stimulus >> slow >> model.add(pool)
     stimulus >> model.add(field)
-    data = dd.simulate(
+    record = dd.simulate(
         model, 250, record=["u.activation", "pool.interaction", "slow.activation"], precision="float64"
     )
-    u = data["pool.interaction"].values + data["slow.activation"].values - 5
-    np.testing.assert_allclose(u, data["u.activation"].values, atol=1e-10)
+    u = record["pool.interaction"].values + record["slow.activation"].values - 5
+    np.testing.assert_allclose(u, record["u.activation"].values, atol=1e-10)
     assert u.max() > 1

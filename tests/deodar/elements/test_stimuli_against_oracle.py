@@ -37,15 +37,15 @@ def test_every_stimulus_agrees_with_the_oracle_over_time():
     model = dd.Model("stimuli")
     for s in STIMULI:
         model.add(s)
-    data = dd.simulate(
+    record = dd.simulate(
         model, 100, dt=0.5, record=[f"{dd.quote(s.name)}.output" for s in STIMULI], precision="float64"
     )
     for s in STIMULI:
         reference = np.array([fields.stimulus(s, 0.5 * k) for k in range(201)])
-        found = data[f"{s.name}.output"].values
+        output = record[f"{s.name}.output"].values
         assert np.any(reference)
         np.testing.assert_allclose(
-            found, reference, rtol=1e-9, atol=1e-9 * abs(reference).max(), err_msg=s.name
+            output, reference, rtol=1e-9, atol=1e-9 * abs(reference).max(), err_msg=s.name
         )
 
 
@@ -54,10 +54,10 @@ def test_every_stimulus_agrees_with_the_oracle_over_time():
 def test_windows_open_and_close_at_the_step_whose_time_they_name(dt, precision):
     model = dd.Model("windows")
     model.add(Boost("b", [], 1.0, windows=[(3.0, 6.0)]))
-    data = dd.simulate(model, 30 * dt, dt=dt, record="b.output", precision=precision)
+    record = dd.simulate(model, 30 * dt, dt=dt, record="b.output", precision=precision)
     # a time between two steps belongs to the nearer one
     first, last = round(3.0 / dt + 1e-9), round(6.0 / dt + 1e-9)
-    assert np.flatnonzero(data["b.output"].values).tolist() == [k for k in range(31) if first <= k < last]
+    assert np.flatnonzero(record["b.output"].values).tolist() == [k for k in range(31) if first <= k < last]
 
 
 MOTORS = [
@@ -75,15 +75,15 @@ def test_attractors_agree_with_the_oracle():
     sources = {LINE: (line, model.add(line)), RING: (ring, model.add(ring))}
     for motor in MOTORS:
         model.connect(sources[motor.axis][1], model.add(motor))
-    data = dd.simulate(model, 200, record=[dd.quote(m.name) for m in MOTORS], precision="float64")
+    record = dd.simulate(model, 200, record=[dd.quote(m.name) for m in MOTORS], precision="float64")
     for motor in MOTORS:
         phi, reference = motor.initial, []
         for k in range(201):
             reference.append(phi)
             phi = fields.attractor(motor, phi, fields.stimulus(sources[motor.axis][0], float(k)), 1.0)
-        found = data[f"{motor.name}.output"].values
+        output = record[f"{motor.name}.output"].values
         assert np.ptp(reference) > 1
         np.testing.assert_allclose(
-            found, reference, rtol=1e-9, atol=1e-9 * np.abs(reference).max(), err_msg=motor.name
+            output, reference, rtol=1e-9, atol=1e-9 * np.abs(reference).max(), err_msg=motor.name
         )
-        assert found[0] == found[9] and found[160] == found[200], f"{motor.name}: moves without a peak"
+        assert output[0] == output[9] and output[160] == output[200], f"{motor.name}: moves without a peak"

@@ -20,8 +20,8 @@ def seen(duration=24.0, dt=0.5, precision="float64", t0=0.0, **values):
     model = dd.Model("series", dt=dt)
     model.describe(t0=t0)
     model.add(TimeSeries("s", **({"axes": [X, Y], "times": TIMES, "values": VALUES} | values)))
-    data = dd.simulate(model, duration, record=["s.output"], precision=precision)["s.output"]
-    return data["time"].values, data.values
+    record = dd.simulate(model, duration, record=["s.output"], precision=precision)["s.output"]
+    return record["time"].values, record.values
 
 
 def lines(t):

@@ -19,8 +19,8 @@ def seen(times, values, interpolation="hold", initial=0.0):
         TimeSeries("s", [X], times, np.multiply.outer(values, [1.0, -2.0, 0.0]), interpolation=interpolation)
     )
     source >> model.add(TransientDetector("detector", [X], tau=TAU, initial=initial))
-    data = dd.simulate(model, 200, record=["detector.output", "detector.off"], precision="float64")
-    return data["time"].values, data["detector.output"].values, data["detector.off"].values
+    record = dd.simulate(model, 200, record=["detector.output", "detector.off"], precision="float64")
+    return record["time"].values, record["detector.output"].values, record["detector.off"].values
 
 
 def test_steps_up_and_down_give_decaying_pulses():

@@ -44,21 +44,21 @@ def saved(tmp_path: Path) -> Path:
     return folder / "m.json"
 
 
-def _data(path: Path) -> dict[str, Any]:
+def _document(path: Path) -> dict[str, Any]:
     return json.loads(path.read_text())
 
 
 def _array_file(path: Path) -> Path:
-    return path.with_name(_data(path)["arrays"]["file"])
+    return path.with_name(_document(path)["arrays"]["file"])
 
 
 def _point_to(path: Path, name: str, content: bytes | None = None) -> None:
     """Make the document name another array file, with the right hash of its content."""
-    data = _data(path)
-    data["arrays"]["file"] = name
+    document = _document(path)
+    document["arrays"]["file"] = name
     if content is not None:
-        data["arrays"]["sha256"] = hashlib.sha256(content).hexdigest()
-    path.write_text(json.dumps(data))
+        document["arrays"]["sha256"] = hashlib.sha256(content).hexdigest()
+    path.write_text(json.dumps(document))
 
 
 def _replace(path: Path, content: bytes) -> None:
@@ -223,7 +223,7 @@ def test_an_array_file_that_expands_too_much_is_refused_before_it_is_read(
     ],
 )
 def test_an_invalid_entry_of_arrays_is_refused(saved: Path, entry: Any) -> None:
-    saved.write_text(json.dumps(_data(saved) | {"arrays": entry}))
+    saved.write_text(json.dumps(_document(saved) | {"arrays": entry}))
     refused(lambda: dd.load(saved), DocumentError, "arrays: needs a file and its sha256")
 
 
@@ -249,9 +249,9 @@ def test_saving_again_removes_the_previous_array_file(saved: Path) -> None:
 
 def test_saving_never_deletes_a_file_that_is_not_an_array_file(saved: Path) -> None:
     """If a document names another file as its arrays, saving over it with force keeps that file."""
-    other = saved.with_name("thesis.npz")
-    other.write_bytes(b"precious")
-    _point_to(saved, other.name)
+    neighbour = saved.with_name("thesis.npz")
+    neighbour.write_bytes(b"precious")
+    _point_to(saved, neighbour.name)
     model = dd.Model("new")
     dd.save(model, saved, force=True)
-    assert other.read_bytes() == b"precious"
+    assert neighbour.read_bytes() == b"precious"

@@ -67,22 +67,22 @@ def test_the_unchanged_document_is_valid() -> None:
     assert set(document_files.KEYS) - set(DATA) == {"arrays"}
 
 
-def _places(data: Any, at: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+def _places(document: Any, at: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
     """Yield every place of a value in a document."""
     yield at
-    if isinstance(data, dict):
-        for key, value in data.items():
-            yield from _places(value, (*at, key))
-    elif isinstance(data, list):
-        for k, value in enumerate(data):
-            yield from _places(value, (*at, k))
+    if isinstance(document, dict):
+        for key, part in document.items():
+            yield from _places(part, (*at, key))
+    elif isinstance(document, list):
+        for k, part in enumerate(document):
+            yield from _places(part, (*at, k))
 
 
-def _with(data: Any, at: tuple[Any, ...], value: Any) -> Any:
+def _with(document: Any, at: tuple[Any, ...], replacement: Any) -> Any:
     if not at:
-        return value
-    out = copy.copy(data)
-    out[at[0]] = _with(data[at[0]], at[1:], value)
+        return replacement
+    out = copy.copy(document)
+    out[at[0]] = _with(document[at[0]], at[1:], replacement)
     return out
 
 
@@ -105,12 +105,12 @@ VALUES: dict[str, Any] = {
 }
 
 
-def _read(data: Any) -> Document | None:
+def _read(content: Any) -> Document | None:
     """Return the document, or None after an error that states the problem; any other outcome fails the
     test.
     """
     try:
-        doc = document_files.from_data(data, ARRAYS)
+        doc = document_files.from_data(content, ARRAYS)
     except DeodarError as error:
         assert str(error).strip()
         assert "Traceback" not in str(error) and " at 0x" not in str(error)
@@ -120,19 +120,19 @@ def _read(data: Any) -> Document | None:
     return doc
 
 
-@pytest.mark.parametrize("what", VALUES)
-def test_a_wrong_value_at_any_place_is_refused_or_read(what: str) -> None:
+@pytest.mark.parametrize("kind", VALUES)
+def test_a_wrong_value_at_any_place_is_refused_or_read(kind: str) -> None:
     """Each value of a valid document is replaced by each wrong value."""
     taken = refusals = 0
     for at in _places(DATA):
-        doc = _read(_with(DATA, at, VALUES[what]))
+        doc = _read(_with(DATA, at, VALUES[kind]))
         if doc is None:
             refusals += 1
         else:
             taken += 1
-            if what not in ("infinite", "half a character"):
-                again = document_files.to_data(doc)
-                assert document_files.from_data(*again) == doc, (
+            if kind not in ("infinite", "half a character"):
+                written = document_files.to_data(doc)
+                assert document_files.from_data(*written) == doc, (
                     f"{at}: what loads is written and read again as the same"
                 )
     assert refusals > 100
@@ -376,9 +376,9 @@ CHANGES: dict[str, Callable[[dict[str, Any]], object]] = {
 
 @pytest.mark.parametrize("name", CHANGES)
 def test_a_document_that_loads_and_cannot_run_fails_check(name: str) -> None:
-    data = json.loads(TEXT)
-    CHANGES[name](data)
-    model = dd.Model(document=document_files.from_data(data, ARRAYS))
+    document = json.loads(TEXT)
+    CHANGES[name](document)
+    model = dd.Model(document=document_files.from_data(document, ARRAYS))
     assert model.check()
     for problem in model.check():
         paragraph(str(problem))

@@ -74,9 +74,9 @@ def test_running_a_function_requires_trust(stranger: Path, run: Callable[[dd.Mod
 
 def test_a_trusted_function_runs(stranger: Path) -> None:
     model = dd.load(stranger.with_name("strange.json"), trust=True)
-    data = dd.simulate(model, 5, record="f.output")
+    record = dd.simulate(model, 5, record="f.output")
     assert stranger.exists()
-    assert float(data["f.output"].isel(time=-1).max()) > 4
+    assert float(record["f.output"].isel(time=-1).max()) > 4
 
 
 def test_trust_of_a_model_does_not_extend_to_inserted_models(stranger: Path) -> None:
@@ -87,22 +87,22 @@ def test_trust_of_a_model_does_not_extend_to_inserted_models(stranger: Path) -> 
     loaded = dd.load(path)
     loaded.insert(dd.load(path), "twin")
     refused(lambda: dd.simulate(loaded, 5, record="f.output"), Untrusted)
-    own = dd.Model("own")
-    own.insert(loaded, "theirs")
-    refused(lambda: dd.simulate(own, 5, record="theirs.f.output"), Untrusted)
+    custom = dd.Model("own")
+    custom.insert(loaded, "theirs")
+    refused(lambda: dd.simulate(custom, 5, record="theirs.f.output"), Untrusted)
     assert not stranger.exists()
 
 
 def test_a_model_is_trusted_again_after_an_insert_is_undone(stranger: Path) -> None:
-    own = dd.Model("own")
-    own.insert(dd.load(stranger.with_name("strange.json")), "theirs")
-    assert not own.trusted
-    own.undo()
-    assert own.trusted
+    custom = dd.Model("own")
+    custom.insert(dd.load(stranger.with_name("strange.json")), "theirs")
+    assert not custom.trusted
+    custom.undo()
+    assert custom.trusted
     for name in ("u", "v"):
-        own.add(dd.Field(name, []))
-        assert own.trusted
-    dd.simulate(own, 5, record="u")
+        custom.add(dd.Field(name, []))
+        assert custom.trusted
+    dd.simulate(custom, 5, record="u")
 
 
 def raises(state: Any, inputs: Any, time: Any) -> Any:
@@ -240,10 +240,10 @@ def test_functions_of_an_untrusted_document_do_not_run(stranger: Path) -> None:
     assert not model.trusted
     refused(lambda: dd.simulate(model, 5, record="f.output"), Untrusted, "trusted=True")
     model.set("f.initial", 0.5)
-    own = dd.Model("own")
-    own.insert(model, "theirs")
+    custom = dd.Model("own")
+    custom.insert(model, "theirs")
     packed = pickle.loads(pickle.dumps(dd.Model(document=document, trusted=True).document))
-    for one in (model.document, own.document, packed, edit.remove(own.document, [])):
+    for one in (model.document, custom.document, packed, edit.remove(custom.document, [])):
         assert not dd.Model(document=one).trusted
     assert not stranger.exists()
 
@@ -251,13 +251,13 @@ def test_functions_of_an_untrusted_document_do_not_run(stranger: Path) -> None:
 def test_a_loaded_model_keeps_the_trust_stated_by_the_script(stranger: Path) -> None:
     loaded = dd.load(stranger.with_name("strange.json"), trust=True)
     loaded.set("f.initial", 0.5)
-    own = dd.Model("own")
-    own.add(Function("f", function="math:sqrt"))
-    said = dd.Model(document=document_files.load(stranger.with_name("strange.json")), trusted=True)
-    for model in (loaded, own, said):
+    custom = dd.Model("own")
+    custom.add(Function("f", function="math:sqrt"))
+    problem = dd.Model(document=document_files.load(stranger.with_name("strange.json")), trusted=True)
+    for model in (loaded, custom, problem):
         assert dd.Model(document=model.document).trusted
     assert not dd.Model(document=loaded.document, trusted=False).trusted
-    own.insert(dd.load(stranger.with_name("strange.json")), "theirs")
-    assert not dd.Model(document=own.document).trusted
-    own.undo()
-    assert dd.Model(document=own.document).trusted
+    custom.insert(dd.load(stranger.with_name("strange.json")), "theirs")
+    assert not dd.Model(document=custom.document).trusted
+    custom.undo()
+    assert dd.Model(document=custom.document).trusted

@@ -47,9 +47,9 @@ def _pipe(path: Path) -> None:
 
 
 def _link(path: Path) -> None:
-    other = path.with_name("other.txt")
-    other.write_text("precious")
-    path.symlink_to(other)
+    neighbour = path.with_name("other.txt")
+    neighbour.write_text("precious")
+    path.symlink_to(neighbour)
 
 
 def _broken_link(path: Path) -> None:
@@ -74,7 +74,7 @@ def test_a_path_that_is_not_a_regular_file_is_never_replaced(
     assert not (tmp_path / "other.txt").exists() or (tmp_path / "other.txt").read_text() == "precious"
 
 
-def _bad(tmp_path: Path, what: str) -> Any:
+def _bad(tmp_path: Path, kind: str) -> Any:
     (tmp_path / "file.txt").write_text("x")
     return {
         "no folder": tmp_path / "no" / "m.json",
@@ -84,15 +84,15 @@ def _bad(tmp_path: Path, what: str) -> Any:
         "half a character": f"{tmp_path}/m\ud800.json",
         "a number": 5,
         "nothing": None,
-    }[what]
+    }[kind]
 
 
 @pytest.mark.parametrize(
-    "what",
+    "kind",
     ["no folder", "a file as a folder", "too long", "a nul", "half a character", "a number", "nothing"],
 )
-def test_a_path_that_cannot_be_written_is_an_error(tmp_path: Path, model: dd.Model, what: str) -> None:
-    path = _bad(tmp_path, what)
+def test_a_path_that_cannot_be_written_is_an_error(tmp_path: Path, model: dd.Model, kind: str) -> None:
+    path = _bad(tmp_path, kind)
     before = _listing(tmp_path)
     refused(lambda: dd.save(model, path), OutputError)
     assert _listing(tmp_path) == before

@@ -371,12 +371,12 @@ def test_any_value_of_a_parameter_is_accepted_or_refused_by_an_error_of_deodar(k
     """
     cls = registry.kind(kind)
     good = cls.example()
-    given = {p.name: getattr(good, p.name) for p in parameters(cls)}
+    arguments = {p.name: getattr(good, p.name) for p in parameters(cls)}
     refused = 0
     for p in parameters(cls):
-        for value in WRONG:
+        for wrong in WRONG:
             try:
-                cls(**(given | {p.name: value}))
+                cls(**(arguments | {p.name: wrong}))
             except DeodarError as error:
                 refused += 1
                 paragraph(str(error))

@@ -310,7 +310,7 @@ def test_a_refused_set_does_not_change_the_session(model: dd.Model) -> None:
     s = dd.Session(model)
     s.step(3)
     before, journal = s.read("u.activation"), list(s.journal)
-    for path, value in (
+    for path, number in (
         ("u.tau", 0.5),
         ("u.tau", NAN),
         ("u.tua", 1),
@@ -318,16 +318,18 @@ def test_a_refused_set_does_not_change_the_session(model: dd.Model) -> None:
         ("u.kernel.7.sigma", 1),
     ):
         with pytest.raises(DeodarError):
-            s.set(path, value)
+            s.set(path, number)
     assert s.get("u.tau") == 20 and s.journal == journal and s.tick == 3
     assert np.array_equal(s.read("u.activation"), before)
 
 
-def _fields(*samples: int, **more: Any) -> dd.Model:
+def _fields(*samples: int, **options: Any) -> dd.Model:
     model = dd.Model("large")
     model.add(
         Field(
-            "u", [dd.Axis(name, 0, 10, samples=n) for name, n in zip("abcd", samples, strict=False)], **more
+            "u",
+            [dd.Axis(name, 0, 10, samples=n) for name, n in zip("abcd", samples, strict=False)],
+            **options,
         )
     )
     return model
@@ -393,12 +395,12 @@ def test_a_record_that_exceeds_memory_is_refused_before_allocation(name: str) ->
     )
 
 
-def _finite(model: dd.Model, **more: Any) -> None:
-    data = dd.simulate(
-        model, duration=20, record=["u.activation", "u.output", "u.interaction"], every=5, **more
+def _finite(model: dd.Model, **options: Any) -> None:
+    record = dd.simulate(
+        model, duration=20, record=["u.activation", "u.output", "u.interaction"], every=5, **options
     )
-    for name in data:
-        assert np.isfinite(data[name].values).all(), name
+    for name in record:
+        assert np.isfinite(record[name].values).all(), name
 
 
 NARROW = [1e-6, 1e-4, 1e-2]
@@ -461,9 +463,9 @@ def test_the_step_of_a_slow_part_is_compared_with_its_time_constant() -> None:
 def test_a_run_of_no_steps_records_the_initial_state() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X], resting_level=-3))
-    data = dd.simulate(model, 0, record="u.activation")
-    assert data["time"].values.tolist() == [0.0]
-    assert (data["u.activation"].values == -3).all()
+    record = dd.simulate(model, 0, record="u.activation")
+    assert record["time"].values.tolist() == [0.0]
+    assert (record["u.activation"].values == -3).all()
 
 
 def test_a_diverging_run_names_the_element_and_the_step() -> None:

@@ -30,7 +30,7 @@ def test_a_single_problem_is_not_numbered() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "known", "hint"),
+    ("name", "names", "hint"),
     [
         ("restng_level", ["tau", "resting_level"], "Did you mean 'resting_level'?"),
         ("zzz", ["tau", "noise"], "Valid names: noise, tau"),
@@ -42,8 +42,8 @@ def test_a_single_problem_is_not_numbered() -> None:
         ),
     ],
 )
-def test_the_nearest_name_is_suggested(name: str, known: list[str], hint: str) -> None:
-    assert did_you_mean(name, known) == hint
+def test_the_nearest_name_is_suggested(name: str, names: list[str], hint: str) -> None:
+    assert did_you_mean(name, names) == hint
 
 
 def test_a_missing_extra_names_the_package_to_install() -> None:
@@ -55,8 +55,8 @@ def test_a_missing_extra_names_the_package_to_install() -> None:
 
 
 def test_an_interrupted_run_has_its_data() -> None:
-    data = object()
-    assert Interrupted("stopped at 5 of 10 ms", data).data is data
+    stranger = object()
+    assert Interrupted("stopped at 5 of 10 ms", stranger).data is stranger
 
 
 def test_every_error_documents_when_it_is_raised() -> None:
@@ -67,5 +67,5 @@ def test_every_error_documents_when_it_is_raised() -> None:
 def test_errors_are_passed_between_processes() -> None:
     for kind in {*KINDS} - {MissingExtra, Interrupted}:
         error = kind([Problem("u", "one"), Problem("v", "two")])
-        again = pickle.loads(pickle.dumps(error))
-        assert type(again) is kind and str(again) == str(error)
+        copied = pickle.loads(pickle.dumps(error))
+        assert type(copied) is kind and str(copied) == str(error)

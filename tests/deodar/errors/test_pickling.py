@@ -19,10 +19,10 @@ MADE = [
 
 @pytest.mark.parametrize("error", MADE, ids=lambda e: type(e).__name__)
 def test_a_pickled_error_keeps_its_type_text_and_problems(error: errors.DeodarError) -> None:
-    there = pickle.loads(pickle.dumps(error))
+    copied = pickle.loads(pickle.dumps(error))
     assert (
-        type(there) is type(error)
-        and str(there) == str(error)
-        and there.problems == error.problems
-        and vars(there) == vars(error)
+        type(copied) is type(error)
+        and str(copied) == str(error)
+        and copied.problems == error.problems
+        and vars(copied) == vars(error)
     )

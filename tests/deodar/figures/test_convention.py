@@ -25,11 +25,11 @@ def theme(scheme: str) -> dict[str, str]:
 
 def plots(scheme: str) -> dict[str, str]:
     """Return the colours of the studio's boxes and plots by name."""
-    found = re.search(
+    colors = re.search(
         r"FIELD_COLORS = \{(.*?)\n\}", (PAGE / "plots" / "colors" / "colors.ts").read_text(), re.S
     )
-    assert found is not None
-    part = re.search(rf"{scheme}: \{{(.*?)\}}", found[1], re.S)
+    assert colors is not None
+    part = re.search(rf"{scheme}: \{{(.*?)\}}", colors[1], re.S)
     assert part is not None
     return dict(re.findall(r'([a-z]+)\W+(#[0-9a-f]{6})"', part[1]))
 
@@ -65,12 +65,12 @@ def luminance(color: str) -> float:
 def test_maps_of_the_studio_and_of_figures_have_the_same_scales() -> None:
     text = (PAGE / "plots" / "colors" / "colors.ts").read_text()
     for name, colormap in (("viridis", dd.figures.SEQUENTIAL), ("diverging", dd.figures.DIVERGING)):
-        found = re.search(rf"\n  {name}: \[(.*?)\]", text, re.S)
-        assert found is not None
-        anchors = re.findall(r"#[0-9a-f]{6}", found[1])
+        entries = re.search(rf"\n  {name}: \[(.*?)\]", text, re.S)
+        assert entries is not None
+        anchors = re.findall(r"#[0-9a-f]{6}", entries[1])
         for color, place in zip(anchors, np.linspace(0, 1, len(anchors)), strict=True):
-            there = np.array([int(color[k : k + 2], 16) for k in (1, 3, 5)])
-            assert np.abs(there - 255 * np.array(matplotlib.colormaps[colormap](place)[:3])).max() < 4
+            rgb = np.array([int(color[k : k + 2], 16) for k in (1, 3, 5)])
+            assert np.abs(rgb - 255 * np.array(matplotlib.colormaps[colormap](place)[:3])).max() < 4
     assert 'sequential = scale("viridis")' in text
 
 
@@ -78,9 +78,9 @@ def test_a_line_has_the_colour_of_its_port() -> None:
     model = dd.Model("one field")
     model.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=11)]))
     paths = [f"u.{port}" for port in _style.PORTS]
-    data = dd.simulate(model, 2, record=paths)
+    record = dd.simulate(model, 2, record=paths)
     for port, path in zip(_style.PORTS, paths, strict=True):
         for draw in (dd.time_course, dd.snapshot):
-            [axes] = draw(data[path]).axes
+            [axes] = draw(record[path]).axes
             assert axes.get_lines()[0].get_color() == getattr(dd.figures.COLOR, port)
     assert _style.port_color("u.rate") == dd.figures.COLORS[0]

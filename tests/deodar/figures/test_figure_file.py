@@ -17,7 +17,7 @@ from tests.deodar.recording.models import record
 
 
 @pytest.fixture(scope="module")
-def data() -> xarray.Dataset:
+def recorded() -> xarray.Dataset:
     return record(trials=2)
 
 
@@ -155,17 +155,17 @@ def test_all_problems_of_a_file_are_listed_with_its_path(tmp_path: Path) -> None
     ],
 )
 def test_an_error_of_a_panel_states_its_number(
-    data: xarray.Dataset, panel: FigurePanel, error: type[Exception], says: str
+    recorded: xarray.Dataset, panel: FigurePanel, error: type[Exception], says: str
 ) -> None:
     with pytest.raises(error, match=re.escape(says)) as caught:
-        FigureFile([FigurePanel("n.activation"), panel]).draw(data)
+        FigureFile([FigurePanel("n.activation"), panel]).draw(recorded)
     if panel.colors is None:
         assert "panel 2" in str(caught.value)
 
 
-def test_a_figure_without_panel_or_record_is_an_error(data: xarray.Dataset) -> None:
+def test_a_figure_without_panel_or_record_is_an_error(recorded: xarray.Dataset) -> None:
     with pytest.raises(FigureError, match="no variable to draw"):
-        FigureFile([]).draw(data)
+        FigureFile([]).draw(recorded)
     with pytest.raises(FigureError, match=r'record = "run\.zarr"'):
         FigureFile([FigurePanel("n.activation")]).draw()
     with pytest.raises(FigureError, match="27 panels are too many"):
@@ -176,11 +176,11 @@ def points(path: Path) -> tuple[float, float]:
     """Return width and height of the page of a file, in points of 1/72 inch."""
     text = path.read_bytes().decode("latin-1")
     if path.suffix == ".svg":
-        found = re.search(r'<svg [^>]*width="([\d.]+)pt" height="([\d.]+)pt"', text)
+        size = re.search(r'<svg [^>]*width="([\d.]+)pt" height="([\d.]+)pt"', text)
     else:
-        found = re.search(r"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", text)
-    assert found is not None
-    return float(found.group(1)), float(found.group(2))
+        size = re.search(r"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", text)
+    assert size is not None
+    return float(size.group(1)), float(size.group(2))
 
 
 @pytest.mark.parametrize("ending", ["svg", "pdf"])
@@ -193,23 +193,29 @@ def points(path: Path) -> tuple[float, float]:
     ],
 )
 def test_the_page_has_the_size_of_the_file(
-    data: xarray.Dataset, tmp_path: Path, ending: str, settings: dict[str, Any], millimetres: tuple[int, int]
+    recorded: xarray.Dataset,
+    tmp_path: Path,
+    ending: str,
+    settings: dict[str, Any],
+    millimetres: tuple[int, int],
 ) -> None:
     path = tmp_path / f"figure.{ending}"
-    dd.save_figure(FigureFile([FigurePanel("n.activation")], **settings).draw(data), path)
+    dd.save_figure(FigureFile([FigurePanel("n.activation")], **settings).draw(recorded), path)
     assert points(path) == pytest.approx([mm / 25.4 * 72 for mm in millimetres], abs=1e-5)
 
 
-def test_panels_that_do_not_fit_are_an_error_and_write_nothing(data: xarray.Dataset, tmp_path: Path) -> None:
+def test_panels_that_do_not_fit_are_an_error_and_write_nothing(
+    recorded: xarray.Dataset, tmp_path: Path
+) -> None:
     small = FigureFile([FigurePanel("n.activation")] * 4, width=20, height=12, font_size=20)
     with pytest.raises(FigureError, match="do not fit into 20 x 12 mm"):
-        dd.save_figure(small.draw(data), tmp_path / "small.pdf")
+        dd.save_figure(small.draw(recorded), tmp_path / "small.pdf")
     assert not list(tmp_path.iterdir())
 
 
-def test_type_has_the_size_and_the_font_of_the_file(data: xarray.Dataset) -> None:
+def test_type_has_the_size_and_the_font_of_the_file(recorded: xarray.Dataset) -> None:
     panels = [FigurePanel("u.activation", trial=0), FigurePanel("n.activation")]
-    figure = FigureFile(panels, font_size=12, font="DejaVu Serif").draw(data)
+    figure = FigureFile(panels, font_size=12, font="DejaVu Serif").draw(recorded)
     figure.draw_without_rendering()
     assert figure.axes[0].child_axes
     for ax in [*figure.axes, *figure.axes[0].child_axes]:
@@ -224,7 +230,7 @@ def written(ax: Any) -> set[str]:
     return {text.get_text() for text in ax.texts} | {ax.get_title()}
 
 
-def test_panels_have_letters_titles_labels_and_ranges(data: xarray.Dataset) -> None:
+def test_panels_have_letters_titles_labels_and_ranges(recorded: xarray.Dataset) -> None:
     figure = FigureFile(
         [
             FigurePanel(
@@ -236,23 +242,25 @@ def test_panels_have_letters_titles_labels_and_ranges(data: xarray.Dataset) -> N
         ],
         letters="(A)",
         columns=2,
-    ).draw(data)
+    ).draw(recorded)
     one, two = figure.axes
     (bar,) = two.child_axes
     assert written(one) == {"(A)", "a node"} and written(two) == {"(B)", "trial 0"}
-    assert one.get_legend() is None and dd.time_course(data["n.activation"]).axes[0].get_legend() is not None
+    assert (
+        one.get_legend() is None and dd.time_course(recorded["n.activation"]).axes[0].get_legend() is not None
+    )
     assert one.get_xlim() == (0, 15) and one.get_ylim() == (-7, 1)
     assert two.get_ylabel() == "position" and bar.get_ylabel() == "level" and bar.get_ylim() == (-8, 4)
-    assert [ax for ax in FigureFile([FigurePanel("n.activation")]).draw(data).axes if ax.texts] == []
+    assert [ax for ax in FigureFile([FigurePanel("n.activation")]).draw(recorded).axes if ax.texts] == []
 
 
-def test_panels_with_one_time_share_its_axis(data: xarray.Dataset) -> None:
+def test_panels_with_one_time_share_its_axis(recorded: xarray.Dataset) -> None:
     panels = [
         FigurePanel("u.activation", trial=0),
         FigurePanel("n.activation"),
         FigurePanel("n.activation", at=[5]),
     ]
-    figure = FigureFile(panels).draw(data)
+    figure = FigureFile(panels).draw(recorded)
     above, below, last = figure.axes
     assert above.get_shared_x_axes().joined(above, below) and not above.get_xlabel()
     assert below.get_xlabel() == "time (ms)" and not below.get_shared_x_axes().joined(below, last)
@@ -261,14 +269,14 @@ def test_panels_with_one_time_share_its_axis(data: xarray.Dataset) -> None:
     assert above.get_position().x1 == pytest.approx(below.get_position().x1)
 
 
-def test_a_grid_gives_positions_and_relative_sizes(data: xarray.Dataset) -> None:
+def test_a_grid_gives_positions_and_relative_sizes(recorded: xarray.Dataset) -> None:
     panels = [
         FigurePanel("n.activation"),
         FigurePanel("n.activation", at=[5]),
         FigurePanel("n.activation", at=[5]),
     ]
     settings: dict[str, Any] = {"width": 180, "height": 100, "grid": ["aab", "c.b"], "row_heights": [2, 1]}
-    figure = FigureFile(panels, **settings).draw(data)
+    figure = FigureFile(panels, **settings).draw(recorded)
     figure.draw_without_rendering()
     a, b, c = (ax.get_position() for ax in figure.axes)
     assert a.y0 > c.y1 and b.x0 > a.x1 > c.x1 and b.height > a.height
@@ -277,36 +285,39 @@ def test_a_grid_gives_positions_and_relative_sizes(data: xarray.Dataset) -> None
 
 @pytest.mark.parametrize("ending", ["svg", "pdf"])
 def test_the_command_and_python_write_the_same_bytes(
-    data: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str
+    recorded: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str
 ) -> None:
     from deodar.cli import main
 
     monkeypatch.chdir(tmp_path)
-    dd.save_record(data, "run.zarr")
+    dd.save_record(recorded, "run.zarr")
     select = ["u.activation", "n.activation", "--trial", "1", "--time-range", "0", "15"]
     plot = ["plot", "run.zarr", *select, "--save-as", "figure.toml", "-o"]
     assert main([*plot, f"plotted.{ending}"]) == 0
     assert main(["plot", "figure.toml", "-o", f"command.{ending}"]) == 0
     dd.save_figure(FigureFile.read("figure.toml").draw(), f"python.{ending}")
-    dd.save_figure(FigureFile.read("figure.toml").draw(data), f"memory.{ending}")
+    dd.save_figure(FigureFile.read("figure.toml").draw(recorded), f"memory.{ending}")
     first = (tmp_path / f"plotted.{ending}").read_bytes()
     for name in ("command", "python", "memory"):
         assert (tmp_path / f"{name}.{ending}").read_bytes() == first, name
 
 
 def test_a_file_on_the_command_line_replaces_the_options(
-    data: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    recorded: xarray.Dataset,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     from deodar.cli import main
 
     monkeypatch.chdir(tmp_path)
-    dd.save_record(data, "run.zarr")
+    dd.save_record(recorded, "run.zarr")
     (tmp_path / "figure.toml").write_text('[[panel]]\nvariable = "n.activation"\n')
     assert main(["plot", "figure.toml", "run.zarr"]) == 0
     assert "into figure-001.pdf" in capsys.readouterr().out
-    for more in (["--kind", "snapshot"], ["run.zarr", "n.activation"]):
+    for options in (["--kind", "snapshot"], ["run.zarr", "n.activation"]):
         with pytest.raises(SystemExit):
-            main(["plot", "figure.toml", *more])
+            main(["plot", "figure.toml", *options])
         assert "figure.toml" in capsys.readouterr().err
     assert main(["plot", "run.zarr", "n.activation", "--save-as", "a.txt"]) == 1
     assert "End it in .toml" in capsys.readouterr().err
@@ -369,23 +380,23 @@ def test_a_figure_reads_only_what_it_shows(tmp_path: Path, monkeypatch: pytest.M
     )
     for chunk in (0, 2, 3):
         (tmp_path / "run.zarr" / "u.activation" / "c" / str(chunk) / "0").write_bytes(b"damaged")
-    data = dd.open_record(tmp_path / "run.zarr")
+    record = dd.open_record(tmp_path / "run.zarr")
     node = FigurePanel("n.activation")
-    FigureFile([node]).draw(data)
+    FigureFile([node]).draw(record)
     panels = [
         FigurePanel("u.activation", time_range=[10, 19]),
         FigurePanel("u.activation", places=[1, 3], time_range=[12, 18]),
         FigurePanel("u.activation", at=[11, 19]),
         FigurePanel("u.activation", at=[15], kind="snapshot"),
     ]
-    map_ = FigureFile([*panels, node]).draw(data).axes[0]
+    map_ = FigureFile([*panels, node]).draw(record).axes[0]
     assert np.array_equal(np.asarray(map_.get_images()[0].get_array()), values[10:20].T)
     lines = [
-        np.asarray(line.get_ydata()) for ax in FigureFile(panels[1:2]).draw(data).axes for line in ax.lines
+        np.asarray(line.get_ydata()) for ax in FigureFile(panels[1:2]).draw(record).axes for line in ax.lines
     ]
     assert np.array_equal(lines[0], values[12:19, 1]) and np.array_equal(lines[1], values[12:19, 3])
     with pytest.raises(RecordError, match=r"u\.activation: cannot be read, its file may be damaged"):
-        FigureFile([FigurePanel("u.activation")]).draw(data)
+        FigureFile([FigurePanel("u.activation")]).draw(record)
 
 
 def test_every_selects_evenly_spaced_samples_and_reads_no_others(tmp_path: Path) -> None:

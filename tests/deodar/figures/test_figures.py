@@ -18,7 +18,7 @@ from tests.deodar.recording.models import record, x
 
 
 @pytest.fixture(scope="module")
-def data() -> xarray.Dataset:
+def recorded() -> xarray.Dataset:
     return record(trials=3, sweep={"s.amplitude": [4.0, 8.0]})
 
 
@@ -31,45 +31,45 @@ def images(figure: Any) -> list[np.ndarray]:
     return [np.asarray(image.get_array()) for axes in figure.axes for image in axes.get_images()]
 
 
-def test_a_space_time_plot_shows_the_values_with_units(data: xarray.Dataset) -> None:
-    one = data["u.activation"].sel({"s.amplitude": 8.0, "trial": 1})
-    figure = space_time(one)
-    (shown,) = images(figure)
-    assert np.allclose(shown, one.values.T)
+def test_a_space_time_plot_shows_the_values_with_units(recorded: xarray.Dataset) -> None:
+    trial = recorded["u.activation"].sel({"s.amplitude": 8.0, "trial": 1})
+    figure = space_time(trial)
+    (image,) = images(figure)
+    assert np.allclose(image, trial.values.T)
     assert {"time (ms)", "x (deg)"} <= labels(figure) and any(
         "activation of u" in text for text in labels(figure)
     )
 
 
-def test_a_time_course_draws_each_trial_and_their_mean(data: xarray.Dataset) -> None:
-    one = data["n.activation"].sel({"s.amplitude": 4.0})
-    (axes,) = time_course(one).axes
+def test_a_time_course_draws_each_trial_and_their_mean(recorded: xarray.Dataset) -> None:
+    trials = recorded["n.activation"].sel({"s.amplitude": 4.0})
+    (axes,) = time_course(trials).axes
     curves = [
         np.asarray(line.get_ydata())
         for line in axes.get_lines()
-        if len(np.asarray(line.get_xdata())) == one.sizes["time"]
+        if len(np.asarray(line.get_xdata())) == trials.sizes["time"]
     ]
     for trial in range(3):
-        assert any(np.allclose(c, one.isel(trial=trial).values) for c in curves)
-    assert any(np.allclose(c, one.mean("trial").values, atol=1e-6) for c in curves)
+        assert any(np.allclose(c, trials.isel(trial=trial).values) for c in curves)
+    assert any(np.allclose(c, trials.mean("trial").values, atol=1e-6) for c in curves)
 
 
-def test_snapshots_share_their_scale(data: xarray.Dataset) -> None:
-    one = data["u.activation"].isel({"s.amplitude": 1, "trial": 0})
-    figure = snapshots(one, at=[0, 10, 20])
+def test_snapshots_share_their_scale(recorded: xarray.Dataset) -> None:
+    trial = recorded["u.activation"].isel({"s.amplitude": 1, "trial": 0})
+    figure = snapshots(trial, at=[0, 10, 20])
     limits = {tuple(axes.get_ylim()) for axes in figure.axes if axes.get_lines()}
     assert len(limits) == 1 and len(figure.axes) >= 3
-    single = snapshot(one, at=[20])
+    single = snapshot(trial, at=[20])
     drawn = [np.asarray(line.get_ydata()) for axes in single.axes for line in axes.get_lines()]
-    assert any(len(c) == 11 and np.allclose(c, one.values[-1]) for c in drawn)
+    assert any(len(c) == 11 and np.allclose(c, trial.values[-1]) for c in drawn)
 
 
 def test_a_projection_takes_the_largest_value_along_the_other_axes() -> None:
     model = dd.Model("deep")
     model.add(dd.Field("w", [x, dd.Axis("y", 0, 10, samples=6), dd.Axis("z", 0, 4, samples=5)], noise=0.5))
     u = dd.simulate(model, 10)["w.activation"]
-    (shown,) = images(projection(u, axes=["x", "y"]))
-    assert np.allclose(shown, u.values[0].max(axis=2).T)
+    (image,) = images(projection(u, axes=["x", "y"]))
+    assert np.allclose(image, u.values[0].max(axis=2).T)
     (total,) = images(projection(u, axes=["x", "z"], reduce="integral"))
     assert np.allclose(total, u.values[0].sum(axis=1).T * 2.0, rtol=1e-5)
 
@@ -78,8 +78,8 @@ def test_the_title_of_a_projection_states_its_time() -> None:
     model = dd.Model("deep")
     model.add(dd.Field("w", [x, dd.Axis("y", 0, 10, samples=6), dd.Axis("z", 0, 4, samples=5)], noise=0.5))
     u = dd.simulate(model, 10, record="w.activation", every=5)["w.activation"]
-    one = projection(u, axes=["x", "y"], at=[5])
-    assert one.axes[0].get_title() == "5 ms" and not one.get_suptitle()
+    projected = projection(u, axes=["x", "y"], at=[5])
+    assert projected.axes[0].get_title() == "5 ms" and not projected.get_suptitle()
     every_pair = projection(u, at=[10])
     assert every_pair.get_suptitle() == "10 ms" and not any(axes.get_title() for axes in every_pair.axes)
     for axes in ([], ["x", "x"], ["x", "y", "z"]):
@@ -112,8 +112,8 @@ def test_the_default_kind_suits_the_dimensions_and_the_request(
 
 
 @pytest.mark.parametrize("kind", [space_time, time_course])
-def test_a_panel_fills_one_column_and_is_wider_than_high(data: xarray.Dataset, kind: Any) -> None:
-    width, height = kind(data["u.activation"].isel({"s.amplitude": 1, "trial": 0})).get_size_inches()
+def test_a_panel_fills_one_column_and_is_wider_than_high(recorded: xarray.Dataset, kind: Any) -> None:
+    width, height = kind(recorded["u.activation"].isel({"s.amplitude": 1, "trial": 0})).get_size_inches()
     assert width == SINGLE and height == pytest.approx(PANEL, abs=0.25)
 
 
@@ -136,7 +136,7 @@ def test_the_range_of_colours_contains_the_threshold() -> None:
     ],
 )
 def test_a_time_or_trial_that_was_not_recorded_is_refused(
-    data: xarray.Dataset, kind: Any, options: dict[str, Any], says: str
+    recorded: xarray.Dataset, kind: Any, options: dict[str, Any], says: str
 ) -> None:
     with pytest.raises(dd.errors.RecordError, match=says):
-        kind(data["u.activation"], **options)
+        kind(recorded["u.activation"], **options)

@@ -19,8 +19,8 @@ from deodar.worlds.picture import Picture
 def walked() -> xarray.DataArray:
     """Return two trials, straight lines of half a metre."""
     times = np.arange(26) * 64.0
-    way = np.stack([0.2 + 0.02 * np.arange(26), np.full(26, 0.3), np.zeros(26)], -1)
-    values = np.stack([way, way + np.array([0, 0.05, 0.1])])
+    driven = np.stack([0.2 + 0.02 * np.arange(26), np.full(26, 0.3), np.zeros(26)], -1)
+    values = np.stack([driven, driven + np.array([0, 0.05, 0.1])])
     of = ("of", [0, 1, 2], {"lower": 0.0})
     return xarray.DataArray(
         values,

@@ -14,10 +14,10 @@ from tests.deodar.gradients.models import field, mixed
 
 def test_the_bounds_are_declared_or_those_of_the_step() -> None:
     d = dd.dynamics(mixed(), ["u.tau", "trace.tau_build", "u.kernel.0.amplitude", "u.noise", "sum.weights"])
-    found = bounds(d)
-    assert found["u.tau"].lower == 1.0 and found["trace.tau_build"].lower == 3.0
-    assert found["u.kernel.0.amplitude"] == found["sum.weights"] == (None, None)
-    assert found["u.noise"] == (0.0, None)
+    limits = bounds(d)
+    assert limits["u.tau"].lower == 1.0 and limits["trace.tau_build"].lower == 3.0
+    assert limits["u.kernel.0.amplitude"] == limits["sum.weights"] == (None, None)
+    assert limits["u.noise"] == (0.0, None)
 
 
 def test_both_ways_are_inverse_and_any_number_is_inside() -> None:
@@ -26,8 +26,8 @@ def test_both_ways_are_inverse_and_any_number_is_inside() -> None:
         z = dd.unbounded(d, d.parameters)
         back = dd.bounded(d, z)
         far = dd.bounded(d, jax.tree.map(lambda a: a - 30.0, z))
-    for path, value in d.parameters.items():
-        assert back[path] == pytest.approx(value, rel=1e-12)
+    for path, parameter in d.parameters.items():
+        assert back[path] == pytest.approx(parameter, rel=1e-12)
         lower = bounds(d)[path].lower
         assert lower is None or float(far[path]) >= lower
     assert far["u.resting_level"] == pytest.approx(-32.0)

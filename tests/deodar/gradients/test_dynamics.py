@@ -30,14 +30,14 @@ def stepped(d: Dynamics, n: int, parameters: Any = None, inputs: Any = None, key
 def test_steps_are_those_of_simulate_with_noise_time_and_slow_parts(precision: str) -> None:
     model = mixed()
     d = dd.dynamics(model, precision=precision)
-    data = dd.simulate(model, 12, seed=3, trials=[5], record=RECORD, precision=precision)
+    record = dd.simulate(model, 12, seed=3, trials=[5], record=RECORD, precision=precision)
     with d.context():
         key = d.key(3, 5)
         state = stepped(d, 12, key=key)
         seen = d.observe(d.prepare(), state, {}, 12, key, RECORD)
     for path in RECORD:
         assert seen[path] == pytest.approx(
-            data[path].values[0, -1], abs=1e-12 if precision == "float64" else 1e-5
+            record[path].values[0, -1], abs=1e-12 if precision == "float64" else 1e-5
         )
         assert seen[path].dtype == precision
         assert np.array_equal(seen[path], d.named(state)[path])
@@ -48,7 +48,7 @@ def test_parameters_are_numbers_document_parameters_and_arrays() -> None:
     model.parameter("h", -2.5)
     model.link("u.resting_level", "h")
     d = dd.dynamics(model, ["u.tau", "u.kernel.0.sigma", "u.noise", "h", "sum.weights", "gain.factor"])
-    assert {name: value.shape for name, value in d.parameters.items()} == {
+    assert {name: array.shape for name, array in d.parameters.items()} == {
         **dict.fromkeys(["u.tau", "u.kernel.0.sigma", "u.noise", "h", "gain.factor"], ()),
         "sum.weights": (21,),
     }
@@ -59,13 +59,13 @@ def test_parameters_are_numbers_document_parameters_and_arrays() -> None:
         "sum.weights": np.linspace(0, 0.3, 21),
         "gain.factor": 0.0,
     }
-    for path, value in new.items():
-        model.set(path, value)
-    data = dd.simulate(model, 9, record=RECORD, precision="float64")
+    for path, number in new.items():
+        model.set(path, number)
+    record = dd.simulate(model, 9, record=RECORD, precision="float64")
     with d.context():
         state = d.named(jax.jit(lambda p: stepped(d, 9, p))(new))
     for path in RECORD:
-        assert state[path] == pytest.approx(data[path].values[-1], abs=1e-12)
+        assert state[path] == pytest.approx(record[path].values[-1], abs=1e-12)
 
 
 def test_a_number_at_its_neutral_value_is_a_parameter() -> None:
@@ -88,8 +88,8 @@ def test_transformations_of_jax_apply() -> None:
         many = jax.jit(jax.vmap(end))(jnp.array([10.0, 15.0]), jnp.array([0, 7]))
         assert many[1] == pytest.approx(np.asarray(end(15.0, 7)), abs=1e-12)
         slope = jax.grad(lambda tau: end(tau, 0).sum())(10.0)
-        near = [float(end(10.0 + e, 0).sum()) for e in (1e-5, -1e-5)]
-    assert slope == pytest.approx((near[0] - near[1]) / 2e-5, rel=1e-6)
+        ends = [float(end(10.0 + e, 0).sum()) for e in (1e-5, -1e-5)]
+    assert slope == pytest.approx((ends[0] - ends[1]) / 2e-5, rel=1e-6)
 
 
 def test_external_input_is_that_of_a_session() -> None:

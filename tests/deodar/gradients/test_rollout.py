@@ -17,11 +17,11 @@ RECORD = ["u.activation", "u.output", "node.activation"]
 def test_it_records_what_simulate_records(n: int, every: int) -> None:
     model = mixed()
     d = dd.dynamics(model)
-    data = dd.simulate(model, n, seed=3, trials=[5], record=RECORD, every=every, precision="float64")
+    record = dd.simulate(model, n, seed=3, trials=[5], record=RECORD, every=every, precision="float64")
     with d.context():
         out = jax.jit(lambda key: dd.rollout(d, n, key=key, record=RECORD, every=every))(d.key(3, 5))
     for path in RECORD:
-        assert out.records[path] == pytest.approx(data[path].values[0], abs=1e-12)
+        assert out.records[path] == pytest.approx(record[path].values[0], abs=1e-12)
 
 
 def test_it_continues_from_a_state() -> None:

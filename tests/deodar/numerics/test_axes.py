@@ -64,9 +64,9 @@ REFUSED = {
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_invalid_axes_are_refused(case):
-    given = dict(name="x", lower=0, upper=10, samples=11) | REFUSED[case]
+    arguments = dict(name="x", lower=0, upper=10, samples=11) | REFUSED[case]
     with pytest.raises(AxesError):
-        Axis(**given)
+        Axis(**arguments)
 
 
 def test_all_problems_of_an_axis_are_listed():

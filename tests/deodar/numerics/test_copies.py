@@ -19,10 +19,10 @@ def test_a_condition_of_any_copy_is_that_of_all_copies(given: list[list[int]], h
 
 
 def test_copies_without_the_condition_are_computed_beside_one_with_it() -> None:
-    def one(flag: jax.Array, x: jax.Array) -> jax.Array:
+    def of_copy(flag: jax.Array, x: jax.Array) -> jax.Array:
         return computed_once(flag, lambda: x + 1.0, jnp.zeros(()))
 
-    many = jax.jit(jax.vmap(one))
+    many = jax.jit(jax.vmap(of_copy))
     x = jnp.asarray([1.0, 2.0])
     np.testing.assert_array_equal(many(jnp.asarray([False, True]), x), [2.0, 3.0])
     np.testing.assert_array_equal(many(jnp.asarray([False, False]), x), [0.0, 0.0])
@@ -31,14 +31,14 @@ def test_copies_without_the_condition_are_computed_beside_one_with_it() -> None:
 def test_a_batch_computes_one_branch_alone() -> None:
     counted: list[float] = []
 
-    def one(flag: jax.Array, x: jax.Array) -> jax.Array:
+    def of_copy(flag: jax.Array, x: jax.Array) -> jax.Array:
         def compute() -> jax.Array:
-            jax.debug.callback(lambda value: counted.append(float(value)), x)
+            jax.debug.callback(lambda number: counted.append(float(number)), x)
             return x + 1.0
 
         return computed_once(flag, compute, jnp.zeros(()))
 
-    many = jax.jit(jax.vmap(one))
+    many = jax.jit(jax.vmap(of_copy))
     many(jnp.asarray([False, False]), jnp.ones(2)).block_until_ready()
     jax.effects_barrier()
     assert not counted

@@ -19,7 +19,7 @@ def covariance(axis, length, dtype="float64"):
     return f @ f.T
 
 
-def wanted(axis, length):
+def correlation(axis, length):
     d = axis.points[:, None] - axis.points[None]
     if axis.periodic:
         d = d - axis.range * np.round(d / axis.range)
@@ -35,13 +35,13 @@ def test_the_variance_is_one_at_every_point(axis, length):
 
 @pytest.mark.parametrize("length", [1.5, 2.0, 6.0, 12.5])
 def test_the_correlation_on_a_ring_is_a_gaussian(length):
-    assert abs(covariance(RING, length) - wanted(RING, length)).max() < 3e-3
+    assert abs(covariance(RING, length) - correlation(RING, length)).max() < 3e-3
 
 
 @pytest.mark.parametrize("length", [0.5, 1.5, 2.0, 6.0, 12.0, 40.0])
 def test_the_correlation_on_a_line_is_a_gaussian_up_to_its_ends(length):
-    assert abs(covariance(LINE, length) - wanted(LINE, length)).max() < 1e-9
-    assert abs(covariance(LINE, length, "float32") - wanted(LINE, length)).max() < 1e-4
+    assert abs(covariance(LINE, length) - correlation(LINE, length)).max() < 1e-9
+    assert abs(covariance(LINE, length, "float32") - correlation(LINE, length)).max() < 1e-4
 
 
 def test_correlated_noise_does_not_depend_on_the_grid():

@@ -45,9 +45,9 @@ def test_a_kernel_on_a_periodic_axis_wraps() -> None:
 
 @pytest.mark.parametrize("count", [3, 41])
 def test_an_array_of_weights_is_centred_on_lag_0(count: int) -> None:
-    given = np.random.default_rng(0).normal(size=count)
-    (lags,), weights = kernel_shape([dd.Custom(given, amplitude=2.0)], (X,))
+    numbers = np.random.default_rng(0).normal(size=count)
+    (lags,), weights = kernel_shape([dd.Custom(numbers, amplitude=2.0)], (X,))
     middle = count // 2
     for k, lag in enumerate(np.rint(lags.points).astype(int)):
         inside = abs(lag) <= middle
-        assert weights[k] == pytest.approx(2 * given[middle + lag] if inside else 0.0, abs=1e-5)
+        assert weights[k] == pytest.approx(2 * numbers[middle + lag] if inside else 0.0, abs=1e-5)

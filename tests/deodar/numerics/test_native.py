@@ -49,9 +49,9 @@ def installed(monkeypatch: pytest.MonkeyPatch) -> Iterator[ModuleType]:
 
 def model() -> dd.Model:
     """Return a field that is large enough for the kernels."""
-    made = dd.Model("noise alone")
-    made.add(dd.Field("u", [dd.Axis("x", 0, 1200, samples=1200)], tau=20, resting_level=0, noise=1.0))
-    return made
+    model = dd.Model("noise alone")
+    model.add(dd.Field("u", [dd.Axis("x", 0, 1200, samples=1200)], tau=20, resting_level=0, noise=1.0))
+    return model
 
 
 def run(**settings: str) -> np.ndarray:
@@ -62,12 +62,12 @@ def test_a_model_in_single_precision_gets_its_noise_from_the_kernels(
     installed: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert executable(model()).kernels is installed
-    found = run()
+    values = run()
     monkeypatch.setenv(native.SWITCH, "off")
     assert executable(model()).kernels is None
     # u after three steps from 0: each adds the shift 1e-3 / tau, and leaves 19/20 of u
     shift = 1e-3 / 20 * (1 + 0.95 + 0.95**2)
-    np.testing.assert_allclose(found - run(), shift, rtol=0, atol=1e-6)
+    np.testing.assert_allclose(values - run(), shift, rtol=0, atol=1e-6)
 
 
 def _line(weights: Array, y: Array, boundary: str) -> Array:
@@ -81,8 +81,8 @@ def test_a_convolution_over_one_axis_is_a_kernel_from_a_number_of_lags_on(
     installed.__dict__["line"] = _line
     weights, y = jnp.linspace(1, 0, 31), jnp.linspace(0, 1, samples)
     assert (30 * samples >= native.LEAST_LINE) == (factor > 1)
-    found = convolution.tapped(weights, y, "zero", kernels=native.kernels("cpu", "float32"))
-    np.testing.assert_allclose(found, factor * convolution.tapped(weights, y, "zero"), rtol=1e-6)
+    output = convolution.tapped(weights, y, "zero", kernels=native.kernels("cpu", "float32"))
+    np.testing.assert_allclose(output, factor * convolution.tapped(weights, y, "zero"), rtol=1e-6)
 
 
 def test_kernels_transform_planes_that_are_not_large(installed: ModuleType) -> None:
@@ -92,10 +92,10 @@ def test_kernels_transform_planes_that_are_not_large(installed: ModuleType) -> N
     installed.__dict__["to_modes"] = lambda axes, y: 3 * transforms.to_waves(axes, y)
     installed.__dict__["from_modes"] = lambda axes, y: 5 * transforms.from_waves(axes, y)
     kernels = native.kernels("cpu", "float32")
-    there = transforms.to_waves((axis, axis), y, kernels)
-    np.testing.assert_allclose(there, 3 * transforms.to_waves((axis, axis), y), rtol=1e-5, atol=1e-6)
-    back = transforms.from_waves((axis, axis), there, kernels)
-    np.testing.assert_allclose(back, 5 * transforms.from_waves((axis, axis), there), rtol=1e-5, atol=1e-6)
+    waves = transforms.to_waves((axis, axis), y, kernels)
+    np.testing.assert_allclose(waves, 3 * transforms.to_waves((axis, axis), y), rtol=1e-5, atol=1e-6)
+    back = transforms.from_waves((axis, axis), waves, kernels)
+    np.testing.assert_allclose(back, 5 * transforms.from_waves((axis, axis), waves), rtol=1e-5, atol=1e-6)
     large = Waves("periodic", 400, 400, 3)
     assert not native.transforms(kernels, (large, large))
     assert not native.transforms(kernels, (axis, axis, axis)) and not native.transforms(kernels, (axis,))
@@ -131,9 +131,9 @@ def test_the_cache_distinguishes_versions_of_the_kernels(
     for version, compiled in (("9.8.7", 1), ("9.8.7", 0), ("9.8.8", 1)):
         installed.__version__ = version
         executables._shared.cache_clear()
-        made = executable(model())
-        made.reader([])
-        assert made.compiled == compiled
+        program = executable(model())
+        program.reader([])
+        assert program.compiled == compiled
 
 
 @pytest.mark.parametrize(

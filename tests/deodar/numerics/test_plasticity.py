@@ -26,10 +26,10 @@ PRE[0, 1], POST[1, 2] = 0, 0
 
 
 def test_weights_are_read_in_nested_batches():
-    wanted = np.einsum("abi,abij->abj", PRE, W)
-    np.testing.assert_allclose(jax.vmap(jax.vmap(read))(W, PRE), wanted, atol=1e-5)
-    np.testing.assert_allclose(jax.vmap(read)(W[0], PRE[0]), wanted[0], atol=1e-5)
-    np.testing.assert_allclose(read(W[0, 0], PRE[0, 0]), wanted[0, 0], atol=1e-5)
+    expected = np.einsum("abi,abij->abj", PRE, W)
+    np.testing.assert_allclose(jax.vmap(jax.vmap(read))(W, PRE), expected, atol=1e-5)
+    np.testing.assert_allclose(jax.vmap(read)(W[0], PRE[0]), expected[0], atol=1e-5)
+    np.testing.assert_allclose(read(W[0, 0], PRE[0, 0]), expected[0, 0], atol=1e-5)
     np.testing.assert_allclose(
         jax.vmap(read, in_axes=(None, 0))(W[0, 0], PRE[0]), PRE[0] @ W[0, 0], atol=1e-5
     )
@@ -38,17 +38,17 @@ def test_weights_are_read_in_nested_batches():
 
 @pytest.mark.parametrize("rule", RULES)
 def test_weights_are_learned_in_nested_batches(rule):
-    def one(w, x, y):
+    def row(w, x, y):
         return learn(rule, w, x, y, jnp.float32(0.1), jnp.float32(0.02), jnp.float32(0.6))
 
-    found = np.asarray(jax.vmap(jax.vmap(one))(W, PRE, POST))
+    weights = np.asarray(jax.vmap(jax.vmap(row))(W, PRE, POST))
     for a in range(2):
-        np.testing.assert_allclose(jax.vmap(one)(W[a], PRE[a], POST[a]), found[a], atol=1e-6)
+        np.testing.assert_allclose(jax.vmap(row)(W[a], PRE[a], POST[a]), weights[a], atol=1e-6)
         for b in range(3):
-            np.testing.assert_allclose(one(W[a, b], PRE[a, b], POST[a, b]), found[a, b], atol=1e-6)
+            np.testing.assert_allclose(row(W[a, b], PRE[a, b], POST[a, b]), weights[a, b], atol=1e-6)
     for silent in ((0, 1), (1, 2)):
-        assert np.array_equal(found[silent], W[silent])
-    assert not np.array_equal(found[0, 0], W[0, 0])
+        assert np.array_equal(weights[silent], W[silent])
+    assert not np.array_equal(weights[0, 0], W[0, 0])
 
 
 @pytest.mark.parametrize("rule", ["outstar", "association", "instar"])

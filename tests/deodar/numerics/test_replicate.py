@@ -67,19 +67,19 @@ def test_a_plane_may_replicate_along_one_axis_only():
     values = np.random.default_rng(2).random((13, 11))
     kernel = dd.Gaussian(0.7, [1.0, 2.0], boundary=["replicate", "zero"])
     inside = np.arange(11)[:, None] - np.arange(11)[None, :]
-    wanted = 0.7 * padded(values, gaussian(1.0), x.step) @ gaussian(2.0)(inside).T
-    np.testing.assert_allclose(convolved(values, [kernel], [x, y]), wanted, rtol=0, atol=1e-12)
+    expected = 0.7 * padded(values, gaussian(1.0), x.step) @ gaussian(2.0)(inside).T
+    np.testing.assert_allclose(convolved(values, [kernel], [x, y]), expected, rtol=0, atol=1e-12)
 
 
 def test_a_long_field_and_a_sum_with_another_boundary_agree_too():
     axis = dd.Axis("x", 0, 299, 300)  # long enough for spectral modes and taps
     values = np.random.default_rng(3).random(300)
-    both = [dd.Gaussian(1.0, 5.0, boundary=ENDS), dd.Gaussian(-0.5, 12.0)]
+    kernels = [dd.Gaussian(1.0, 5.0, boundary=ENDS), dd.Gaussian(-0.5, 12.0)]
     inside = np.arange(300)[:, None] - np.arange(300)[None, :]
-    wanted = padded(values, gaussian(5.0), 1.0) - 0.5 * gaussian(12.0)(inside) @ values
-    np.testing.assert_allclose(convolved(values, both, [axis]), wanted, rtol=0, atol=2e-3)
-    one = padded(values, gaussian(5.0), 1.0)
-    np.testing.assert_allclose(convolved(values, both[:1], [axis]), one, rtol=0, atol=1e-12)
+    expected = padded(values, gaussian(5.0), 1.0) - 0.5 * gaussian(12.0)(inside) @ values
+    np.testing.assert_allclose(convolved(values, kernels, [axis]), expected, rtol=0, atol=2e-3)
+    narrow = padded(values, gaussian(5.0), 1.0)
+    np.testing.assert_allclose(convolved(values, kernels[:1], [axis]), narrow, rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("count", [5, 29, 91])
@@ -93,9 +93,9 @@ def test_a_kernel_given_as_an_array_continues_too(count):
         place = np.rint(lag).astype(int) + half
         return np.where((place >= 0) & (place < count), weights[np.clip(place, 0, count - 1)], 0.0)
 
-    found = convolved(values[:, 0].copy(), [Custom(weights, boundary=ENDS)], [axis])
-    np.testing.assert_allclose(found, padded(values[:, 0], along, 1.0), rtol=0, atol=1e-10)
-    both = Custom(weights[:, None] * [[0.2, 1.0, 0.4]], boundary=["replicate", "periodic"])
+    output = convolved(values[:, 0].copy(), [Custom(weights, boundary=ENDS)], [axis])
+    np.testing.assert_allclose(output, padded(values[:, 0], along, 1.0), rtol=0, atol=1e-10)
+    kernel = Custom(weights[:, None] * [[0.2, 1.0, 0.4]], boundary=["replicate", "periodic"])
     across = sum(np.roll(values, k, axis=1) * w for k, w in zip((-1, 0, 1), (0.2, 1.0, 0.4), strict=True))
-    found = convolved(values, [both], [axis, dd.Axis("y", 0, 5, 5, periodic=True)])
-    np.testing.assert_allclose(found, padded(across, along, 1.0), rtol=0, atol=1e-10)
+    output = convolved(values, [kernel], [axis, dd.Axis("y", 0, 5, 5, periodic=True)])
+    np.testing.assert_allclose(output, padded(across, along, 1.0), rtol=0, atol=1e-10)

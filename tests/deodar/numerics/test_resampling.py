@@ -14,15 +14,15 @@ LINE = Axis("x", 0, 10, 11)
 RING = Axis("x", 0, 12, 12, periodic=True)
 
 
-def weights(axis, points, how="linear", dtype=jnp.float64):
+def weights(axis, points, method="linear", dtype=jnp.float64):
     with jax.enable_x64(dtype == jnp.float64):
-        return np.asarray(resampling.weights(axis, np.asarray(points, float), how, dtype))
+        return np.asarray(resampling.weights(axis, np.asarray(points, float), method, dtype))
 
 
-@pytest.mark.parametrize("how", resampling.INTERPOLATIONS)
+@pytest.mark.parametrize("method", resampling.INTERPOLATIONS)
 @pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
-def test_resampling_to_the_same_grid_keeps_the_samples(axis, how):
-    assert np.array_equal(weights(axis, axis.points, how), np.eye(axis.samples))
+def test_resampling_to_the_same_grid_keeps_the_samples(axis, method):
+    assert np.array_equal(weights(axis, axis.points, method), np.eye(axis.samples))
 
 
 @pytest.mark.parametrize("dtype", [jnp.float32, jnp.float64])
@@ -30,9 +30,9 @@ def test_resampling_to_the_same_grid_keeps_the_samples(axis, how):
 def test_the_last_sample_is_within_reach_of_any_sampling(samples, dtype):
     """Rounding never moves the last sample of an axis beyond the other axis."""
     fine = Axis("x", 0.1, 0.7, samples)
-    for how in resampling.INTERPOLATIONS:
+    for method in resampling.INTERPOLATIONS:
         np.testing.assert_allclose(
-            weights(Axis("x", 0.1, 0.7, 13), fine.points, how, dtype).sum(1), 1.0, atol=2e-5
+            weights(Axis("x", 0.1, 0.7, 13), fine.points, method, dtype).sum(1), 1.0, atol=2e-5
         )
 
 
@@ -65,9 +65,9 @@ def test_values_beyond_the_ends_are_zero():
 
 
 def test_a_ring_of_one_sample_is_constant():
-    one = Axis("x", 0, 5, 1, periodic=True)
-    for how in resampling.INTERPOLATIONS:
-        assert np.array_equal(weights(one, [0, 1.3, 2.5, 4.9], how), np.ones((4, 1)))
+    point = Axis("x", 0, 5, 1, periodic=True)
+    for method in resampling.INTERPOLATIONS:
+        assert np.array_equal(weights(point, [0, 1.3, 2.5, 4.9], method), np.ones((4, 1)))
 
 
 def test_every_reduction_agrees_with_numpy():
@@ -81,5 +81,5 @@ def test_every_reduction_agrees_with_numpy():
         "min": y.min(1),
     }
     assert set(expected) == set(resampling.REDUCTIONS)
-    for how, value in expected.items():
-        np.testing.assert_allclose(resampling.reduce(y, 1, axis, how), value, rtol=1e-6)
+    for method, number in expected.items():
+        np.testing.assert_allclose(resampling.reduce(y, 1, axis, method), number, rtol=1e-6)

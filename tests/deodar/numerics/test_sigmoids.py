@@ -43,9 +43,9 @@ ENDS = [
 def test_the_logistic_is_relatively_exact_far_below_the_threshold():
     u = np.linspace(-20, 20, 4001).astype(np.float32)
     exact = 1 / (1 + np.exp(-4.0 * u.astype(float)))
-    found = np.asarray(jax.jit(dd.Logistic(4.0))(u))
-    assert found.dtype == np.float32
-    np.testing.assert_allclose(found, exact, rtol=1e-5)
+    output = np.asarray(jax.jit(dd.Logistic(4.0))(u))
+    assert output.dtype == np.float32
+    np.testing.assert_allclose(output, exact, rtol=1e-5)
     assert np.isclose(float(dd.Logistic(4.0)(np.float32(-4.0))), 1.1253516e-07, rtol=1e-5)
     assert (
         float(dd.Logistic(4.0)(np.float32(-1e6))) == 0.0 and float(dd.Logistic(4.0)(np.float32(1e6))) == 1.0
@@ -63,8 +63,8 @@ def exact_mean(g: SigmoidFunction, a: float, b: float) -> float:
         return f(a)
     a, b = min(a, b), max(a, b)
     threshold = getattr(g, "threshold", 0.0)
-    near = [threshold + sign * k / getattr(g, "beta", 1.0) for sign in (-1, 1) for k in (0, 3, 30)]
-    cuts = sorted({a, b, *(p for p in near if a < p < b)})
+    around = [threshold + sign * k / getattr(g, "beta", 1.0) for sign in (-1, 1) for k in (0, 3, 30)]
+    cuts = sorted({a, b, *(p for p in around if a < p < b)})
     return sum(
         quad(f, p, q, epsabs=1e-13, epsrel=1e-12, limit=200)[0] for p, q in itertools.pairwise(cuts)
     ) / (b - a)

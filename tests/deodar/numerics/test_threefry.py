@@ -23,8 +23,8 @@ KNOWN = [
 @pytest.mark.parametrize(("counter", "key", "answer"), KNOWN)
 def test_threefry_gives_the_published_answers(counter, key, answer):
     assert plain.threefry(counter, key) == answer
-    found = noise.threefry(*(jnp.uint32(word) for word in (*counter, *key)))
-    assert tuple(int(word) for word in found) == answer
+    words = noise.threefry(*(jnp.uint32(word) for word in (*counter, *key)))
+    assert tuple(int(word) for word in words) == answer
 
 
 def test_threefry_equals_that_of_jax():
@@ -43,9 +43,9 @@ def test_the_integers_of_an_element_are_those_of_the_plain_version(seed, trial):
     ident = 0xDEADBEEF
     key = noise.element_keys(seed, trial, [ident])[0]
     for tick in (0, 1, 2, 7, 2**32 - 1):
-        found = np.stack(noise.bits(12, key, jnp.uint32(tick // 2)), axis=1)
-        assert found.dtype == np.uint32
-        assert np.array_equal(found, plain.words(seed, trial, ident, 12, tick))
+        words = np.stack(noise.bits(12, key, jnp.uint32(tick // 2)), axis=1)
+        assert words.dtype == np.uint32
+        assert np.array_equal(words, plain.words(seed, trial, ident, 12, tick))
 
 
 @pytest.mark.parametrize("every", [1, 3])
@@ -56,12 +56,12 @@ def test_the_noise_of_a_running_model_is_that_of_the_plain_version(every, trial)
     model = dd.Model("noisy")
     source = model.add(Noise("n", axes, 1.0), group="deep", ticks=every)
     ident = int(model.entry(source.id).id, 16)
-    data = dd.simulate(model, 12, seed=5, trials=[trial], record="deep.n.output", precision="float64")[
+    noise = dd.simulate(model, 12, seed=5, trials=[trial], record="deep.n.output", precision="float64")[
         "deep.n.output"
     ].values[0]
     for tick in range(13):
         expected = plain.normals(5, trial, ident, (3, 2), tick // every) / np.sqrt(2.0) / np.sqrt(every)
-        np.testing.assert_allclose(data[tick], expected, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(noise[tick], expected, rtol=0, atol=1e-12)
 
 
 def test_float32_normals_agree_with_float64():

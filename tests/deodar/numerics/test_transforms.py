@@ -55,10 +55,10 @@ def there_and_back(axes: tuple[Waves, ...], y: Array) -> tuple[Array, Array]:
 
 @pytest.mark.parametrize("w", AXES, ids=repr)
 def test_folded_modes_span_the_same_functions_as_modes_in_one_class(w: Waves) -> None:
-    one = Waves(w.boundary, w.samples, w.length, w.highest)
-    np.testing.assert_allclose(w.basis() @ w.basis().T, one.basis() @ one.basis().T, atol=1e-12)
+    waves = Waves(w.boundary, w.samples, w.length, w.highest)
+    np.testing.assert_allclose(w.basis() @ w.basis().T, waves.basis() @ waves.basis().T, atol=1e-12)
     present = np.abs(w.basis()).max(axis=0) > 0
-    assert sorted(w.turns[present]) == sorted(one.turns)
+    assert sorted(w.turns[present]) == sorted(waves.turns)
 
 
 @pytest.mark.parametrize("w", AXES, ids=repr)
@@ -71,11 +71,11 @@ def test_folded_transforms_are_products_with_whole_bases(
 ) -> None:
     """To rounding in double precision, over one to three axes in any order."""
     axes = (*before, w, *after)
-    y = np.random.default_rng(1).normal(size=[each.samples for each in axes])
+    y = np.random.default_rng(1).normal(size=[axis_waves.samples for axis_waves in axes])
     with jax.enable_x64(True):
         modes, back = map(np.asarray, there_and_back(axes, jnp.asarray(y)))
-    np.testing.assert_allclose(modes, whole([each.basis().T for each in axes], y), atol=1e-12)
-    np.testing.assert_allclose(back, whole([each.basis() for each in axes], modes), atol=1e-12)
+    np.testing.assert_allclose(modes, whole([axis_waves.basis().T for axis_waves in axes], y), atol=1e-12)
+    np.testing.assert_allclose(back, whole([axis_waves.basis() for axis_waves in axes], modes), atol=1e-12)
 
 
 @pytest.mark.parametrize("w", [w for w in AXES if w.samples in (7, 10)], ids=repr)
@@ -84,7 +84,7 @@ def test_folded_transforms_keep_single_precision(w: Waves) -> None:
     axes = (w, Waves("periodic", 50, 50, 14, by_parity=True))
     modes, back = there_and_back(axes, jnp.asarray(y))
     assert modes.dtype == np.float32 and back.dtype == np.float32
-    exact = whole([each.basis() @ each.basis().T for each in axes], y.astype(float))
+    exact = whole([axis_waves.basis() @ axis_waves.basis().T for axis_waves in axes], y.astype(float))
     assert np.abs(back - exact).max() < 3e-6
 
 
@@ -99,10 +99,10 @@ def test_copies_are_transformed_as_one_is(axes: tuple[Waves, ...]) -> None:
 
     y = np.random.default_rng(1).normal(size=(2, 3, *(w.samples for w in axes)))
     with jax.enable_x64(True):
-        found = np.asarray(jax.jit(filtered)(jnp.asarray(y)))
-    each = [w.basis() @ w.basis().T for w in axes]
+        output = np.asarray(jax.jit(filtered)(jnp.asarray(y)))
+    projections = [w.basis() @ w.basis().T for w in axes]
     for j, k in itertools.product(range(3), range(2)):
-        np.testing.assert_allclose(found[j, k], whole(each, y[k, j]), atol=1e-12)
+        np.testing.assert_allclose(output[j, k], whole(projections, y[k, j]), atol=1e-12)
 
 
 def test_only_the_cpu_folds() -> None:

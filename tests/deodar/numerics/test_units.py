@@ -15,9 +15,9 @@ from deodar.numerics.axes import Axis, barely_overlap
     [("cm", "cm", 0.01), (" metres ", "m", 1.0), ("meter", "m", 1.0), ("°", "deg", math.pi / 180)],
 )
 def test_units_are_known_by_several_names(text: str, symbol: str, size: float):
-    found = units.parse(text)
-    assert found is not None
-    assert (found.symbol, found.size) == (symbol, pytest.approx(size))
+    unit = units.parse(text)
+    assert unit is not None
+    assert (unit.symbol, unit.size) == (symbol, pytest.approx(size))
 
 
 @pytest.mark.parametrize("text", ["", "Hz", "ms", "s", "step/s", "cms", "cm, cm, rad"])
@@ -32,8 +32,8 @@ def test_a_unit_is_found_by_its_size():
 
 
 def test_an_axis_that_barely_overlaps_a_range_is_reported_with_the_unit_that_fits():
-    ((what, fix),) = barely_overlap(Axis("x", 0, 210, 211), (-1.0, 1.0), "the walls", "m")
-    assert what == "the walls run from -1 to 1 m, and the axis 'x' from 0 to 210: they barely overlap"
+    ((problem, fix),) = barely_overlap(Axis("x", 0, 210, 211), (-1.0, 1.0), "the walls", "m")
+    assert problem == "the walls run from -1 to 1 m, and the axis 'x' from 0 to 210: they barely overlap"
     assert fix == "Write unit='cm' for the axis if its values are in cm"
     ((_, fix),) = barely_overlap(Axis("x", 0, 210, 211, unit="cm"), (300.0, 400.0), "the walls")
     assert "Choose a world" in fix

@@ -51,10 +51,10 @@ def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, p
 @pytest.mark.parametrize(
     ("first", "second", "way"),
     [
-        (first, second, way)
+        (first, second, method)
         for first, second in itertools.product(BOUNDARIES, repeat=2)
-        for way in ("waves", "folded", "fourier")
-        if way != "fourier" or "reflect" not in (first, second)
+        for method in ("waves", "folded", "fourier")
+        if method != "fourier" or "reflect" not in (first, second)
     ],
 )
 def test_every_strategy_agrees_with_matrices(
@@ -70,13 +70,13 @@ def test_every_strategy_agrees_with_matrices(
     ]
     if way == "folded":
 
-        def chosen(*given: Any) -> Choice:
-            return Choice("waves", tuple(dc.replace(w, by_symmetry=True) for w in choose_waves(*given)))
+        def chosen(*arguments: Any) -> Choice:
+            return Choice("waves", tuple(dc.replace(w, by_symmetry=True) for w in choose_waves(*arguments)))
 
     else:
 
-        def chosen(*given: Any) -> Choice:
-            return Choice(way, choose_waves(*given))
+        def chosen(*arguments: Any) -> Choice:
+            return Choice(way, choose_waves(*arguments))
 
     monkeypatch.setattr(interaction, "choose", chosen)
     y = np.random.default_rng(1).random((40, 33))
@@ -120,8 +120,8 @@ def test_taps_agree_with_matrices(boundary: str) -> None:
 def test_taps_over_a_plane_agree_with_matrices(
     first: str, second: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def taps(*given: Any) -> Choice:
-        return next(c for c in candidates(*given[:5]) if c.method == "taps")
+    def taps(*arguments: Any) -> Choice:
+        return next(c for c in candidates(*arguments[:5]) if c.method == "taps")
 
     monkeypatch.setattr(interaction, "choose", taps)
     axes = (Axis("x", 0, 39, 40), Axis("y", 0, 58, 30))
@@ -170,16 +170,16 @@ TORUS = [dd.Axis(name, 0, 100, samples=100, periodic=True) for name in "xy"]
 
 
 def model(sigma: float = 4.0, axes: Sequence[dd.Axis] = SQUARE) -> dd.Model:
-    made = dd.Model("plane")
+    model = dd.Model("plane")
     kernel = [
         dd.Gaussian(15, sigma, normalized=True),
         MexicanHat(4, 4, 2, 8, normalized=True, boundary=["reflect"]),
         dd.Gaussian(-0.1, 9.0),
     ]
-    u = made.add(dd.Field("u", axes, kernel=kernel, global_inhibition=0.001))
-    made.add(dd.GaussianStimulus("s", axes, center=[20, 48], sigma=4, amplitude=8)) >> u
-    made.add(dd.GaussianStimulus("t", axes, center=[59, 10], sigma=3, amplitude=7)) >> u
-    return made
+    u = model.add(dd.Field("u", axes, kernel=kernel, global_inhibition=0.001))
+    model.add(dd.GaussianStimulus("s", axes, center=[20, 48], sigma=4, amplitude=8)) >> u
+    model.add(dd.GaussianStimulus("t", axes, center=[59, 10], sigma=3, amplitude=7)) >> u
+    return model
 
 
 @pytest.mark.parametrize(("sigma", "axes", "classes"), [(4.0, SQUARE, [2, 1]), (3.0, TORUS, [4, 2])])
@@ -187,52 +187,52 @@ def test_default_strategies_are_within_1e_4_of_exact_ones(
     sigma: float, axes: list[dd.Axis], classes: list[int]
 ) -> None:
     """1e-4 in activation after 400 steps without noise, with peaks at the borders and folded transforms."""
-    made = model(sigma, axes)
-    field = made["u"].element
+    coupled = model(sigma, axes)
+    field = coupled["u"].element
     choice = next(iter(interaction.choices(field.kernel, tuple(field.axes)).values()))
     assert choice.method == "waves" and [w.classes for w in choice.waves] == classes
-    exact = dd.simulate(made, 400, precision="float64")["u.activation"].values
-    default = dd.simulate(made, 400)["u.activation"].values
+    exact = dd.simulate(coupled, 400, precision="float64")["u.activation"].values
+    default = dd.simulate(coupled, 400)["u.activation"].values
     assert exact.max() > 3 and np.abs(default - exact).max() < 1e-4
 
 
 def test_exact_accuracy_uses_matrices_and_is_stated_in_the_record() -> None:
-    made = model()
-    exact = dd.simulate(made, 100, precision="float64")["u.activation"].values
-    asked = dd.simulate(made, 100, precision="float32-exact")
+    coupled = model()
+    exact = dd.simulate(coupled, 100, precision="float64")["u.activation"].values
+    asked = dd.simulate(coupled, 100, precision="float32-exact")
     assert np.abs(asked["u.activation"].values - exact).max() < 2e-5
     assert (
-        executable(made, accuracy="exact").plan.describe().count("waves")
+        executable(coupled, accuracy="exact").plan.describe().count("waves")
         == 0
-        < executable(made).plan.describe().count("waves")
+        < executable(coupled).plan.describe().count("waves")
     )
     assert json.loads(asked.attrs["deodar"])["accuracy"] == "exact"
-    session = dd.Session(made, precision="float32-exact")
+    session = dd.Session(coupled, precision="float32-exact")
     assert session.set("u.kernel.0.sigma", 2.0) == "rebuild", "matrices hold at any width"
     with pytest.raises(ParameterError, match="float32, float32-exact, float64"):
-        dd.simulate(made, 1, precision="high")
+        dd.simulate(coupled, 1, precision="high")
 
 
 def test_only_widths_outside_of_the_bucket_recompile() -> None:
-    made = model(4.2)
-    session = dd.Session(made)
+    coupled = model(4.2)
+    session = dd.Session(coupled)
     session.step(50)
     low, high = bounds(bucket(4.2))
     assert session.set("u.kernel.0.sigma", 0.5 * (4.2 + high)) == "rebuild"
     assert session.set("u.kernel.0.sigma", 2.0) == "recompile"
     session.step(350)
-    other = dd.Session(made, precision="float64")
-    other.step(50)
-    other.set("u.kernel.0.sigma", 2.0)
-    other.step(350)
-    assert low < 4.2 and np.abs(session.read("u.activation") - other.read("u.activation")).max() < 1e-3
+    double = dd.Session(coupled, precision="float64")
+    double.step(50)
+    double.set("u.kernel.0.sigma", 2.0)
+    double.step(350)
+    assert low < 4.2 and np.abs(session.read("u.activation") - double.read("u.activation")).max() < 1e-3
 
 
 def test_a_sweep_over_widths_is_valid_for_all_of_them() -> None:
-    made = model()
+    coupled = model()
     widths = [1.0, 4.0, 12.0]
-    swept = dd.simulate(made, 100, sweep={"u.kernel.0.sigma": widths})["u.activation"]
+    swept = dd.simulate(coupled, 100, sweep={"u.kernel.0.sigma": widths})["u.activation"]
     for k, width in enumerate(widths):
-        made.set("u.kernel.0.sigma", width)
-        alone = dd.simulate(made, 100, precision="float64")["u.activation"].values
+        coupled.set("u.kernel.0.sigma", width)
+        alone = dd.simulate(coupled, 100, precision="float64")["u.activation"].values
         assert np.abs(swept.values[k] - alone).max() < 1e-3
