@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import jax
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ LINE = Axis("x", 0, 99, 100)
 RING = Axis("x", 0, 100, 100, periodic=True)
 
 
+@functools.cache
 def covariance(axis, length, dtype="float64"):
     with jax.enable_x64(dtype == "float64"):
         f = np.asarray(noise.correlation((axis,), (length,), np.dtype(dtype))[0], float)

@@ -41,11 +41,14 @@ def test_weights_are_learned_in_nested_batches(rule):
     def row(w, x, y):
         return learn(rule, w, x, y, jnp.float32(0.1), jnp.float32(0.02), jnp.float32(0.6))
 
-    weights = np.asarray(jax.vmap(jax.vmap(row))(W, PRE, POST))
+    # one program each: each operation alone would be compiled by itself
+    rows = jax.vmap(row)
+    of_rows, of_row = jax.jit(rows), jax.jit(row)
+    weights = np.asarray(jax.jit(jax.vmap(rows))(W, PRE, POST))
     for a in range(2):
-        np.testing.assert_allclose(jax.vmap(row)(W[a], PRE[a], POST[a]), weights[a], atol=1e-6)
+        np.testing.assert_allclose(of_rows(W[a], PRE[a], POST[a]), weights[a], atol=1e-6)
         for b in range(3):
-            np.testing.assert_allclose(row(W[a, b], PRE[a, b], POST[a, b]), weights[a, b], atol=1e-6)
+            np.testing.assert_allclose(of_row(W[a, b], PRE[a, b], POST[a, b]), weights[a, b], atol=1e-6)
     for silent in ((0, 1), (1, 2)):
         assert np.array_equal(weights[silent], W[silent])
     assert not np.array_equal(weights[0, 0], W[0, 0])

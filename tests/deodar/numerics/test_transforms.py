@@ -61,15 +61,21 @@ def test_folded_modes_span_the_same_functions_as_modes_in_one_class(w: Waves) ->
     assert sorted(w.turns[present]) == sorted(waves.turns)
 
 
-@pytest.mark.parametrize("w", AXES, ids=repr)
+BESIDE = [((), ()), ((), (RING,)), ((BORDER,), ()), ((), (RING, BORDER)), ((RING,), (BORDER,))]
+"""Axes before and after a folded one."""
+
+
 @pytest.mark.parametrize(
-    ("before", "after"),
-    [((), ()), ((), (RING,)), ((BORDER,), ()), ((), (RING, BORDER)), ((RING,), (BORDER,))],
+    ("w", "before", "after"),
+    [(w, *BESIDE[(k + turn) % len(BESIDE)]) for k, w in enumerate(AXES) for turn in (0, 2)],
+    ids=repr,
 )
 def test_folded_transforms_are_products_with_whole_bases(
     w: Waves, before: tuple[Waves, ...], after: tuple[Waves, ...]
 ) -> None:
-    """To rounding in double precision, over one to three axes in any order."""
+    """To rounding in double precision, over one to three axes in any order; each folded axis stands in two
+    of the five orders.
+    """
     axes = (*before, w, *after)
     y = np.random.default_rng(1).normal(size=[axis_waves.samples for axis_waves in axes])
     with jax.enable_x64(True):
