@@ -18,11 +18,12 @@ RECORD = ["u.activation", "node.activation"]
 
 
 def stepped(d: Dynamics, n: int, parameters: Any = None, inputs: Any = None, key: Any = None) -> Any:
-    """Return the state after some steps."""
+    """Return the state after some steps, each by one program."""
     prepared, key = d.prepare(parameters), d.key() if key is None else key
+    step = jax.jit(lambda state, tick: d.step(prepared, state, inputs or {}, tick, key))
     state = d.init(parameters, key)
     for tick in range(n):
-        state = d.step(prepared, state, inputs or {}, tick, key)
+        state = step(state, tick)
     return state
 
 

@@ -37,7 +37,8 @@ def test_trials_and_seeds_by_vmap_are_single_runs_and_those_of_simulate() -> Non
 
         keys = [d.key(3, 0), d.key(3, 1), d.key(3, 2), d.key(4, 0)]
         together = jax.jit(jax.vmap(course))(jax.tree.map(lambda *leaves: jnp.stack(leaves), *keys))
-        single = [course(key) for key in keys]
+        alone = jax.jit(course)
+        single = [alone(key) for key in keys]
         with pytest.raises(WorldError, match="Make the keys outside"):
             jax.vmap(lambda seed: course(d.key(seed)))(jnp.arange(2))
     np.testing.assert_allclose(together, single, rtol=0, atol=1e-12)
