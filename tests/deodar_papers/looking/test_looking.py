@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +11,7 @@ import pytest
 import deodar as dd
 from deodar_papers import looking
 from deodar_papers.looking import conditions, gazes, narrative, targets, trials
+from tests.command_line import typed
 from tests.deodar_robots.eye.test_looking import true_map
 
 SAMPLES = (32, 25)
@@ -30,7 +29,8 @@ def test_the_true_map_fails_with_another_gain() -> None:
     assert gazes.summary(errors)["near"] < 30
 
 
-def test_a_run_learns_until_the_last_gaze_and_repeats() -> None:
+def test_a_run_learns_until_the_last_gaze_and_repeats(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gazes, "SLICE", 2000)
     model = gazes.observed("correcting", seed=3)
     runs = [gazes.learn(model, dd.Eye(), 3, (5, 20)) for _ in range(2)]
     for run in runs:
@@ -113,6 +113,7 @@ def test_rows_of_a_run_have_the_keys_of_their_job(monkeypatch: pytest.MonkeyPatc
     small = conditions.LearningRun("paper", (4, 8), (1,), {"reward": False})
     monkeypatch.setattr(trials, "conditions", lambda quick: {"small": small})
     monkeypatch.setattr(trials, "TESTS", 6)
+    monkeypatch.setattr(gazes, "SLICE", 2000)
     [job] = trials.jobs(True)
     found = job.run()
     assert tuple(row["key"] for row in found) == job.keys
@@ -121,13 +122,17 @@ def test_rows_of_a_run_have_the_keys_of_their_job(monkeypatch: pytest.MonkeyPatc
     assert np.shape(found[-1]["course"]["end"]) == (400, 6)
 
 
-def test_the_demonstration_writes_a_figure_and_a_model_that_runs(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "deodar", "demo", "looking", "--gazes", "30", "--mechanism", "paper"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=600)
-    assert done.returncode == 0, done.stdout + done.stderr
+def test_the_demonstration_writes_a_figure_and_a_model_that_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(narrative, "TESTS", 40)
+    monkeypatch.setattr(gazes, "SLICE", 3000)
+    command = typed("demo looking --gazes 30 --mechanism paper")
+    assert command.status == 0, command.err
     out = tmp_path / "demo-looking-001"
-    found = json.loads((out / "results.json").read_text())["claims"]
-    assert [c["holds"] for c in found] == [True, None]
+    claims = json.loads((out / "results.json").read_text())["claims"]
+    assert [c["holds"] for c in claims] == [True, None]
     assert (out / "looking.png").stat().st_size > 50_000
     model = dd.load(out / "looking.deodar")
     weights = model["map"].start
@@ -135,14 +140,17 @@ def test_the_demonstration_writes_a_figure_and_a_model_that_runs(tmp_path: Path)
     session = dd.Session(model, world=dd.Eye())
     session.run(500)
     assert session.read("perceptual.output").max() > 0.5
-    assert "after 30 gazes" in done.stdout.splitlines()[-1]
+    assert "after 30 gazes" in command.out.splitlines()[-1]
 
 
-def test_wrong_options_of_the_demonstration_are_refused(tmp_path: Path) -> None:
-    for options, text in ((["--mechanism", "papre"], "One of"), (["--gazes", "0"], "1 or more")):
-        command = [sys.executable, "-m", "deodar", "demo", "looking", *options]
-        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
-        assert done.returncode != 0 and text in done.stdout + done.stderr
+@pytest.mark.parametrize(("option", "says"), [("--mechanism papre", "One of"), ("--gazes 0", "1 or more")])
+def test_wrong_options_of_the_demonstration_are_refused(
+    option: str, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    command = typed(f"demo looking {option}")
+    assert command.status != 0 and says in command.words
+    assert not list(tmp_path.iterdir())
 
 
 def test_the_claims_of_the_demonstration_can_fail() -> None:

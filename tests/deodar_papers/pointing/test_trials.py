@@ -28,7 +28,7 @@ def test_the_design_has_the_printed_counts_and_other_seeds_than_tuning():
     assert len(set(keys)) == len(keys)
 
 
-def test_a_scene_is_silent_or_selects_and_reaches_in_order_and_repeats():
+def test_a_scene_is_silent_or_selects_and_reaches_in_order():
     found = trials.whole_scene("scene", 0, TUNING + 1)
     assert [r["key"] for r in found[:2]] == ["scene/0 camera", "scene/0 red"]
     assert all(r["peaks"] == 0 for r in found[:5])
@@ -38,15 +38,15 @@ def test_a_scene_is_silent_or_selects_and_reaches_in_order_and_repeats():
     assert len(matched) >= 2 and all(targets.cycled(r) and targets.inside(r) for r in matched)
     none = [r for r in pairs.values() if r["matches"] == 0 and not r["hidden"]]
     assert none and all(targets.silent(r) for r in none)
-    again = trials.whole_scene("scene", 0, TUNING + 1)
-    assert again == found
 
 
 @pytest.mark.parametrize("case", trials.CASES)
-def test_a_special_case_goes_as_it_has_to(case: str, monkeypatch: pytest.MonkeyPatch):
+def test_a_special_case_goes_as_it_has_to_and_repeats(case: str, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(trials, "TEST", TUNING)
     [row] = trials.special(case, 1)
     assert targets.judged(row), row
+    if case == "same":  # two cycles without a reset, with the random numbers of scene and noise
+        assert trials.special(case, 1) == [row]
 
 
 def test_the_same_architecture_points_with_another_arm():
