@@ -15,7 +15,7 @@ import subprocess
 import sys
 import time
 import unittest.mock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -174,14 +174,22 @@ def resume(folder: Path, case: str, outcome: Outcome) -> None:
             outcome.errors.append(f"{case}: {name} differs after the run was resumed")
 
 
-def attack(folder: Path, kills: int, seed: int, longest: float = 3.0, limit: float = LOST_SECONDS) -> Outcome:
-    """Kill runs up to `longest` seconds after their first chunk, and stop and resume some.
+def attack(
+    folder: Path,
+    kills: int,
+    seed: int,
+    cases: Sequence[str] = tuple(CASES),
+    longest: float = 3.0,
+    limit: float = LOST_SECONDS,
+) -> Outcome:
+    """Kill runs of some cases up to `longest` seconds after their first chunk, and stop and resume those of
+    all.
 
     The later in the attack, the later a run is killed, so that the last ones have samples that must be there.
     """
     draw, outcome = random.Random(seed), Outcome()
     for k in range(kills):
-        case = list(CASES)[k % len(CASES)]
+        case = cases[k % len(cases)]
         seconds = (k + draw.random()) / kills * longest
         shutil.rmtree(kill(folder, case, seconds, outcome, limit), ignore_errors=True)
     for case in RESUMED:

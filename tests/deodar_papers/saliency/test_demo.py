@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -15,31 +13,25 @@ import deodar as dd
 from deodar.architectures.saliency import scene as scene_axes
 from deodar.worlds import _capture
 from deodar.worlds.camera import Camera
-from deodar_papers.saliency import scenes
+from deodar_papers.saliency import scenes, targets
 from deodar_papers.saliency.scenes import Cue, filmed, own, photographs, run_scene, watched
-from deodar_papers.saliency.targets import claims, sentence
+from deodar_papers.saliency.targets import sentence
+from tests.command_line import typed
 
 
 def test_every_claim_of_the_command_holds(tmp_path: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "deodar", "demo", "saliency"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        timeout=600,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    out = tmp_path / "demo-saliency-001"
-    found = json.loads((out / "results.json").read_text())["claims"]
-    assert len(found) >= 13 and all(
-        c["kind"] == "reported" and c["inferred"] and c["assumes"] for c in found
+    command = typed("demo saliency --out", out := tmp_path / "out")
+    assert command.status == 0, command.words
+    claims = json.loads((out / "results.json").read_text())["claims"]
+    assert len(claims) >= 13 and all(
+        c["kind"] == "reported" and c["inferred"] and c["assumes"] for c in claims
     ), "no evidence"
-    assert all(c["holds"] is True for c in found), [c for c in found if not c["holds"]]
+    assert all(c["holds"] is True for c in claims), [c for c in claims if not c["holds"]]
     for name in ("coffee", "chelsea", "astronaut"):
         assert (out / f"{name}.png").stat().st_size > 10_000 and (out / f"{name}.zarr").is_dir()
-        kinds = {c["name"].split(",")[1].split()[0] for c in found if c["name"].startswith(name)}
+        kinds = {c["name"].split(",")[1].split()[0] for c in claims if c["name"].startswith(name)}
         assert kinds == {"no", "cue"}
-    assert "5 of 5" in done.stdout.splitlines()[-1]
+    assert "5 of 5" in command.out.splitlines()[-1]
 
 
 def test_claims_hold_for_another_seed_and_fail_for_a_wrong_mark() -> None:
@@ -48,7 +40,8 @@ def test_claims_hold_for_another_seed_and_fail_for_a_wrong_mark() -> None:
     wrong = Cue(5.0, "red", "present", "the eye", (((0, 0), (100, 0), (100, 100), (0, 100)),))
     scene = scenes.CueScene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
     result = run_scene(scene, seed=11)
-    assert [c.holds for c in claims(result)] == [True, True, True, True, True, False, True, False, False]
+    marks = [c.holds for c in targets.claims(result)]
+    assert marks == [True, True, True, True, True, False, True, False, False]
     assert "1 of 2 cued colours" in sentence([result])
 
 
@@ -63,7 +56,7 @@ def test_a_photograph_of_the_user_is_searched(tmp_path: Path) -> None:
     (peak,), x_and_y = blue.spatial, scene_axes()[:2]
     assert result.scene.picture.to_pixels(x_and_y, *peak) == pytest.approx(blue.places[0], abs=3)
     assert not red.spatial
-    assert all(c.holds is None for c in claims(result)[1:])
+    assert all(c.holds is None for c in targets.claims(result)[1:])
 
 
 @pytest.mark.parametrize("way", ["film", "camera"])
@@ -80,21 +73,16 @@ def test_a_video_and_a_camera_are_searched(way: str) -> None:
     assert not blue.places and abs(red.motor[0] - red.places[0][0]) < 4
 
 
-def test_a_missing_video_or_camera_is_an_error(tmp_path: Path) -> None:
-    for options, says in (
-        (["--video", "none.mp4"], "there is no such video"),
-        (["--camera", "77"], "there is no camera"),
-    ):
-        done = subprocess.run(
-            [sys.executable, "-m", "deodar", "demo", "saliency", *options],
-            cwd=tmp_path,
-            capture_output=True,
-            text=True,
-            timeout=600,
-        )
-        assert (
-            done.returncode == 1 and says in " ".join(done.stderr.split()) and "Traceback" not in done.stderr
-        ), done.stderr
+@pytest.mark.parametrize(
+    ("option", "says"),
+    [("--video none.mp4", "there is no such video"), ("--camera 77", "there is no camera")],
+)
+def test_a_missing_video_or_camera_is_an_error(
+    option: str, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    command = typed(f"demo saliency {option}")
+    assert command.status == 1 and says in " ".join(command.err.split()), command.err
     assert not list(tmp_path.iterdir())
 
 
@@ -105,13 +93,6 @@ def test_invalid_pictures_cues_and_folders_are_refused(tmp_path: Path) -> None:
         own(tmp_path / "nothing.jpg", [400.0])
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "thesis.txt").write_text("do not lose me")
-    for force in ([], ["--force"]):
-        done = subprocess.run(
-            [sys.executable, "-m", "deodar", "demo", "saliency", "--out", "full", *force],
-            cwd=tmp_path,
-            capture_output=True,
-            text=True,
-            timeout=600,
-        )
-        assert done.returncode == 1 and "Traceback" not in done.stderr
+    for force in ("", "--force"):
+        assert typed("demo saliency", force, "--out", tmp_path / "full").status == 1
     assert [p.name for p in (tmp_path / "full").iterdir()] == ["thesis.txt"]
