@@ -73,8 +73,8 @@ BESIDE = [((), ()), ((), (RING,)), ((BORDER,), ()), ((), (RING, BORDER)), ((RING
 def test_folded_transforms_are_products_with_whole_bases(
     w: Waves, before: tuple[Waves, ...], after: tuple[Waves, ...]
 ) -> None:
-    """To rounding in double precision, over one to three axes in any order; each folded axis stands in two
-    of the five orders.
+    """To rounding in double precision, over one to three axes in any order; each folded axis has two of the
+    five orders.
     """
     axes = (*before, w, *after)
     y = np.random.default_rng(1).normal(size=[axis_waves.samples for axis_waves in axes])
