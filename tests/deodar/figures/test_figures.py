@@ -36,6 +36,11 @@ def test_a_space_time_plot_shows_the_values_with_units(recorded: xarray.Dataset)
     figure = space_time(trial)
     (image,) = images(figure)
     assert np.allclose(image, trial.values.T)
+    # each column lies around its time
+    times = trial["time"].values
+    half = (times[1] - times[0]) / 2
+    (drawn,) = figure.axes[0].get_images()
+    assert drawn.get_extent()[:2] == pytest.approx([times[0] - half, times[-1] + half])
     assert {"time (ms)", "x (deg)"} <= labels(figure) and any(
         "activation of u" in text for text in labels(figure)
     )

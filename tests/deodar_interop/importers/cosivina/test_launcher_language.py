@@ -52,6 +52,7 @@ def labels(text):
         ("size(zeros(3, 5))", [3, 5]),
         ("linspace(0, 1, 3)", [0, 0.5, 1]),
         ("repmat([1 2], [1, 2])", [1, 2, 1, 2]),
+        ("numel(repmat([1 2], 1, -1))", 0),
         ("inf", "_Inf_"),
         ("[1, inf]", [1, "_Inf_"]),
         ("pi", math.pi),
