@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from deodar.errors import ParameterError, WorkerError, show
+from deodar.errors import ParameterError, WorkerError, option, show
 
 LOCAL = ("127.0.0.1", "localhost", "[::1]")
 """Hosts that are this machine."""
@@ -68,9 +68,13 @@ class Cluster:
         if not self.trust_network:
             raise WorkerError(
                 f"{what} beyond this machine, without encryption",
-                fix="Use a scheduler at tls://HOST:PORT; in a network of your own state that you trust it:"
-                " trust_network=True, on the command line --trust-network, in the studio the box Trust the"
-                " network",
+                fix=option(
+                    "Use a scheduler at tls://HOST:PORT; in a network of your own state that you trust it:",
+                    "trust_network",
+                    "",
+                    "True",
+                    "the box Trust the network",
+                ),
             )
 
     @classmethod

@@ -2,7 +2,7 @@
 
 Every error that deodar raises on purpose is a `DeodarError`. Its message is one paragraph of up to four
 parts: *what* is wrong, *where* (a path, and the line that declared it), *why* it is wrong, and a *fix* to
-type.
+type. A fix that differs between a script, a shell and the page of the studio is a `Fix`.
 """
 
 from __future__ import annotations
@@ -15,6 +15,65 @@ from typing import Any, Literal, TypeVar
 T = TypeVar("T")
 
 Severity = Literal["problem", "warning"]
+
+
+Place = Literal["script", "shell", "page"]
+"""Where a message is read: a script or notebook, a shell that ran `deodar`, or the page of the studio."""
+
+PLACES: tuple[Place, ...] = ("script", "shell", "page")
+
+
+class Fix(str):
+    """What to do in a script, as text, with other words for a shell and for the page of the studio.
+
+    Args:
+        script: for readers of a script; where the other two are not given, for all.
+        shell: for readers of a command's message.
+        page: for readers of the page.
+
+    >>> fix = Fix("Replace it: force=True", shell="Replace it: --force", page="Choose another name")
+    >>> fix, fix.at("shell")
+    ('Replace it: force=True', 'Replace it: --force')
+    """
+
+    shell: str
+    page: str
+
+    def __new__(cls, script: str, shell: str = "", page: str = "") -> Fix:
+        fix = super().__new__(cls, script)
+        fix.shell, fix.page = shell or script, page or script
+        return fix
+
+    def at(self, place: Place) -> str:
+        """Return the text for a place."""
+        return str(self) if place == "script" else getattr(self, place)
+
+    def then(self, text: str) -> Fix:
+        """Return this fix and another one, at each place."""
+        other = text if isinstance(text, Fix) else Fix(text)
+        return Fix(*(joined(self.at(place), other.at(place)) for place in PLACES))
+
+
+def option(advice: str, name: str, value: str, argument: str = "", page: str = "") -> Fix:
+    """Return advice that ends with an option of a command, and with the argument of a function.
+
+    Args:
+        advice: what is done with it.
+        name: name of the argument; the option has hyphens.
+        value: value of the option.
+        argument: value of the argument; "": that of the option.
+        page: what it is in the studio; "": the argument is named there, too.
+
+    >>> option("Give a longer one:", "duration", "1000").at("shell")
+    'Give a longer one: --duration 1000'
+    """
+    flag = f"--{name.replace('_', '-')} {value}".rstrip()
+    return Fix(f"{advice} {name}={argument or value}", f"{advice} {flag}", page and f"{advice} {page}")
+
+
+def joined(first: str, second: str) -> str:
+    """Return two sentences as one text; either may be empty."""
+    return f"{first.rstrip('.')}. {second}" if first and second else first or second
 
 
 @dataclass(frozen=True)
@@ -30,8 +89,16 @@ class Problem:
     severity: Severity = "problem"
 
     def __str__(self) -> str:
+        return self.at("script")
+
+    def at(self, place: Place) -> str:
+        """Return the message for a place."""
         text = f"{self.where}: {self.what}" if self.where else self.what
-        return f"{text.rstrip('.')}. {self.fix}" if self.fix else text
+        return joined(text, self.fix_at(place))
+
+    def fix_at(self, place: Place) -> str:
+        """Return what to do at a place."""
+        return self.fix.at(place) if isinstance(self.fix, Fix) else self.fix
 
 
 class DeodarError(Exception):
@@ -42,7 +109,7 @@ class DeodarError(Exception):
             self.problems: tuple[Problem, ...] = (Problem(where, what, fix),)
         else:
             self.problems = tuple(what)
-        super().__init__(self._text())
+        super().__init__(self.at("script"))
 
     def __reduce__(self) -> Any:
         """Pickle all attributes, whatever the arguments of the class, so that an error can cross
@@ -53,15 +120,16 @@ class DeodarError(Exception):
     def advise(self, text: str) -> None:
         """Append a sentence to what the message says to do."""
         *others, last = self.problems
-        fix = f"{last.fix.rstrip('.')}. {text}" if last.fix else text
+        fix = last.fix.then(text) if isinstance(last.fix, Fix) else joined(last.fix, text)
         self.problems = (*others, replace(last, fix=fix))
-        self.args = (self._text(),)
+        self.args = (self.at("script"),)
 
-    def _text(self) -> str:
+    def at(self, place: Place) -> str:
+        """Return the message for a place."""
         if len(self.problems) == 1:
-            return str(self.problems[0])
+            return self.problems[0].at(place)
         lines = [f"{len(self.problems)} problems"]
-        lines += [f"  {number}. {problem}" for number, problem in enumerate(self.problems, 1)]
+        lines += [f"  {number}. {problem.at(place)}" for number, problem in enumerate(self.problems, 1)]
         return "\n".join(lines)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from deodar.analysis.statistics import mean_interval, wilson
 from deodar.batch.simulate import simulate
 from deodar.codec import Json
-from deodar.errors import ParameterError, instance_of
+from deodar.errors import ParameterError, instance_of, option
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes
 from deodar.resources import Resources
@@ -119,7 +119,7 @@ def compare_spikes(
         ParameterError: there are no trials.
     """
     if trials < 1:
-        raise ParameterError(f"{trials} trials", fix="Give 1 or more: --trials 100")
+        raise ParameterError(f"{trials} trials", fix=option("Give 1 or more:", "trials", "100"))
     given = SpikingOptions() if options is None else instance_of(SpikingOptions, options, "options")
     made = prepare(model, model.document.name, given)
     network, graph = made.translated.network, made.fitted.graph

@@ -12,7 +12,7 @@ import numpy as np
 from deodar.element import Element
 from deodar.elements.field import Field
 from deodar.elements.soft_winner_take_all import SoftWinnerTakeAll
-from deodar.errors import TimeError
+from deodar.errors import TimeError, option
 from deodar.importers.report import Verdict
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
@@ -61,7 +61,7 @@ class TranslationSetup:
             raise TimeError(
                 f"the step {self.step * 1e3:g} ms is not below {name} = {tau * 1e3:g} ms",
                 where=entry.path,
-                fix=f"Give a step below it, for example --step {tau / self.unit / 10:g}",
+                fix=option("Give one below it, for example", "step", f"{tau / self.unit / 10:g}"),
             )
         return tau
 

@@ -60,7 +60,7 @@ def require_size(entries: int, what: str) -> None:
     if entries > MOST_ENTRIES:
         raise TooLarge(
             f"{what} has {entries:,} weights, more than {MOST_ENTRIES:,}",
-            fix="Use fewer samples or --neurons: a network has a weight for each pair of neurons",
+            fix="Use fewer samples, or fewer neurons: a network has a weight for each pair of neurons",
         )
 
 

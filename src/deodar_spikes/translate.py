@@ -15,7 +15,7 @@ import numpy as np
 
 from deodar.couplings.delay import Delay
 from deodar.element import Element
-from deodar.errors import ModelError, ParameterError, TimeError
+from deodar.errors import ModelError, ParameterError, TimeError, option
 from deodar.importers.report import ImportReport, Line, Verdict
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.model import Model
@@ -79,13 +79,13 @@ def translate(
     if problems:
         raise ModelError(problems)
     if neurons < 1:
-        raise ParameterError(f"{neurons} neurons of a cell", fix="Give 1 or more: --neurons 20")
+        raise ParameterError(f"{neurons} neurons of a cell", fix=option("Give 1 or more:", "neurons", "20"))
     unit = unit_seconds(doc.time_unit)
     dt = (doc.step if step is None else step) * unit
     if not 0 < dt < MEMBRANE:
         raise TimeError(
             f"the step {dt * 1e3:g} ms is not below the membrane's time constant {MEMBRANE * 1e3:g} ms",
-            fix=f"Give a shorter step, for example --step {MEMBRANE / 40 / unit:g}",
+            fix=option("Give a shorter one, for example", "step", f"{MEMBRANE / 40 / unit:g}"),
         )
     return _Translation(doc, nodes, TranslationSetup(neurons, dt, MEMBRANE, unit, tonic)).run(name)
 

@@ -113,9 +113,7 @@ def test_a_model_without_neurons_is_refused() -> None:
 
 def test_a_step_above_a_time_constant_is_refused() -> None:
     model = winner_take_all(pairs(1).inputs[0])
-    with pytest.raises(
-        TimeError, match=r"pool: the step 6 ms is not below tau_inhibition = 5 ms.*--step 0.5"
-    ):
+    with pytest.raises(TimeError, match=r"pool: the step 6 ms is not below tau_inhibition = 5 ms.*step=0.5"):
         translate(model, step=6)
     with pytest.raises(TimeError, match=r"the step 20 ms is not below the membrane"):
         translate(model, step=20)

@@ -25,7 +25,7 @@ from deodar.batch import cluster_task, scheduler
 from deodar.batch.cluster_task import INSTRUCTIONS
 from deodar.batch.driver import Staffing, WorkerWatch
 from deodar.cluster import Cluster
-from deodar.errors import WorkerError, first_line
+from deodar.errors import WorkerError, first_line, option
 
 TASKS_A_WORKER = 2
 """Most tasks per worker that are submitted at a time: one runs, and the next one is there when it ends."""
@@ -364,9 +364,12 @@ class ClusterPool:
         elif moment - self._staffed > self.cluster.patience:
             raise WorkerError(
                 f"{self.cluster.address} has had no worker for {self.cluster.patience:g} s",
-                fix="Start workers (dask worker ADDRESS --nthreads 1), or wait longer for them:"
-                " Cluster(..., patience=3600), on the command line --patience 3600, in the studio the field"
-                " Patience. Then repeat the call: it resumes",
+                fix=option(
+                    "Start workers (dask worker ADDRESS --nthreads 1), or wait longer for them:",
+                    "patience",
+                    "3600",
+                    page="the field Patience",
+                ).then("Then repeat the call: it resumes"),
             )
         wide = [f"{address} ({n})" for address, n in seen.workers.items() if n != 1]
         if wide:
@@ -415,8 +418,9 @@ class ClusterPool:
             raise WorkerError(
                 f"workers differ in their {name}: {self._class[name]!r} and {machine_class[name]!r}, so that"
                 " the last digits of their rows may differ",
-                fix="Use workers of one kind, or allow it: mixed=True, on the command line --mixed, in the"
-                " studio the box Mixed machines",
+                fix=option(
+                    "Use workers of one kind, or allow it:", "mixed", "", "True", "the box Mixed machines"
+                ),
             )
         stated = {name: text for name, text in worker.items() if name != INSTRUCTIONS}
         self._accepted = dict(worker)

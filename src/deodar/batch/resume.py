@@ -18,7 +18,7 @@ from deodar.batch.simulation_request import SimulationRequest
 from deodar.cluster import Cluster
 from deodar.compiler import device as devices
 from deodar.compiler import hosts
-from deodar.errors import RecordError, WorkerError
+from deodar.errors import Fix, RecordError, WorkerError, option
 from deodar.precision import Arithmetic
 from deodar.recording import provenance
 from deodar.resources import Resources, use_resources
@@ -89,7 +89,7 @@ def resume(
         )
     if description.get("complete", True) and whole == settings["duration"]:
         raise RecordError(
-            "is complete", where=str(path), fix="Give a longer duration, for example --duration 1000"
+            "is complete", where=str(path), fix=option("Give a longer one, for example", "duration", "1000")
         )
     hosts.require_one("resuming a run", hosts.count() > 1)
     run_request = dc.replace(SimulationRequest(**settings), duration=whole)
@@ -114,7 +114,9 @@ def resume(
                 "was made by other versions or on another machine, so the rest would not have the same bits: "
                 + "; ".join(map(str, changes)),
                 where=str(path),
-                fix="Accept the differences: --yes, or accept=lambda differences: True",
+                fix=Fix(
+                    "Accept the differences: accept=lambda differences: True", "Accept the differences: --yes"
+                ),
             )
         out = RunOutput(Output(path), resume=True, cut=bool(changes))
         if whole > settings["duration"]:

@@ -75,7 +75,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         try:
             COMMANDS[words[0]]
         except UnknownName as error:
-            print(f"deodar: {error}", file=sys.stderr)
+            print(f"deodar: {error.at('shell')}", file=sys.stderr)
             return 2
     args = parser(words).parse_args(words)
     try:
@@ -83,7 +83,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             _import(name)
         return int(args.run(args))
     except DeodarError as error:
-        print(f"deodar {args.command}: {error}", file=sys.stderr)
+        print(f"deodar {args.command}: {error.at('shell')}", file=sys.stderr)
     except KeyboardInterrupt:
         print(f"deodar {args.command}: stopped", file=sys.stderr)
     except BrokenPipeError:

@@ -82,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
                 _long.confirm_run(args, args.duration or 0.0, step, simulated)
             record = simulated(args.duration or 0.0, progress, Output(out, args.force, args.snapshots))
     except Interrupted as error:
-        record, stopped = error.data, str(error)
+        record, stopped = error.data, error.at("shell")
     if folder is None:  # the first host writes and reports
         return 1 if stopped else 0
     return _run_report.finish(

@@ -151,7 +151,7 @@ def document(text: str) -> Path:
     try:
         return examples.named(text)
     except UnknownName as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
+        raise argparse.ArgumentTypeError(error.at("shell")) from None
 
 
 def add_document(

@@ -69,7 +69,7 @@ class RunFolder:
                 second = places.free(parent, self.name if self.requested is None else self.requested.name)
                 return second, folder.write(data, doc, second, format)
 
-            return WrittenRun(*_rescue.rescue(error, write, first, ask), f"{error}")
+            return WrittenRun(*_rescue.rescue(error, write, first, ask), error.at("shell"))
 
 
 @dc.dataclass(frozen=True)
@@ -97,4 +97,4 @@ class GrownRecord:
         try:
             return WrittenRun(self.path, folder.convert(self.path, self.format), "")
         except (OutputError, RecordError) as error:
-            return WrittenRun(self.path, record, str(error))
+            return WrittenRun(self.path, record, error.at("shell"))

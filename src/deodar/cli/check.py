@@ -44,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
         print(_json(problems))
         return int(failed)
     for p in problems:
-        print(f"warning: {p}" if p.severity == "warning" else p)
+        print(("warning: " if p.severity == "warning" else "") + p.at("shell"))
     if not failed:
         d, n = model.document, len(problems)
         good = f"no problem, {n} warning{'s' if n > 1 else ''}" if problems else "good"
@@ -53,5 +53,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _json(problems: Sequence[Problem]) -> str:
-    listed = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
+    listed = [
+        {"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix_at("shell")} for p in problems
+    ]
     return codec.text({"problems": listed})

@@ -172,7 +172,9 @@ def _needs(path: str) -> dict[str, Any]:
         document_files.load(place)
     except DocumentError as error:
         problems = [
-            f"{p.what}. {p.fix}".removesuffix(". ") for p in error.problems if ": packages." in p.where
+            f"{p.what}. {p.fix_at('shell')}".removesuffix(". ")
+            for p in error.problems
+            if ": packages." in p.where
         ]
         return {"file": path, "problems": problems, "opens": False, "check": check}
     return {"file": path, "problems": [], "opens": True, "check": check}

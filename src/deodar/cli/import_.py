@@ -56,7 +56,10 @@ def run(args: argparse.Namespace) -> int:
     if args.out is not None and not failed:
         save(Model(document=with_report(doc, report)), args.out, args.force)
     if args.json:
-        lines = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
+        lines = [
+            {"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix_at("shell")}
+            for p in problems
+        ]
         written = str(args.out) if args.out is not None and not failed else None
         print(codec.text({**located(report, doc).data(), "problems": lines, "out": written}))
         return int(failed)
@@ -65,7 +68,7 @@ def run(args: argparse.Namespace) -> int:
         ("problem", "It does not run as it is:"),
         ("warning", "It runs, but this is probably a mistake:"),
     ):
-        if listed := [f"  {p}" for p in problems if p.severity == severity]:
+        if listed := [f"  {p.at('shell')}" for p in problems if p.severity == severity]:
             print("\n".join([title, *listed]))
     if failed:
         print("Nothing was written: --strict.")

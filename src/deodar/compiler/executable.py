@@ -41,7 +41,7 @@ from deodar.compiler.plan import Leaf, Plan, plan, strategies_of
 from deodar.compiler.program import BEGUN, Chunk, Port, Program, precision_context
 from deodar.compiler.shard import DividedFields
 from deodar.element import Arrays
-from deodar.errors import ModelError, ParameterError, Untrusted
+from deodar.errors import Fix, ModelError, ParameterError, Untrusted
 from deodar.leaves import arrays, resting, structure
 from deodar.model.check import problems
 from deodar.model.document import Document
@@ -701,8 +701,10 @@ def require_trust(model: Model, doc: Document) -> None:
             raise Untrusted(
                 f"the document asks to run the function {name!r}",
                 where=e.path,
-                fix=(
-                    "If you trust it, type dd.load(file, trust=True), or --trust; after unpickling"
-                    " dd.Model(document=model.document, trusted=True)"
+                fix=Fix(
+                    "If you trust it: dd.load(file, trust=True); after unpickling"
+                    " dd.Model(document=model.document, trusted=True)",
+                    "If you trust it: --trust",
+                    "If you trust it, start the studio with --trust",
                 ),
             )

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Self, cast
 
 from deodar import codec, plugins
 from deodar.codec import Json, JsonObject
-from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, UnknownName, did_you_mean
+from deodar.errors import DeodarError, DocumentError, Fix, ParameterError, Problem, UnknownName, did_you_mean
 from deodar.experiments.actions import ACTIONS
 from deodar.experiments.events import EVENTS
 from deodar.experiments.experiment_migrations import migrate
@@ -149,7 +149,7 @@ class Design(Part):
         """
         if not isinstance(data, dict) or "experiment" not in data:
             if isinstance(data, dict) and "deodar" in data:
-                fix = "Type: deodar run FILE --duration MS"
+                fix = Fix("Open it: dd.load(FILE)", "Type: deodar run FILE --duration MS")
                 raise DocumentError("is not an experiment: it is a model", fix=fix)
             raise DocumentError("is not an experiment: it has no key 'experiment'")
         content = _migrated(cast("dict[str, Any]", data), folder, read)

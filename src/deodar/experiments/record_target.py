@@ -17,7 +17,16 @@ import xarray
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import OutputError, OutputExists, ParameterError, RecordError, WorkerError, first_line
+from deodar.errors import (
+    Fix,
+    OutputError,
+    OutputExists,
+    ParameterError,
+    RecordError,
+    WorkerError,
+    first_line,
+    option,
+)
 from deodar.experiments.rows import Row, different
 from deodar.model import output
 from deodar.recording.archive import ArchiveWriter
@@ -168,7 +177,7 @@ def claimed(
         raise OutputExists(
             f"holds records of another experiment: {', '.join(changed)} differ",
             where=address.shown,
-            fix="Name another store: records=..., on the command line --records",
+            fix=option("Name another store:", "records", "STORE", "..."),
         )
     place = (codec.line({"store": address.shown}) + "\n").encode()
     if not (folder / PLACE).is_file() or (folder / PLACE).read_bytes() != place:
@@ -219,7 +228,7 @@ def require_here(rows: Mapping[str, Row], folder: Path) -> None:
         raise RecordError(
             f"the records of {count} trials are in the store {where}, which this call does not name",
             where=str(folder),
-            fix=f"Continue with records={where!r}, on the command line --records {where}",
+            fix=option("Continue with", "records", where, repr(where)),
         )
 
 
@@ -299,16 +308,20 @@ def _require_objects(address: StoreAddress, rows: Mapping[str, Row], folder: Pat
         raise RecordError(
             f"{beside} trials have rows whose records are not in a store, but in {OBJECTS}/ beside them",
             where=str(folder),
-            fix="Leave out records (--records), or begin in another folder (--out)",
+            fix=Fix(
+                "Leave out records, or begin in another folder",
+                "Leave out --records, or begin in another folder: --out",
+            ),
         )
     sizes = address.open().sizes(OBJECTS)
     missing = sorted(name for name, size in objects.items() if sizes.get(name) != size)
     if missing:
         before = stored_place(folder)
-        fix = "Connect the store" if before in ("", address.shown) else f"Continue with --records {before}"
+        same = before in ("", address.shown)
+        fix = Fix("Connect the store") if same else option("Continue with", "records", before, repr(before))
         raise RecordError(
             f"it lacks {len(missing)} of the {len(objects)} objects with the records of existing rows, the"
             f" first is {missing[0]}",
             where=address.shown,
-            fix=f"{fix}, or copy them there. To run all trials again, name another folder: --out",
+            fix=fix.then("Or copy them there. To run all trials again, name another folder"),
         )

@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from matplotlib.axes import Axes
 
-from deodar.errors import RecordError
+from deodar.errors import RecordError, option
 from deodar.figures import _course, _style
 from deodar.figures._view import TRIAL, View, values
 
@@ -42,7 +42,7 @@ def curves(
         raise RecordError(
             f"would need {int(np.prod(grid))} curves; a figure shows at most {MOST_CURVES}",
             where=view.name,
-            fix="Choose values with --where PATH=VALUE",
+            fix=option("Choose values:", "where", "PATH=VALUE", "{PATH: value}"),
         )
     many = TRIAL in v.dims and v.sizes[TRIAL] > 1
     ordered = v.transpose(*others, *([TRIAL] if TRIAL in v.dims else []), across)

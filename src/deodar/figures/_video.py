@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from deodar.errors import FigureError
+from deodar.errors import FigureError, Fix, option
 from deodar.figures import _encode
 from deodar.figures._moving import Changing
 from deodar.figures._view import View
@@ -33,7 +33,11 @@ def times(views: Sequence[View], every: float | None) -> np.ndarray:
     found = [view.times for view in views if view.at is None and len(view.times) > 1]
     if not found:
         raise FigureError(
-            "nothing in the figure changes over time", fix="Draw a record with several times, without --at"
+            "nothing in the figure changes over time",
+            fix=Fix(
+                "Draw a record with several times, without at",
+                "Draw a record with several times, without --at",
+            ),
         )
     if every is None:
         finest = max(found, key=len)
@@ -61,7 +65,11 @@ def rate(views: Sequence[View], shown: np.ndarray, speed: float | None, format: 
         raise FigureError(
             f"needs {found:.4g} frames in a second; {format} has {most:g} at most",
             where=f"speed {speed:g}",
-            fix=f"One frame every {speed / most / unit_seconds(unit):.3g} {unit} or more: --every",
+            fix=option(
+                f"One frame every so many {unit} or more:",
+                "every",
+                f"{speed / most / unit_seconds(unit):.3g}",
+            ),
         )
     return found
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray
 
-from deodar.errors import RecordError, did_you_mean
+from deodar.errors import Fix, RecordError, did_you_mean, option
 from deodar.recording.record import time_dimension
 
 if TYPE_CHECKING:
@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 TIME, TRIAL = "time", "trial"
 REDUCTIONS = ("maximum", "integral")
 NEAR = 1e-9
+
+
+def other_kind(name: str) -> Fix:
+    """Return the advice to draw another kind of figure."""
+    return Fix(f"Draw it with dd.{name}", f"Type: --kind {name}")
 
 
 @dc.dataclass(frozen=True)
@@ -239,7 +244,7 @@ class View:
             raise RecordError(
                 f"{len(self.at)} times were given, and one is drawn",
                 where=self.name,
-                fix="Several times: --kind snapshots",
+                fix=other_kind("snapshots"),
             )
         return self.steps([len(self.times) - 1])[0]
 
@@ -301,7 +306,7 @@ def values(part: xarray.DataArray) -> np.ndarray:
         raise RecordError(
             f"cannot be read, its file may be damaged ({type(error).__name__}: {text})",
             where=str(part.name or ""),
-            fix="Draw another part of it with --time-range",
+            fix=option("Draw another part of it:", "time_range", "0 500", "(0, 500)"),
         ) from None
 
 

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._moving import Changing, frames, limits, texts
-from deodar.figures._view import View, values
+from deodar.figures._view import View, other_kind, values
 
 ACROSS = False
 
@@ -130,7 +130,7 @@ def _onto(view: View) -> list[tuple[str, ...]]:
         raise RecordError(
             f"has {len(space)} axes; a projection needs two or more",
             where=view.name,
-            fix="Type: --kind snapshot",
+            fix=other_kind("snapshot"),
         )
     if view.axes is None:
         return list(itertools.combinations(space, 2))

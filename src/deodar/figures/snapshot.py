@@ -11,10 +11,10 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from deodar.errors import RecordError
+from deodar.errors import RecordError, option
 from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._moving import Changing, frames, limits, texts
-from deodar.figures._view import TRIAL, View, values
+from deodar.figures._view import TRIAL, View, other_kind, values
 
 ACROSS = False
 
@@ -55,7 +55,7 @@ def paint(ax: Axes, view: View) -> None:
         raise RecordError(
             f"has {len(view.space)} axes; a snapshot has at most two",
             where=view.name,
-            fix="Type: --kind projection",
+            fix=other_kind("projection"),
         )
     k = view.instant()
     if len(view.space) == 2:
@@ -121,7 +121,7 @@ def _values(ax: Axes, view: View, k: int) -> None:
         raise RecordError(
             f"was swept over {', '.join(swept)}; one of them is drawn",
             where=view.name,
-            fix="Choose values with --where PATH=VALUE",
+            fix=option("Choose values:", "where", "PATH=VALUE", "{PATH: value}"),
         )
     if not swept:
         across = v[TRIAL].values if TRIAL in v.dims else np.zeros(1)

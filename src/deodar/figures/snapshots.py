@@ -11,7 +11,7 @@ from matplotlib.figure import Figure, FigureBase
 
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
-from deodar.figures._view import View, values
+from deodar.figures._view import View, other_kind, values
 
 ACROSS = False
 MOST = 4
@@ -50,7 +50,7 @@ def size(view: View) -> tuple[float, float]:
 def fill(place: FigureBase, view: View) -> None:
     """Draw into a figure, or into a part of one."""
     if len(view.space) not in (1, 2):
-        fix = "Type: --kind projection" if view.space else "Type: --kind time_course"
+        fix = other_kind("projection" if view.space else "time_course")
         raise RecordError(
             f"has {len(view.space)} axes; a sequence of snapshots has one or two", where=view.name, fix=fix
         )

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure, FigureBase
 
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _style
-from deodar.figures._view import View, values
+from deodar.figures._view import View, other_kind, values
 
 ACROSS = True
 MOST_TIMES = 4000
@@ -54,7 +54,7 @@ def paint(ax: Axes, view: View) -> None:
         raise RecordError(
             what,
             where=view.name,
-            fix="Type: --kind snapshot" if len(view.space) < 3 else "Type: --kind projection",
+            fix=other_kind("snapshot" if len(view.space) < 3 else "projection"),
         )
     every = 1 + len(view.times) // MOST_TIMES  # more columns than a printer has dots
     shown, times, space = values(view.one()[::every]), view.times[::every], view.space[0]

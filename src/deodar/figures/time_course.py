@@ -9,7 +9,7 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from deodar.errors import RecordError
+from deodar.errors import Fix, RecordError
 from deodar.figures import _course, _draw, _lines, _style
 from deodar.figures._view import TRIAL, View, values
 
@@ -112,7 +112,7 @@ def _nearest(view: View, place: np.ndarray) -> Sample:
         raise RecordError(
             f"a place has {len(view.space)} numbers ({', '.join(view.space)}), not {len(place)}",
             where=view.name,
-            fix="For example --place 30,5",
+            fix=Fix("For example places=[(30, 5)]", "For example --place 30,5"),
         )
     for d, p in zip(view.space, place, strict=True):
         low, high = view.extent(d)

@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from deodar.errors import OutputError, OutputExists
+from deodar.errors import Fix, OutputError, OutputExists
 
 THREADS = 16
 """Number of files that are flushed to the disk at the same time (a guess)."""
@@ -52,7 +52,11 @@ def claim(path: str | Path, force: bool = False) -> Path:
             raise OutputExists(
                 "exists already",
                 where=str(path),
-                fix="Choose another name, or replace it with --force (force=True)",
+                fix=Fix(
+                    "Choose another name, or replace it: force=True",
+                    "Choose another name, or replace it: --force",
+                    "Choose another name",
+                ),
             )
     parent = path.parent
     if not parent.is_dir():

@@ -9,7 +9,7 @@ from typing import Any
 
 from deodar import codec, registry
 from deodar.declarations import Needed
-from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
+from deodar.errors import Fix, ParameterError, Problem, UnknownName, did_you_mean
 from deodar.leaves import get
 from deodar.numerics.axes import Axis
 from deodar.parameters import PLAIN, FrozenArray, Parameter, Part, an, normal, parameter, parameters, show
@@ -197,11 +197,9 @@ def _kind_of(data: Any, where: str, base: type[Any], problems: list[Problem]) ->
     try:
         cls = registry.kind(typing.cast("dict[str, Any]", data)["kind"])
     except UnknownName as error:
-        hint = (
-            "For a kind of your own, import its module first (on the command line: deodar --import MODULE"
-            " ...)"
-        )
-        problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {hint}".strip()))
+        first = "For a kind of your own, import its module first"
+        hint = Fix(first, f"{first}: deodar --import MODULE ...")
+        problems.append(Problem(where, error.problems[0].what, Fix(error.problems[0].fix).then(hint)))
         return None
     if not issubclass(cls, base):
         problems.append(Problem(where, f"expected {an(base.__name__)}, got {an(cls.__name__)}"))

@@ -14,6 +14,7 @@ from deodar.errors import (
     AxesError,
     DeodarError,
     DocumentError,
+    Fix,
     ParameterError,
     Problem,
     UnknownName,
@@ -53,7 +54,7 @@ class _Reader:
         version = self.data.get("deodar")
         if version is None:
             if "experiment" in self.data:
-                fix = "Type: deodar experiment FILE --check"
+                fix = Fix("Open it: dd.load_experiment(FILE)", "Type: deodar experiment FILE --check")
                 raise DocumentError("is not a model: it is an experiment", fix=fix)
             raise DocumentError("is not a deodar document: it has no key 'deodar'")
         if not isinstance(version, int) or isinstance(version, bool) or not 1 <= version <= VERSION:

@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from deodar.errors import OutputError, OutputExists, Problem
+from deodar.errors import Fix, OutputError, OutputExists, Problem, option
 from deodar.model import output
 
 MOST_NUMBERED = 100_000
@@ -24,7 +24,11 @@ def claim_folder(path: Path, force: bool = False) -> Path:
             raise OutputExists(
                 "exists already",
                 where=str(path),
-                fix="Choose another name, or replace it with --force (force=True)",
+                fix=Fix(
+                    "Choose another name, or replace it: force=True",
+                    "Choose another name, or replace it: --force",
+                    "Choose another name",
+                ),
             )
     require_parent(path)
     return path
@@ -98,5 +102,5 @@ def free(parent: Path, name: str, suffix: str = "") -> Path:
             return path
     raise OutputError(
         f"the folder {str(parent)!r} holds {MOST_NUMBERED} results called {plain}",
-        fix="Choose a name with --out",
+        fix=option("Choose a name:", "out", "NAME", "..."),
     )

@@ -8,6 +8,7 @@ import platform
 from collections.abc import Mapping
 from typing import Any
 
+from deodar import plugins
 from deodar.codec import Json, JsonObject
 from deodar.compiler import hosts
 from deodar.compiler.device import cores
@@ -23,11 +24,16 @@ KEY = "deodar"
 
 
 def described(world: World | None) -> dict[str, Json] | None:
-    """Return the description of a world that records store; None without a world."""
+    """Return the description of a world that records store; None without a world.
+
+    It names the module of a class that is not deodar's, unless that is the script itself.
+    """
     if world is None:
         return None
     with errors_of(world, "describe"):
-        return world.describe()
+        stated = world.describe()
+    module = type(world).__module__
+    return dict(stated) if module == "__main__" or plugins.is_own(module) else {**stated, "module": module}
 
 
 def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:

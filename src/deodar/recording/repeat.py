@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import sys
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 import xarray
 
 from deodar import registry
-from deodar.errors import DeodarError, RecordError, WorldError
+from deodar.errors import DeodarError, Fix, RecordError, WorldError, option
 from deodar.model.migrations import recorded
 from deodar.model.model import Model
 from deodar.precision import Arithmetic
@@ -232,34 +233,56 @@ def _world(described: Mapping[str, Any] | None) -> World | None:
     if described is None:
         return None
     kind = str(described.get("world"))
-    world_class = registry.kinds("worlds").get(kind)
-    give = f"Give it: --world {kind.lower()}:FILE"
+    world_class = registry.kinds("worlds").get(kind) or _imported(described)
+    made = f"the record was made with the world {_shown(described)}"
     if world_class is None:
-        raise WorldError(
-            f"the record was made with the world {_shown(described)}, which is not known here", fix=give
-        )
+        raise WorldError(f"{made}, which is not known here", fix=_import(described))
+    give = option("Give it:", "world", f"{kind.lower()}:FILE", f"{kind}(...)")
     try:
         world = again(world_class, described)
     except DeodarError as error:
-        raise WorldError(
-            f"the record was made with the world {_shown(described)}, and it cannot be opened:"
-            f" {error.problems[0]}",
-            fix=give,
-        ) from error.__cause__
+        raise WorldError(f"{made}, and it cannot be opened: {error.problems[0]}", fix=give) from (
+            error.__cause__
+        )
     if _identity(provenance.described(world)) != _identity(described):
+        file = str(described.get("file", "FILE"))
         raise WorldError(
-            f"the record was made with the world {_shown(described)}, and this file now holds something else",
-            fix=(
-                "Give the file that it was made with, or this one to compare nevertheless: --world"
-                f" {kind.lower()}:{described.get('file', 'FILE')}"
+            f"{made}, and this file now holds something else",
+            fix=option(
+                "Give the file that it was made with, or this one to compare nevertheless:",
+                "world",
+                f"{kind.lower()}:{file}",
+                f"{kind}({file!r})",
             ),
         )
     return world
 
 
+def _imported(described: Mapping[str, Any]) -> type[World] | None:
+    """Return the class of a world from the module that the record names, if it has been imported: a record
+    imports nothing itself.
+    """
+    module = sys.modules.get(str(described.get("module")))
+    world_class: Any = getattr(module, str(described.get("world")), None)
+    return world_class if isinstance(world_class, type) and issubclass(world_class, World) else None
+
+
+def _import(described: Mapping[str, Any]) -> Fix:
+    """Return how a world that is not known becomes so."""
+    kind, module = described.get("world"), described.get("module")
+    give = f"Give it: dd.repeat(record, world={kind}(...))"
+    if module is None:
+        return Fix(give, "Install the package that it is of, or repeat it in a script with its class")
+    first = f"Import its module {module}"
+    return Fix(f"{first}. {give}", f"{first}: deodar --import {module} run RECORD")
+
+
 def _identity(described: Any) -> Any:
-    """Return the identity of the world: its description without the path of its file."""
-    return {k: v for k, v in described.items() if k != "file"} if isinstance(described, dict) else described
+    """Return the identity of the world: its description without the places of its file and of its class."""
+    places = ("file", "module")
+    return (
+        {k: v for k, v in described.items() if k not in places} if isinstance(described, dict) else described
+    )
 
 
 def _shown(described: Any) -> str:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from deodar.errors import DeodarError, RecordError, UnknownName
+from deodar.errors import DeodarError, RecordError, UnknownName, option
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.resolve import resolve
@@ -147,7 +147,9 @@ class RecordReader:
         if name is None:
             path = find.entry(self.document, place[0]).path
             raise UnknownName(
-                "was not recorded", where=f"{path}.{place[1]}", fix=f"Record it: --record {path}.{place[1]}"
+                "was not recorded",
+                where=f"{path}.{place[1]}",
+                fix=option("Record it:", "record", f"{path}.{place[1]}", f"['{path}.{place[1]}']"),
             )
         return self._recorded[name]
 

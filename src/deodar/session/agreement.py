@@ -14,7 +14,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 
 from deodar.element import Element
-from deodar.errors import Problem, RunWarning
+from deodar.errors import Fix, Problem, RunWarning, option
 from deodar.model.document import Document
 from deodar.model.resolve import Node, resolve
 from deodar.numerics import units
@@ -147,10 +147,9 @@ class _Tracer:
         change = f"Set its {name}: model.set({f'{n.path}.{name}'!r}, {gain})"
         read = units.parse(signal.unit)
         fitting = None if read is None else units.of_size(read.quantity, read.size / ratio)
-        choose = "" if fitting is None else _choose(self.world, fitting)
-        return Problem(
-            n.path, problem, f"{choose}. Or: {change[0].lower()}{change[1:]}" if choose else change
-        )
+        choose = None if fitting is None else _choose(self.world, fitting)
+        fix = choose.then(f"Or: {change[0].lower()}{change[1:]}") if choose else change
+        return Problem(n.path, problem, fix)
 
     def _commanded(self, n: Node, name: str) -> Iterator[Problem]:
         """Yield the problem of an element whose inputs are a command in another unit than the motor's."""
@@ -250,13 +249,15 @@ def _times(ratio: float) -> str:
     return f"{ratio:.4g} times too small" if ratio > 1 else f"{1 / ratio:.4g} times too large"
 
 
-def _choose(world: World, unit: MetricUnit) -> str:
-    """Return what to type for a world with lengths in another unit; "" if its class has no such argument."""
+def _choose(world: World, unit: MetricUnit) -> Fix | None:
+    """Return what to type for a world with lengths in another unit; None without such an argument."""
     kind = type(world).__name__
     if "unit" not in inspect.signature(type(world)).parameters:
-        return ""
+        return None
     name = str(world.describe().get("file", "")) or "..."
-    return (
-        f'Choose the unit of the world: dd.{kind}("{name}", unit="{unit.symbol}"), on the command line'
-        f' --world "{kind.lower()}:{name}, unit={unit.symbol}"'
+    return option(
+        "Choose the unit of the world:",
+        "world",
+        f'"{kind.lower()}:{name}, unit={unit.symbol}"',
+        f'dd.{kind}("{name}", unit="{unit.symbol}")',
     )

@@ -16,7 +16,7 @@ from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import TrialNumbers
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.errors import NotFinite, WorldError
+from deodar.errors import NotFinite, WorldError, option
 from deodar.model.document import Document
 from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import Axes, shape
@@ -307,10 +307,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
                 raise WorldError(
                     f"reads the sensor {e.element.sensor!r}, and no world was given that provides it",
                     where=e.path,
-                    fix=(
-                        "Give one: world=dd.Picture('photo.jpg'), on the command line --world"
-                        " picture:photo.jpg"
-                    ),
+                    fix=option("Give one:", "world", "picture:photo.jpg", "dd.Picture('photo.jpg')"),
                 )
             world.require(e.element.sensor)
             _fit(e.path, e.element.sensor, world, world.sensors, tuple(e.element.axes))

@@ -18,7 +18,7 @@ from deodar.compiler.division import distributed
 from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
-from deodar.errors import DeviceError, ModelError, ParameterError, TimeError, UnknownName, WorldError
+from deodar.errors import DeviceError, ModelError, ParameterError, TimeError, UnknownName, WorldError, option
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
@@ -458,7 +458,13 @@ class Session:
         if self.world is None or scene is None:
             raise WorldError(
                 "the session has no world with a view from above",
-                fix="Give one: --world arena:blocks, or world=Arena('blocks')",
+                fix=option(
+                    "Give one:",
+                    "world",
+                    "arena:blocks",
+                    "dd.Arena('blocks')",
+                    "start the studio with --world arena:blocks",
+                ),
             )
         return self.world, scene
 

@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from deodar.errors import WorldError
+from deodar.errors import Fix, WorldError
 from deodar.worlds import _capture
 from deodar.worlds._address import Address
 from deodar.worlds._reachable import Unreachable, unreachable
@@ -143,7 +143,11 @@ class CameraReader:
         fault = "there is no camera, or another program uses it"
         if not answered:
             fault = f"sends no picture within {self.times.opening:g} s"
-        return WorldError(fault, where=where, fix="Try another number: --world camera:1")
+        return WorldError(
+            fault,
+            where=where,
+            fix=Fix("Try another number: Camera(1)", "Try another number: --world camera:1"),
+        )
 
 
 class _Stream:

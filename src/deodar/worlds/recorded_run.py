@@ -11,7 +11,7 @@ import xarray
 
 from deodar import codec
 from deodar.codec import JsonObject
-from deodar.errors import WorldError
+from deodar.errors import Fix, WorldError
 from deodar.numerics.axes import Axes, Axis
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
@@ -52,7 +52,7 @@ class Recording(World):
             raise WorldError(
                 "is not a record of a run",
                 where=file,
-                fix="Give what simulate returned, or name a record: --world recording:run.zarr",
+                fix=Fix("Give what simulate returned", "Name a record: --world recording:run.zarr"),
             )
         self.file = file
         elements = _elements(record, file)

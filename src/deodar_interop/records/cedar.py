@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from deodar.errors import RecordError
+from deodar.errors import Fix, RecordError
 from deodar.model.unit import unit_seconds
 from deodar.recording import places
 from deodar.recording.record import time_dimension
@@ -151,7 +151,11 @@ def _seconds(name: str, variable: xarray.DataArray) -> float:
         raise RecordError("has no times", where=name, fix="Name the variables that have some")
     unit = str(variable[time].attrs.get("units", "ms"))
     if unit == "abstract":
-        raise RecordError("has abstract times, and cedar writes seconds", where=name, fix="Type: --to csv")
+        raise RecordError(
+            "has abstract times, and cedar writes seconds",
+            where=name,
+            fix=Fix("Save it as .csv", "Type: --to csv"),
+        )
     return unit_seconds(unit)
 
 

@@ -122,7 +122,7 @@ def _written(args: argparse.Namespace, out: Path, fill: Callable[[Path], None]) 
         places.write_folder(out, fill, replace=args.force)
         return out, ""
     except (OutputError, OutputExists) as error:
-        return _rescue.elsewhere(error, out, fill, not args.json), str(error)
+        return _rescue.elsewhere(error, out, fill, not args.json), error.at("shell")
 
 
 def claim(out: Path, force: bool) -> None:

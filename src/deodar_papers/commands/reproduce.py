@@ -121,7 +121,7 @@ def _ran(
         )
         return False
     except (OutputError, WorkerError) as error:
-        why = _options.paragraph([str(error), f"{len(rows.found)} runs are kept"])
+        why = _options.paragraph([error.at("shell"), f"{len(rows.found)} runs are kept"])
         print(f"deodar reproduce: {why} Resume with: {_again(args, out)}", file=sys.stderr)
         return False
     return True
@@ -172,7 +172,7 @@ def _write(
     try:
         fill(asked)
     except OutputError as error:
-        out, why = _rescue.elsewhere(error, asked, fill_second, not args.json), str(error)
+        out, why = _rescue.elsewhere(error, asked, fill_second, not args.json), error.at("shell")
     if args.json:
         elsewhere = {"instead_of": str(asked)} if why else {}
         print(codec.text({"out": str(out), **codec.parse(text), **elsewhere}))

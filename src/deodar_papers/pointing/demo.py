@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from deodar.errors import ParameterError
+from deodar.errors import ParameterError, option
 from deodar_papers.papers import Demonstration, Show
 
 HELP = "an arm points at the green object on the left, then at the red one on the right (extra robots)"
@@ -57,6 +57,8 @@ def _pair(words: str) -> tuple[str, str]:
     if len(parts) != 2 or parts[0] not in COLOURS or parts[1] not in SIDES:
         raise ParameterError(
             f"--ask is {words!r}; expected a colour and a side",
-            fix=f"One of {', '.join(COLOURS)}, then one of {', '.join(SIDES)}: --ask 'green left'",
+            fix=option(
+                f"One of {', '.join(COLOURS)}, then one of {', '.join(SIDES)}:", "ask", "'green left'"
+            ),
         )
     return parts[0], parts[1]

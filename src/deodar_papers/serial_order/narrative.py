@@ -11,7 +11,7 @@ import xarray
 
 from deodar.analysis.claims import Claim
 from deodar.architectures.color_search import column_axis, hue_axis
-from deodar.errors import ParameterError
+from deodar.errors import ParameterError, option
 from deodar.experiments.trial import Trial
 from deodar_papers.serial_order.arenas import random_arena
 from deodar_papers.serial_order.colours import FIVE, letter_at
@@ -104,7 +104,7 @@ def checked(sequence: str) -> str:
         raise ParameterError(
             f"the sequence {sequence!r} has {len(letters)} colours; expected 1 to {MOST}",
             where="--sequence",
-            fix=f"Type for example: --sequence {SEQUENCE}",
+            fix=option("For example", "sequence", SEQUENCE, repr(SEQUENCE)),
         )
     unknown = [letter for letter in letters if letter not in FIVE]
     if unknown:

@@ -16,7 +16,7 @@ from deodar.analysis.claims import Claim
 from deodar.analysis.robot_paths import path_length, path_until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
 from deodar.batch.simulate import simulate
-from deodar.errors import WorldError
+from deodar.errors import WorldError, option
 from deodar.resources import Resources
 from deodar.worlds.arena.arena import Arena
 
@@ -169,7 +169,11 @@ def drive(
 ) -> Narrative:
     """Run any maze made by `dd.architectures.maze`, without obstacles that appear."""
     if arena.goals is None:
-        raise WorldError("the maze has no goal", where=arena.source, fix="Give one: --goal X Y, in cm")
+        raise WorldError(
+            "the maze has no goal",
+            where=arena.source,
+            fix=option("Give one, in cm:", "goal", "X Y", "(X, Y)"),
+        )
     model = spa(arena, noise)
     cells = math.prod(axis.samples for axis in model["north.motivation"].element.axes)  # type: ignore[attr-defined]
     every = EVERY * max(1, math.ceil(duration / EVERY * cells * 4 * len(DIRECTIONS) / MEMORY))

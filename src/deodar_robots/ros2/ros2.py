@@ -11,7 +11,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import WorldError
+from deodar.errors import WorldError, option
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import show
 from deodar.registry import register
@@ -206,7 +206,7 @@ class ROS2(World):
         raise WorldError(
             "topics are stated in a robot file",
             where=f"ros2:{argument}",
-            fix='Write one of the kind "ros2", and type: --world robot:FILE',
+            fix=option('Write one of the kind "ros2":', "world", "robot:FILE", "dd.Robot(FILE)"),
         )
 
     @classmethod

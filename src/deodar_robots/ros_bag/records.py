@@ -13,7 +13,7 @@ import xarray
 
 from deodar import codec
 from deodar.codec import JsonObject
-from deodar.errors import RecordError
+from deodar.errors import Fix, RecordError
 from deodar.model.unit import unit_seconds
 from deodar.recording import places
 from deodar.recording.record import time_dimension
@@ -69,11 +69,16 @@ def _times(name: str, variable: xarray.DataArray) -> np.ndarray:
         raise RecordError("has no times", where=name, fix="Name the variables that have some")
     lead = list(map(str, variable.dims))[: list(map(str, variable.dims)).index(time)]
     if lead:
-        fix = "Choose one: --trial 0" if lead == ["trial"] else "Choose one: --where PATH=VALUE"
+        fix = Fix(
+            f"Choose one: record.sel({{{lead[0]!r}: ...}})",
+            "Choose one: --trial 0" if lead == ["trial"] else "Choose one: --where PATH=VALUE",
+        )
         raise RecordError(f"is over {', '.join(lead)}, and a bag holds one run", name, fix)
     unit = str(variable[time].attrs.get("units", "ms"))
     if unit == "abstract":
-        raise RecordError("has abstract times, and a bag has nanoseconds", name, "Type: --to csv")
+        raise RecordError(
+            "has abstract times, and a bag has nanoseconds", name, Fix("Save it as .csv", "Type: --to csv")
+        )
     stamps = np.round(np.asarray(variable[time].values, float) * unit_seconds(unit) * 1e9).astype(np.int64)
     if len(stamps) and stamps[0] < 0:
         raise RecordError("begins before the time 0, and a bag does not", name)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from deodar import codec
-from deodar.errors import MissingExtra, WorldError
+from deodar.errors import MissingExtra, WorldError, option
 from deodar_robots.zenoh.tls_files import TlsFiles, why_not
 
 HERE = "tcp/127.0.0.1:7461"
@@ -53,8 +53,12 @@ def require_endpoint(text: str, trusted: bool = False, files: TlsFiles = NO_FILE
     if match[2] not in LOCAL and not trusted:
         raise WorldError(
             f"{text} leads beyond this machine, without encryption",
-            fix=f"Write tls/{place} and state certificates; in a network of your own state that you trust it:"
-            " trusted=True, for the server --trusted",
+            fix=option(
+                f"Write tls/{place} and state certificates; in your own network state that you trust it:",
+                "trusted",
+                "",
+                "True",
+            ),
         )
     return text
 
@@ -119,7 +123,7 @@ def listen(endpoint: str, files: TlsFiles = NO_FILES, router: bool = False) -> A
         taken = "in use" in str(error)
         raise WorldError(
             f"cannot listen at {endpoint}{': another program does' if taken else ''}",
-            fix=f"Choose another port: --at {scheme}/{host}:7462",
+            fix=option("Choose another port:", "at", f"{scheme}/{host}:7462"),
         ) from None
 
 

@@ -16,7 +16,7 @@ import jax
 import numpy as np
 
 from deodar import codec
-from deodar.errors import DeodarError, WorldError
+from deodar.errors import DeodarError, WorldError, option
 from deodar.numerics.axes import Axes, shape
 from deodar.parameters import real, show
 from deodar.worlds._base import Signal, World
@@ -71,7 +71,7 @@ class WorldServer:
         if clock == "live" and world.period is None:
             raise WorldError(
                 f"the world {type(world).__name__} never changes, so that it has no live clock",
-                fix="Serve it with --clock step",
+                fix=option("Serve it with", "clock", "step", "'step'"),
             )
         with errors_of(world, "reset"):
             world.reset(0)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from deodar.codec import Json
-from deodar.errors import WorldError
+from deodar.errors import Fix, WorldError
 
 _KEYS = "transport/link/tls/"
 
@@ -49,7 +49,10 @@ class TlsFiles:
         if not self.certificate or not self.private_key:
             raise WorldError(
                 "a server with TLS needs a certificate and its private key",
-                fix="State both: --certificate robot.pem --key robot.key",
+                fix=Fix(
+                    "State both: TlsFiles(certificate=..., private_key=...)",
+                    "State both: --certificate robot.pem --key robot.key",
+                ),
             )
         self.context()
         settings: dict[str, Json] = {

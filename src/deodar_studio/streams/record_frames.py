@@ -59,7 +59,7 @@ def opened(path: Path) -> tuple[RecordReader, tuple[Scene | None, str]]:
     try:
         scene = _scene(record)
     except DeodarError as error:
-        return record, (None, str(error.problems[0]))
+        return record, (None, error.problems[0].at("page"))
     except Exception as error:  # worlds of other packages may raise any exception
         return record, (None, f"The world of the record cannot be opened ({type(error).__name__}: {error}).")
     missing = scene is not None and position_port(record) is None

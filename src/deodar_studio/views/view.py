@@ -129,7 +129,9 @@ def problems(
     for p in found:
         concerned = [i for path in (p.where, *paths) for i in _named(path, ids)] or [""]
         out += [
-            ListedProblem(what=p.what, where=p.where, fix=p.fix, element=ident, severity=p.severity)
+            ListedProblem(
+                what=p.what, where=p.where, fix=p.fix_at("page"), element=ident, severity=p.severity
+            )
             for ident in dict.fromkeys(concerned)
         ]
     return out

@@ -233,7 +233,7 @@ def test_an_existing_array_file_of_the_same_name_is_not_replaced(saved: Path) ->
     model = dd.load(saved)
     saved.unlink()
     stranger.write_bytes(b"a stranger's")
-    refused(lambda: dd.save(model, saved), OutputExists, stranger.name, "--force")
+    refused(lambda: dd.save(model, saved), OutputExists, stranger.name, "force=True")
     assert not saved.exists()
     assert stranger.read_bytes() == b"a stranger's"
 

@@ -67,7 +67,6 @@ def test_running_a_function_requires_trust(stranger: Path, run: Callable[[dd.Mod
         Untrusted,
         "f: the document asks to run the function 'strangers_module:step'",
         "trust=True",
-        "--trust",
     )
     assert not stranger.exists()
 

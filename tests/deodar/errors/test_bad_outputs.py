@@ -32,7 +32,7 @@ def _listing(folder: Path) -> list[str]:
 def test_a_file_that_exists_is_kept_until_force(tmp_path: Path, model: dd.Model) -> None:
     path = tmp_path / "m.json"
     path.write_text("precious")
-    refused(lambda: dd.save(model, path), OutputExists, str(path), "exists already", "--force", "force=True")
+    refused(lambda: dd.save(model, path), OutputExists, str(path), "exists already", "force=True")
     assert path.read_text() == "precious"
     dd.save(model, path, force=True)
     assert dd.load(path).document == model.document

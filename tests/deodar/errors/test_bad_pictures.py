@@ -139,7 +139,7 @@ def test_a_sensor_without_a_world_is_an_error() -> None:
         WorldError,
         "eye: reads the sensor 'picture'",
         "world=dd.Picture('photo.jpg')",
-        "--world picture:",
+        "dd.Picture(",
     )
 
 

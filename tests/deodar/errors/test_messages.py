@@ -25,6 +25,29 @@ def test_several_problems_are_numbered() -> None:
     assert str(error) == "2 problems\n  1. u: one\n  2. v: two. Type this"
 
 
+def test_a_fix_is_that_of_the_place_where_it_is_read() -> None:
+    fix = errors.Fix("Replace it: force=True", "Replace it: --force", "Choose another name")
+    error = errors.OutputExists("exists", where="a.nc", fix=fix)
+    error.advise("Or remove it")
+    copy = pickle.loads(pickle.dumps(error))
+    assert str(copy) == copy.at("script") == "a.nc: exists. Replace it: force=True. Or remove it"
+    assert copy.at("shell") == "a.nc: exists. Replace it: --force. Or remove it"
+    assert copy.at("page") == "a.nc: exists. Choose another name. Or remove it"
+    assert {type(fix.at(place)) for place in ("script", "shell", "page")} == {str}
+    two = errors.ModelError([Problem("u", "one", fix), Problem("v", "two", "Type this")])
+    assert two.at("shell") == "2 problems\n  1. u: one. Replace it: --force\n  2. v: two. Type this"
+
+
+def test_an_option_is_an_argument_in_a_script() -> None:
+    trust = errors.option("Trust it:", "trust_network", "", "True", page="the box Trust")
+    assert [trust.at(place) for place in ("script", "shell", "page")] == [
+        "Trust it: trust_network=True",
+        "Trust it: --trust-network",
+        "Trust it: the box Trust",
+    ]
+    assert errors.option("One above 0:", "trials", "100").at("page") == "One above 0: trials=100"
+
+
 def test_a_single_problem_is_not_numbered() -> None:
     assert str(errors.ModelError([Problem("u", "one")])) == "u: one"
 

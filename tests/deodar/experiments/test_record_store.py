@@ -430,10 +430,10 @@ def test_a_resumed_run_names_the_store_of_its_rows(tmp_path, files):
     out, store = tmp_path / "out", tmp_path / "store"
     with pytest.raises(KeyboardInterrupt):
         made().run(out, records=store, on=Resources(progress=stop_after(4)))
-    with pytest.raises(RecordError, match=rf"lacks 2 of the 2 objects.*Continue with --records {store}, or"):
+    with pytest.raises(RecordError, match=rf"lacks 2 of the 2 objects.*Continue with records='{store}'"):
         made().run(out, records=tmp_path / "other")
     assert not (tmp_path / "other").exists()
-    with pytest.raises(RecordError, match=rf"of 4 trials are in the store {store}.*--records {store}"):
+    with pytest.raises(RecordError, match=rf"of 4 trials are in the store {store}.*records='{store}'"):
         made().run(out)
     shutil.copytree(files, tmp_path / "files")
     with pytest.raises(RecordError, match=r"8 trials have rows whose records are not in a store.*Leave out"):

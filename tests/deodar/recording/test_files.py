@@ -157,7 +157,7 @@ def _number(cell: str) -> bool:
 def test_nothing_is_replaced_without_force(recorded: xarray.Dataset, suffix: str, tmp_path: Path) -> None:
     small = recorded[["n.activation"]]
     path = files.save_record(small, tmp_path / f"record{suffix}")
-    with pytest.raises(dd.errors.OutputExists, match="--force"):
+    with pytest.raises(dd.errors.OutputExists, match="force=True"):
         files.save_record(small, path)
     files.save_record(small + 0 if suffix == ".csv" else small, path, force=True)
     assert {p.name for p in tmp_path.iterdir()} - {"record.csv-metadata.json"} == {path.name}

@@ -35,4 +35,4 @@ def test_a_folder_that_holds_all_numbers_is_an_error(tmp_path: Path, monkeypatch
         (tmp_path / f"run-{n:03}").touch()
     with pytest.raises(OutputError, match="results called run") as caught:
         places.free(tmp_path, "run")
-    assert caught.value.problems[0].fix == "Choose a name with --out"
+    assert caught.value.problems[0].fix == "Choose a name: out=..."

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +15,7 @@ from PIL import Image
 import deodar as dd
 from deodar.architectures.saliency import saliency
 from deodar.batch.simulate import simulate
+from deodar.cli import main
 from deodar.elements.function import Function
 from deodar.recording import files
 from deodar.recording.provenance import KEY, document
@@ -76,10 +79,10 @@ def test_a_world_is_opened_again_and_must_be_the_same(tmp_path: Path) -> None:
     assert repeat(record, simulate).same_bits
     picture[0, 0] = 9
     Image.fromarray(picture).save(tmp_path / "p.png")
-    with pytest.raises(dd.errors.WorldError, match="--world picture"):
+    with pytest.raises(dd.errors.WorldError, match=r"world=Picture\("):
         repeat(record, simulate)
     (tmp_path / "p.png").unlink()
-    with pytest.raises(dd.errors.WorldError, match="--world picture"):
+    with pytest.raises(dd.errors.WorldError, match=r"world=Picture\("):
         repeat(record, simulate)
 
 
@@ -133,4 +136,55 @@ def test_a_world_of_an_unknown_kind_is_named_as_the_record_describes_it(
     says = f"the record was made with the world {expected}, which is not known here"
     with pytest.raises(dd.errors.WorldError, match=re.escape(says)) as caught:
         _world(described)
-    assert caught.value.problems[0].fix == "Give it: --world nowhere:FILE"
+    assert caught.value.problems[0].fix == "Give it: dd.repeat(record, world=Nowhere(...))"
+
+
+LAMP = """
+import deodar as dd, numpy as np
+class Lamp(dd.World):
+    sensors = {"light": dd.Signal("brightness", (), "lux")}
+    period = 10.0
+    def reset(self, seed, trials=(0,), precision="float32"):
+        self.light = 1.0
+    def sense(self, sensor, axes, time):
+        self.light *= 1.5
+        return np.asarray(self.light)
+"""
+
+
+def test_a_record_of_a_world_of_ones_own_repeats_when_its_module_is_imported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "own_lamp.py").write_text(LAMP)
+    model = dd.Model("eye")
+    model.add(dd.Sensor("eye", sensor="light"))
+    lamp = importlib.import_module("own_lamp")
+    recorded = dd.simulate(model, 100, record="eye.output", every=10, world=lamp.Lamp())
+    assert about(recorded)["world"] == {"world": "Lamp", "module": "own_lamp"}
+    assert repeat(recorded, simulate).same_bits
+    dd.save_record(recorded, "seen.nc")
+    # another user, whose Python has not imported it
+    monkeypatch.delitem(sys.modules, "own_lamp")
+    with pytest.raises(dd.errors.WorldError) as caught:
+        repeat(recorded, simulate)
+    assert caught.value.at("shell").endswith(
+        "Import its module own_lamp: deodar --import own_lamp run RECORD"
+    )
+    assert "--" not in str(caught.value) and "Import its module own_lamp." in str(caught.value)
+    assert main(["run", "seen.nc", "-o", "again"]) == 1
+    assert "deodar --import own_lamp run RECORD" in capsys.readouterr().err
+    assert main(["--import", "own_lamp", "run", "seen.nc", "-o", "again"]) == 0
+    assert "same bits" in capsys.readouterr().out
+    monkeypatch.delitem(sys.modules, "own_lamp")
+
+
+def test_a_world_that_takes_arguments_is_not_made_without_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Taking(dd.World):
+        def __init__(self, light: float = 1.0) -> None:
+            self.light = light
+
+    monkeypatch.setattr(sys.modules[__name__], "Taking", Taking, raising=False)
+    with pytest.raises(dd.errors.WorldError, match=r"not opened from a file. Give it: world=Taking\(...\)"):
+        _world({"world": "Taking", "module": __name__})

@@ -80,8 +80,8 @@ def test_positions_in_another_unit_are_refused_with_the_gain_to_type(
 def test_the_gain_and_the_unit_of_an_error_correct_it() -> None:
     model = coding()
     (problem,) = agreement.judge(model.document, dd.Arena("blocks"))
-    assert 'dd.Arena("blocks", unit="cm")' in problem.fix
-    assert '--world "arena:blocks, unit=cm"' in problem.fix
+    assert 'world=dd.Arena("blocks", unit="cm")' in problem.fix
+    assert '--world "arena:blocks, unit=cm"' in problem.fix_at("shell")
     assert found(model, dd.Arena("blocks", unit="cm")) == []
     model.set("own place.gain", 100)
     assert found(model, dd.Arena("blocks")) == []

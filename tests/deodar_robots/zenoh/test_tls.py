@@ -136,7 +136,7 @@ def test_files_that_are_missing_or_wrong_are_named(tmp_path: Path):
         Zenoh(at=at, authority=AUTHORITY, certificate=FILES / "model.pem")
     key = str(FILES / "robot.key")
     for files, says in (
-        (TlsFiles(), "needs a certificate and its private key.*--certificate"),
+        (TlsFiles(), "needs a certificate and its private key.*TlsFiles"),
         (TlsFiles(AUTHORITY), "needs a certificate and its private key"),
         (TlsFiles("", str(FILES / "model.pem"), key), r"robot\.key: is not the private key of .*model\.pem"),
         (TlsFiles("", str(text), key), r"is not a private key without a password, for .*text\.pem"),

@@ -403,7 +403,7 @@ def test_names_of_robots_and_signals_may_have_any_characters(served):
 
 
 def test_a_world_that_never_changes_has_no_live_clock():
-    with pytest.raises(WorldError, match=r"never changes.*--clock step"):
+    with pytest.raises(WorldError, match=r"never changes.*clock='step'"):
         ServedWorld(dd.Picture(np.zeros((4, 4, 3))), clock="live")
 
 

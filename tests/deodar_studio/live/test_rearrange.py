@@ -94,7 +94,7 @@ def test_a_world_without_a_scene_has_no_objects_to_move() -> None:
     model.add(dd.Field("u", []))
     session = dd.Session(model)
     assert session.scene() is None
-    with pytest.raises(WorldError, match=r"no world with a view from above.*--world arena:blocks"):
+    with pytest.raises(WorldError, match=r"no world with a view from above.*world=dd.Arena"):
         session.move("crate", (1, 1))
 
 

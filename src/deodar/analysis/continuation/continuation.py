@@ -14,7 +14,7 @@ from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.refinement import checked
 from deodar.analysis.continuation.right_hand_side import RightHandSide, right_hand_side
 from deodar.analysis.continuation.walk import WalkPoint, begun, walk
-from deodar.errors import AnalysisError, ParameterError
+from deodar.errors import AnalysisError, ParameterError, option
 from deodar.model.model import Model
 from deodar.parameters import show
 
@@ -122,7 +122,7 @@ def _require_effect(line: ParameterLine, start: WalkPoint, parameter: str, last:
     raise AnalysisError(
         f"changes nothing in the steady state, at time {equations.at:g}",
         where=parameter,
-        fix="If it belongs to a stimulus with windows, name a time inside of them: at=200, or --at 200",
+        fix=option("If it belongs to a stimulus with windows, name a time inside of them:", "at", "200"),
     )
 
 
