@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,11 @@ def node(noise: float = 0.5) -> dd.Model:
     stimulus = model.add(dd.GaussianStimulus("s", amplitude=2.0))
     stimulus >> model.add(dd.Field("n", tau=10, noise=noise))
     return model
+
+
+@functools.cache
+def uncut(own_noise: bool, trials: int | None) -> np.ndarray:
+    return run(dd.Points(POINTS, own_noise), trials)
 
 
 def run(sweep: dd.Points, trials: int | None = None, **used: int) -> np.ndarray:
@@ -56,7 +62,7 @@ def test_each_point_has_its_values_and_its_coordinates() -> None:
 @pytest.mark.parametrize("trials", [None, 3, 8])
 @pytest.mark.parametrize("own", [False, True])
 def test_a_cut_changes_no_value(batch: int, trials: int | None, own: bool) -> None:
-    whole = run(dd.Points(POINTS, own), trials)
+    whole = uncut(own, trials)
     cut = run(dd.Points(POINTS, own), trials, batch=batch)
     assert whole.shape == ((5, 21) if trials is None else (5, trials, 21))
     np.testing.assert_allclose(cut, whole, atol=1e-12)

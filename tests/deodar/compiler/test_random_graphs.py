@@ -327,6 +327,7 @@ def test_random_graphs_in_double_precision_agree_with_numpy_to_1e_9(graph: Graph
         )
 
 
+@settings(max_examples=max(3, settings().max_examples // 2))
 @given(graph=graphs())
 def test_the_output_of_a_coupling_does_not_depend_on_the_strategy(graph: Graph) -> None:
     """Inputs and outputs of couplings can be read although they are passed as spectral modes."""

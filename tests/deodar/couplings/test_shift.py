@@ -14,7 +14,7 @@ from deodar.elements.pattern import Pattern
 from deodar.numerics import resampling
 
 
-@given(samples=st.integers(2, 12), amount=st.floats(-40, 40), periodic=st.booleans())
+@given(samples=st.sampled_from((2, 3, 8, 11)), amount=st.floats(-40, 40), periodic=st.booleans())
 def test_a_shift_is_the_matrix_that_interpolates(samples, amount, periodic):
     axis = dd.Axis("x", -2.0, 7.0, samples, periodic=periodic)
     y = np.random.default_rng(samples).normal(size=samples)
