@@ -128,14 +128,15 @@ def test_an_absent_wall_has_no_contact_and_a_new_one_moves_the_body_out() -> Non
 
 def test_rays_end_at_the_nearest_present_box() -> None:
     boxes = jnp.asarray([(1.0, -1, 2, 1), (0.5, -1, 0.6, 1), (-3, -1, -2, 1)])
+    rays = jax.jit(contact.rays)
     origins, looks = jnp.zeros((3, 2)), jnp.asarray([[1.0, 0], [-1.0, 0], [0.0, 1.0]])
     np.testing.assert_allclose(
-        contact.rays(origins, looks, boxes, jnp.asarray([True, True, True]), 5.0), [0.5, 2, 5], atol=1e-6
+        rays(origins, looks, boxes, jnp.asarray([True, True, True]), 5.0), [0.5, 2, 5], atol=1e-6
     )
     np.testing.assert_allclose(
-        contact.rays(origins, looks, boxes, jnp.asarray([True, False, True]), 5.0), [1, 2, 5], atol=1e-6
+        rays(origins, looks, boxes, jnp.asarray([True, False, True]), 5.0), [1, 2, 5], atol=1e-6
     )
-    inside = contact.rays(jnp.asarray([[1.5, 0.0]]), looks[:1], boxes, jnp.ones(3, bool), 5.0)
+    inside = rays(jnp.asarray([[1.5, 0.0]]), looks[:1], boxes, jnp.ones(3, bool), 5.0)
     np.testing.assert_array_equal(inside, [0.0])
 
 
