@@ -109,11 +109,17 @@ def test_every_element_starts_as_compiled(kind: str, precision: str) -> None:
     program = Executable(ProgramRequest(document, precision, batch, find()))
     values = program.values(document)
     arguments = values, np.uint32(5), np.arange(2, dtype=np.uint32)
+    prepare, start = program.program.prepare, program._start
     with program._settings():
-        for function, args in ((program.program.prepare, (values,)), (program._start, arguments)):
-            leaves = evaluated(function, *args)
+        prepared, started = jax.jit(lambda values, *others: (prepare(values), start(values, *others)))(
+            *arguments
+        )
+        for leaves, expected in (
+            (evaluated(prepare, values), prepared),
+            (evaluated(start, *arguments), started),
+        ):
             if leaves is not None:
-                agree(leaves, jax.jit(function)(*args))
+                agree(leaves, expected)
 
 
 def test_nearly_all_kinds_start_without_a_compiled_function() -> None:

@@ -61,7 +61,7 @@ def test_the_order_of_summation_is_that_of_a_row_alone() -> None:
             plan.row[next(n.id for g in plan.groups for n in g.nodes if n.path == "u0")][1],
         )
         ordered = np.array([values[int(n.path[1:])] for n in source.nodes], np.float32)
-        return float(gather(jnp.asarray(ordered), read)[row])
+        return float(jax.jit(lambda x: gather(x, read))(jnp.asarray(ordered))[row])
 
     assert summed(few) == summed(many)
 
