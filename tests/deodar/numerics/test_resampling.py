@@ -15,8 +15,10 @@ RING = Axis("x", 0, 12, 12, periodic=True)
 
 
 def weights(axis, points, method="linear", dtype=jnp.float64):
+    # one program: each operation alone would be compiled by itself
+    compiled = jax.jit(lambda points: resampling.weights(axis, points, method, dtype))
     with jax.enable_x64(dtype == jnp.float64):
-        return np.asarray(resampling.weights(axis, np.asarray(points, float), method, dtype))
+        return np.asarray(compiled(np.asarray(points, float)))
 
 
 @pytest.mark.parametrize("method", resampling.INTERPOLATIONS)
