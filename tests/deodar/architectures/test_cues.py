@@ -9,15 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.architectures.color_search import color_search
-from deodar.architectures.serial_order import (
-    CLEAR,
-    SEEN,
-    SHOWN,
-    START,
-    WIDTH,
-    action_axis,
-    serial_order,
-)
+from deodar.architectures.serial_order import CLEAR, SEEN, SHOWN, START, WIDTH, action_axis, serial_order
 from deodar.errors import ParameterError
 from deodar.model import document_files
 from tests.deodar.experiments.calls import run_alone

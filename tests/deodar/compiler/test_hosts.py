@@ -241,10 +241,7 @@ def test_two_hosts_compute_what_one_computes(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("signal_name", "status", "text"),
-    [
-        ("SIGKILL", -9, "HostsError host 1 has ended"),
-        ("SIGINT", 0, "Interrupted stopped at"),
-    ],
+    [("SIGKILL", -9, "HostsError host 1 has ended"), ("SIGINT", 0, "Interrupted stopped at")],
 )
 def test_the_end_of_one_host_is_an_error_on_the_other(
     signal_name: str, status: int, text: str, tmp_path: Path

@@ -221,10 +221,7 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
         b'{"deodar": 1, "elements": {"u": {"kind": "Gaussian"}}}',
         ("u: expected an Element, got a Gaussian",),
     ),
-    "a world as an element": (
-        b'{"deodar": 1, "elements": {"u": {"kind": "Picture"}}}',
-        ("got a Picture",),
-    ),
+    "a world as an element": (b'{"deodar": 1, "elements": {"u": {"kind": "Picture"}}}', ("got a Picture",)),
     "an element without a kind": (
         b'{"deodar": 1, "elements": {"u": {"tau": 5}}}',
         ("u: needs an object with a kind",),

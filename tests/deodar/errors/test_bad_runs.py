@@ -116,11 +116,7 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
         ParameterError,
         ("expected at least one trial",),
     ),
-    "a trial twice": (
-        lambda m: dd.simulate(m, 5, trials=[1, 1]),
-        ParameterError,
-        ("each named once",),
-    ),
+    "a trial twice": (lambda m: dd.simulate(m, 5, trials=[1, 1]), ParameterError, ("each named once",)),
     "a trial below 0": (lambda m: dd.simulate(m, 5, trials=[-1]), ParameterError, ("not -1",)),
     "trials beyond numbers": (
         lambda m: dd.simulate(m, 5, trials=10**30),

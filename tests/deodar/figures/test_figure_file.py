@@ -131,11 +131,7 @@ def test_all_problems_of_a_file_are_listed_with_its_path(tmp_path: Path) -> None
     path.write_text("width = 5\nheigth = 3\n[[panel]]\nat = 'x'\n")
     with pytest.raises(FigureError) as caught:
         FigureFile.read(path)
-    assert [p.where for p in caught.value.problems] == [
-        f"{path}, width",
-        str(path),
-        f"{path}, panel 1, at",
-    ]
+    assert [p.where for p in caught.value.problems] == [f"{path}, width", str(path), f"{path}, panel 1, at"]
     for missing in (tmp_path / "none.toml", tmp_path):
         with pytest.raises(FigureError, match="cannot be read"):
             FigureFile.read(missing)

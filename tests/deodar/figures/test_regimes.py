@@ -42,10 +42,7 @@ def test_the_patterns_of_a_field_fill_the_width_of_its_axis(field: Regimes) -> N
     ramp = field.ramp
     assert np.array_equal(curves(left)["input grows"], np.column_stack([ramp.values, ramp.up.activation]))
     marks = [text.get_text() for text in left.texts]
-    assert marks == [
-        f"detection\n{field.detection:.3g}",
-        f"reverse detection\n{field.reverse:.3g}",
-    ]
+    assert marks == [f"detection\n{field.detection:.3g}", f"reverse detection\n{field.reverse:.3g}"]
 
 
 def test_a_node_has_a_phase_plot_at_every_threshold(node: Regimes) -> None:

@@ -12,12 +12,7 @@ from deodar.errors import ParameterError
 from tests.deodar.analysis.continuation.models import node_folds
 from tests.deodar.analysis.maps.test_regime_map import EXCITATION, INHIBITION, line, node
 
-FIELDS = {
-    "driven": (8.0, 0.1),
-    "memory": (22.0, 0.4),
-    "selective": (12.0, 0.6),
-    "unbounded": (30.0, 0.0),
-}
+FIELDS = {"driven": (8.0, 0.1), "memory": (22.0, 0.4), "selective": (12.0, 0.6), "unbounded": (30.0, 0.0)}
 """Excitation and inhibition of fields whose regimes with inputs of 6 and width 5 are known; see the tests of
 maps.
 """
