@@ -50,25 +50,25 @@ class Fix(str):
 
     def then(self, text: str) -> Fix:
         """Return this fix and another one, at each place."""
-        other = text if isinstance(text, Fix) else Fix(text)
-        return Fix(*(joined(self.at(place), other.at(place)) for place in PLACES))
+        second = text if isinstance(text, Fix) else Fix(text)
+        return Fix(*(joined(self.at(place), second.at(place)) for place in PLACES))
 
 
-def option(advice: str, name: str, value: str, argument: str = "", page: str = "") -> Fix:
+def option(advice: str, name: str, text: str, argument: str = "", page: str = "") -> Fix:
     """Return advice that ends with an option of a command, and with the argument of a function.
 
     Args:
         advice: what is done with it.
         name: name of the argument; the option has hyphens.
-        value: value of the option.
+        text: value of the option.
         argument: value of the argument; "": that of the option.
         page: what it is in the studio; "": the argument is named there, too.
 
     >>> option("Give a longer one:", "duration", "1000").at("shell")
     'Give a longer one: --duration 1000'
     """
-    flag = f"--{name.replace('_', '-')} {value}".rstrip()
-    return Fix(f"{advice} {name}={argument or value}", f"{advice} {flag}", page and f"{advice} {page}")
+    flag = f"--{name.replace('_', '-')} {text}".rstrip()
+    return Fix(f"{advice} {name}={argument or text}", f"{advice} {flag}", page and f"{advice} {page}")
 
 
 def joined(first: str, second: str) -> str:

@@ -66,7 +66,7 @@ def rate(views: Sequence[View], shown: np.ndarray, speed: float | None, format: 
             f"needs {found:.4g} frames in a second; {format} has {most:g} at most",
             where=f"speed {speed:g}",
             fix=option(
-                f"One frame every so many {unit} or more:",
+                f"One frame every N {unit} or more:",
                 "every",
                 f"{speed / most / unit_seconds(unit):.3g}",
             ),

@@ -234,20 +234,20 @@ def _world(described: Mapping[str, Any] | None) -> World | None:
         return None
     kind = str(described.get("world"))
     world_class = registry.kinds("worlds").get(kind) or _imported(described)
-    made = f"the record was made with the world {_shown(described)}"
+    circumstances = f"the record was made with the world {_shown(described)}"
     if world_class is None:
-        raise WorldError(f"{made}, which is not known here", fix=_import(described))
+        raise WorldError(f"{circumstances}, which is not known here", fix=_import(described))
     give = option("Give it:", "world", f"{kind.lower()}:FILE", f"{kind}(...)")
     try:
         world = again(world_class, described)
     except DeodarError as error:
-        raise WorldError(f"{made}, and it cannot be opened: {error.problems[0]}", fix=give) from (
+        raise WorldError(f"{circumstances}, and it cannot be opened: {error.problems[0]}", fix=give) from (
             error.__cause__
         )
     if _identity(provenance.described(world)) != _identity(described):
         file = str(described.get("file", "FILE"))
         raise WorldError(
-            f"{made}, and this file now holds something else",
+            f"{circumstances}, and this file now holds something else",
             fix=option(
                 "Give the file that it was made with, or this one to compare nevertheless:",
                 "world",

@@ -163,7 +163,7 @@ def test_the_interval_and_the_speed_set_the_frames(recorded: xarray.Dataset, tmp
     assert milliseconds(tmp_path / "b.gif") == [40] * 5
     with pytest.raises(
         FigureError,
-        match=r"needs 200 frames in a second; gif has 50 at most\. One frame every so many ms or more: every=20",
+        match=r"needs 200 frames in a second; gif has 50 at most\. One frame every N ms or more: every=20",
     ):
         figure.animate(tmp_path / "c.gif", recorded, speed=1, width=200)
     with pytest.raises(OutputExists):
