@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -62,14 +61,8 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     done: list[SceneResult] = []
     drawn = []
     for k, scene in enumerate(scenes):
-        words = f"examining {scene.title}"
-        shares = iter((k + part / 3) / len(scenes) for part in range(3))
-
-        def step(words: str = words, shares: Iterator[float] = shares) -> None:
-            show(words, next(shares))
-
-        step()
-        result = run_scene(scene, args.seed, step)
+        show(f"examining {scene.title}", k / len(scenes))
+        result = run_scene(scene, args.seed)
         done.append(result)
         drawn.append(result.figure())
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 DURATION = 3500.0
 EVERY = 50.0
+PERCEPTUAL = "perceptual.activation"
 PERIOD = 50.0
 """ms between two pictures of a video or a camera."""
 
@@ -235,44 +236,35 @@ def _cues(hues: Sequence[float]) -> tuple[Cue, ...]:
     return tuple(Cue(h) for h in hues or WHEEL)
 
 
-def run_scene(scene: CueScene, seed: int = 0, step: Callable[[], None] = lambda: None) -> SceneResult:
+def run_scene(scene: CueScene, seed: int = 0) -> SceneResult:
     """Run all cues of a scene as one batch: half a second without a cue, then three seconds with it.
 
     Args:
         scene: the picture and its cues.
         seed: seed of the noise.
-        step: called after each of two simulations.
     """
-    model = saliency()
-    sweep = {"cue.center": [c.hue for c in scene.cues]}
     paths = ["seen.output", "colour.activation", "spatial.activation", "pan.output", "tilt.output"]
-    world = scene.world or scene.picture
     record = simulate(
-        model,
+        saliency(),
         DURATION,
         seed=seed,
-        record=paths,
+        record=[*paths, PERCEPTUAL],
         every=EVERY,
-        sweep=sweep,
-        world=world,
+        sweep={"cue.center": [c.hue for c in scene.cues]},
+        world=scene.world or scene.picture,
         on=Resources(progress=False),
     )
-    step()
-    end = simulate(model, DURATION, seed=seed, sweep=sweep, world=world, on=Resources(progress=False)).isel(
-        time=-1
-    )
-    step()
     before = record["seen.output"].sel(time=record["time"] < CUE_AT)
-    outcomes = tuple(_outcome(scene, record, end, k) for k in range(len(scene.cues)))
-    return SceneResult(scene, float(before.max()), outcomes, record=record)
+    outcomes = tuple(_outcome(scene, record, k) for k in range(len(scene.cues)))
+    # of the largest field only the end is judged
+    return SceneResult(scene, float(before.max()), outcomes, record=record.drop_vars(PERCEPTUAL))
 
 
-def _outcome(scene_: CueScene, record: xarray.Dataset, end: xarray.Dataset, k: int) -> Outcome:
+def _outcome(scene_: CueScene, record: xarray.Dataset, k: int) -> Outcome:
     x, y, hues = scene()
-    point = {"cue.center": k}
-    found = peaks(end["perceptual.activation"].isel(point).values, [x, y, hues])
-    spatial = peaks(end["spatial.activation"].isel(point).values, [x, y])
-    last = record.isel({**point, "time": -1})
+    last = record.isel({"cue.center": k, "time": -1})
+    found = peaks(last[PERCEPTUAL].values, [x, y, hues])
+    spatial = peaks(last["spatial.activation"].values, [x, y])
     motor = float(last["pan.output"]), float(last["tilt.output"])
     gap = min((math.dist(motor, p.position) for p in spatial), default=None)
     moved = math.dist(motor, (SIDE / 2, SIDE / 2))
