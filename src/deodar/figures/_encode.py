@@ -7,7 +7,7 @@ import shutil
 import struct
 import subprocess
 import tempfile
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Iterator
 from pathlib import Path
 from typing import IO
 
@@ -15,6 +15,7 @@ import numpy as np
 from PIL import GifImagePlugin, Image
 
 from deodar.errors import MissingExtra, OutputError, RecordError
+from deodar.figures._palette import CLEAR, FilmPalette
 from deodar.model import output
 from deodar.recording import places
 
@@ -24,8 +25,9 @@ FORMATS = {"png": "", "gif": ".gif", "mp4": ".mp4"}
 FASTEST = {"png": float("inf"), "gif": 50.0, "mp4": 60.0}
 """Most frames in a second: a GIF counts hundredths of a second, of which programs want two."""
 
-CLEAR = 255
-"""The clear colour of a GIF, and the number of its other colours."""
+Change = tuple[Image.Image, tuple[int, int]]
+"""A rectangle of changed pixels, and its corner (column, row)."""
+
 LOOP = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
 
 
@@ -49,7 +51,14 @@ def claim(path: Path, format: str, force: bool = False) -> None:
         ffmpeg()
 
 
-def write(frames: Iterable[np.ndarray], path: Path, format: str, rate: float, force: bool = False) -> None:
+def write(
+    frames: Iterable[np.ndarray],
+    path: Path,
+    format: str,
+    rate: float,
+    force: bool = False,
+    palette: FilmPalette | None = None,
+) -> None:
     """Write a video.
 
     Args:
@@ -58,6 +67,7 @@ def write(frames: Iterable[np.ndarray], path: Path, format: str, rate: float, fo
         format: png, gif or mp4.
         rate: frames in a second.
         force: whether to replace an existing file or folder.
+        palette: the colours of all frames of a GIF; none: each frame has its own.
 
     Raises:
         OutputError: it cannot be written.
@@ -65,7 +75,7 @@ def write(frames: Iterable[np.ndarray], path: Path, format: str, rate: float, fo
     if format == "png":
         places.write_folder(path, lambda folder: _png(frames, folder), force)
     elif format == "gif":
-        output.write(path, lambda beside: _gif(frames, beside, rate))
+        output.write(path, lambda beside: _gif(frames, beside, rate, palette))
     else:
         output.write(path, lambda beside: _mp4(frames, beside, rate))
 
@@ -93,33 +103,41 @@ def _png(frames: Iterable[np.ndarray], folder: Path) -> None:
         Image.fromarray(frame).save(folder / f"frame-{n:05}.png")
 
 
-def _gif(frames: Iterable[np.ndarray], path: Path, rate: float) -> None:
-    """Write a GIF frame by frame: each has the pixels that differ from the one before, and their colours.
+def _gif(frames: Iterable[np.ndarray], path: Path, rate: float, palette: FilmPalette | None) -> None:
+    """Write a GIF frame by frame: each has the pixels that differ from the one before.
 
     Pillow would keep all frames in memory. A frame without a change lengthens the one before.
     """
     with path.open("wb") as file:
-        last: np.ndarray | None = None
-        waiting: tuple[Image.Image, tuple[int, int]] | None = None
+        waiting: Change | None = None
         shown, clock = 0, 0.0
-        for frame in frames:
-            if last is None:
-                rows, columns = frame.shape[:2]
-                file.write(b"GIF89a" + struct.pack("<HHBBB", columns, rows, 0x70, 0, 0) + LOOP)
-                changed = np.ones((rows, columns), bool)
-            else:
-                changed = (frame != last).any(2)
-            if changed.any():
-                if waiting is not None:
+        for change in _changes(frames) if palette is None else palette.changes(frames):
+            if change is not None:
+                if waiting is None:
+                    table = b"" if palette is None else palette.table()
+                    size = struct.pack("<HHBBB", *change[0].size, 0xF7 if table else 0x70, 0, 0)
+                    file.write(b"GIF89a" + size + table + LOOP)
+                else:
                     shown += _gif_frame(file, *waiting, round(clock) - shown)
-                waiting, last = _indexed(frame, changed), frame
+                waiting = change
             clock += 100.0 / rate
         if waiting is not None:
             _gif_frame(file, *waiting, round(clock) - shown)
         file.write(b";")
 
 
-def _indexed(frame: np.ndarray, changed: np.ndarray) -> tuple[Image.Image, tuple[int, int]]:
+def _changes(frames: Iterable[np.ndarray]) -> Iterator[Change | None]:
+    """Yield for each frame the rectangle of its changed pixels with a palette of its own, and its corner;
+    None without a change.
+    """
+    last: np.ndarray | None = None
+    for frame in frames:
+        changed = np.ones(frame.shape[:2], bool) if last is None else (frame != last).any(2)
+        last = frame
+        yield _indexed(frame, changed) if changed.any() else None
+
+
+def _indexed(frame: np.ndarray, changed: np.ndarray) -> Change:
     """Return the rectangle of the changed pixels with a palette, other pixels being clear, and its corner."""
     rows, columns = (np.flatnonzero(changed.any(axis)) for axis in (1, 0))
     box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
@@ -133,10 +151,13 @@ def _indexed(frame: np.ndarray, changed: np.ndarray) -> tuple[Image.Image, tuple
 
 
 def _gif_frame(file: IO[bytes], image: Image.Image, at: tuple[int, int], hundredths: int) -> int:
-    """Write one frame, which stays below the next one; return its duration in hundredths of a second."""
+    """Write one frame, which stays below the next one; return its duration in hundredths of a second.
+
+    An image in greys has numbers of the palette of the whole file.
+    """
     delay = max(1, min(hundredths, 65535))
     file.write(b"\x21\xf9\x04" + struct.pack("<BHBB", 0x05, delay, CLEAR, 0))
-    for part in GifImagePlugin.getdata(image, at, include_color_table=True):
+    for part in GifImagePlugin.getdata(image, at, include_color_table=image.mode == "P"):
         file.write(part)
     return delay
 

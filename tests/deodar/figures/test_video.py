@@ -14,7 +14,7 @@ from PIL import Image
 
 import deodar as dd
 from deodar.errors import FigureError, MissingExtra, OutputError, OutputExists, RecordError
-from deodar.figures import FigureFile, FigurePanel, _encode, _panels, _video
+from deodar.figures import FigureFile, FigurePanel, _encode, _palette, _panels, _video
 from deodar.worlds.arena.arena import Arena
 from tests.deodar.recording.models import record
 
@@ -182,6 +182,34 @@ def test_a_frame_without_a_change_lengthens_the_one_before(tmp_path: Path) -> No
     assert milliseconds(tmp_path / "a.gif") == [200, 300, 100]
     for picture, frame in zip(frames(tmp_path / "a.gif"), (first, second, first), strict=True):
         assert np.abs(picture - frame.astype(float)).max() <= 30
+
+
+def test_frames_of_one_palette_have_its_colours_and_keep_invisible_differences(
+    tmp_path: Path,
+) -> None:
+    black, grey, red = [0, 0, 0], [100, 100, 100], [200, 0, 0]
+    palette = _palette.FilmPalette(np.array([black, grey, [104, 101, 100], red], np.uint8), tolerance=6)
+    first = np.full((20, 31, 3), 99, np.uint8)
+    second = first.copy()
+    second[5:9, 3:20] = 104, 102, 100  # nearest to a colour that differs by 5 from the grey
+    second[12:14, 2:4] = 190, 10, 0
+    _encode.write([first, second, second, first], tmp_path / "a.gif", "gif", 10, palette=palette)
+    assert milliseconds(tmp_path / "a.gif") == [100, 200, 100]
+    expected = np.full((20, 31, 3), 100)
+    between = expected.copy()
+    between[12:14, 2:4] = red
+    for picture, frame in zip(frames(tmp_path / "a.gif"), (expected, between, expected), strict=True):
+        assert (picture == frame).all()
+    file = (tmp_path / "a.gif").read_bytes()
+    assert file[10] & 0x80 and file.count(bytes([*black, *grey])) == 1, "one table, of the whole file"
+
+
+def test_a_palette_has_the_fixed_colours_and_counts_a_rare_colour_as_much_as_a_frequent_one() -> None:
+    sample = np.full((100, 100, 3), 250, np.uint8)
+    sample[0, 0] = 10, 200, 10
+    colours = _palette.of_samples([sample], np.array([[1.2, 2.0, 3.0], [1.0, 2.0, 3.0]]))
+    assert len(colours) <= 255 and [1, 2, 3] in colours.tolist()
+    assert np.abs(colours.astype(int) - [10, 200, 10]).sum(1).min() == 0
 
 
 def test_an_mp4_has_every_frame(recorded: xarray.Dataset, tmp_path: Path) -> None:
