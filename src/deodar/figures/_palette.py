@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
@@ -64,9 +65,37 @@ class FilmPalette:
         """Return the colours as the table of a GIF, which has 256 entries."""
         return self.colours.tobytes().ljust(3 * 256, b"\0")
 
-    def numbers(self, pixels: np.ndarray) -> np.ndarray:
-        """Return the number of the nearest colour for each of some pixels, an array (..., 3) of bytes."""
-        keys = _keys(pixels)
+    def changes(self, frames: Iterable[np.ndarray]) -> Iterator[tuple[Image.Image, tuple[int, int]] | None]:
+        """Yield for each frame the rectangle that differs from what is shown, and its corner; None without a
+        difference.
+
+        The other pixels of the rectangle are clear.
+        """
+        found = iter(frames)
+        frame = next(found)
+        keys = _keys(frame)
+        shown = self._numbers(keys)
+        yield Image.fromarray(shown), (0, 0)
+        for last, frame in itertools.pairwise(itertools.chain([frame], found)):
+            if frame is last:
+                yield None
+                continue
+            before, keys = keys, _keys(frame)
+            changed = keys != before
+            numbers = self._numbers(keys[changed])
+            visible = self._visible[numbers, shown[changed]]
+            changed[changed] = visible
+            if not visible.any():
+                yield None
+                continue
+            shown[changed] = numbers[visible]
+            rows, columns = (np.flatnonzero(changed.any(axis)) for axis in (1, 0))
+            box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+            part = np.where(changed[box], shown[box], np.uint8(CLEAR))
+            yield Image.fromarray(part), (int(columns[0]), int(rows[0]))
+
+    def _numbers(self, keys: np.ndarray) -> np.ndarray:
+        """Return the number of the nearest colour for each of some colours."""
         new = np.unique(keys[self._nearest[keys] < 0])
         for k in range(0, len(new), AT_ONCE):
             part = new[k : k + AT_ONCE]
@@ -74,32 +103,6 @@ class FilmPalette:
             distances = (self._weighted**2).sum(1) - 2.0 * at @ self._weighted.T
             self._nearest[part] = distances.argmin(1)
         return self._nearest[keys].astype(np.uint8)
-
-    def changes(self, frames: Iterable[np.ndarray]) -> Iterator[tuple[Image.Image, tuple[int, int]] | None]:
-        """Yield for each frame the rectangle that differs from what is shown, and its corner; None without a
-        difference.
-
-        The other pixels of the rectangle are clear.
-        """
-        last = shown = None
-        for frame in frames:
-            if last is None or shown is None:
-                last, shown = frame, self.numbers(frame)
-                yield Image.fromarray(shown), (0, 0)
-                continue
-            numbers = shown.copy()
-            differs = (frame != last).any(2)
-            numbers[differs] = self.numbers(frame[differs])
-            last = frame
-            changed = self._visible[numbers, shown]
-            if not changed.any():
-                yield None
-                continue
-            shown = np.where(changed, numbers, shown)
-            rows, columns = (np.flatnonzero(changed.any(axis)) for axis in (1, 0))
-            box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
-            part = np.where(changed[box], shown[box], CLEAR).astype(np.uint8)
-            yield Image.fromarray(part), (int(columns[0]), int(rows[0]))
 
 
 def _keys(pixels: np.ndarray) -> np.ndarray:

@@ -1,0 +1,223 @@
+"""What happened in the first act, read from its run, and the sentences that say so."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from deodar.analysis.claims import Claim
+from deodar_papers.story.one_field import FieldRun
+
+if TYPE_CHECKING:
+    from deodar.analysis.regimes import Regimes
+
+VISIBLE = 0.5
+"""Smallest input that a picture shows as growing."""
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Numbers of samples at which something happened; None: it did not happen.
+
+    Attributes:
+        grows: the first input becomes visible.
+        detected: the first peak appears.
+        again: the second scene begins.
+        compete: a peak or two appear.
+        selected: of two peaks one is left, or only one has appeared, while both inputs are on.
+        go: the inputs begin to fall.
+        gone: the inputs are 0.
+        remembered: equal to `gone`, with a peak.
+        falls: the field begins to be lowered.
+        forgotten: no peak is left after the field has begun to be lowered.
+    """
+
+    grows: int
+    detected: int | None
+    again: int
+    compete: int | None
+    selected: int | None
+    go: int
+    gone: int
+    remembered: int | None
+    falls: int
+    forgotten: int | None
+
+
+@dataclass(frozen=True)
+class Event:
+    """One of the four lines of the film: its name, what it says, and its sample."""
+
+    name: str
+    text: str
+    sample: int
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """The measured thresholds of the field, each with half the width of its interval.
+
+    Attributes:
+        detection: the localised input above which a peak appears.
+        forgetting: the homogeneous input below which no peak outlives its input; below 0.
+    """
+
+    detection: tuple[float, float]
+    forgetting: tuple[float, float]
+
+    @classmethod
+    def of(cls, measured: Regimes) -> Thresholds:
+        """Return the thresholds that `regimes` measured."""
+        pairs = []
+        for name in ("detection", "forgetting"):
+            found = measured.transitions[name]
+            low, high = found.interval
+            pairs.append((found.value, abs(high - low) / 2))
+        return cls(*pairs)
+
+    @property
+    def needed(self) -> str:
+        """The input of detection, as the film shows it."""
+        return f"{self.detection[0]:.1f}"
+
+    @property
+    def lowering(self) -> str:
+        """By how much the field is lowered when it forgets, as the film shows it."""
+        return f"{-self.forgetting[0]:.1f}"
+
+
+def moments(run: FieldRun) -> Moments:
+    """Read the moments from a run."""
+    strength = run.input.max(1)
+    up = run.activation.max(1) > 0
+    half = run.activation.shape[1] // 2
+    left, right = (side.max(1) > 0 for side in (run.activation[:, :half], run.activation[:, half:]))
+    again, end = run.again, len(up)
+    full = again + np.flatnonzero(strength[again:] >= strength[again:].max())
+    go = int(full[-1]) + 1
+    gone = _first(strength[go:] <= 0, go) or end - 1
+    compete = _first(up[again:go], again)
+    selected = None
+    if compete is not None:
+        both = compete + np.flatnonzero(left[compete:go] & right[compete:go])
+        alone = int(both[-1]) + 1 if len(both) else compete
+        selected = alone if alone < go else None
+    falls = _first(run.lowered[gone:] < 0, gone) or end - 1
+    last = falls + np.flatnonzero(up[falls:])
+    return Moments(
+        grows=_first(strength >= VISIBLE) or 0,
+        detected=_first(up[:again]),
+        again=again,
+        compete=compete,
+        selected=selected,
+        go=go,
+        gone=gone,
+        remembered=gone if up[gone] else None,
+        falls=falls,
+        forgotten=int(last[-1]) + 1 if len(last) and last[-1] + 1 < end else None,
+    )
+
+
+def _first(true: np.ndarray, begin: int = 0) -> int | None:
+    """Return the number of the first true sample, counted from `begin`; None if there is none."""
+    return begin + int(np.argmax(true)) if true.any() else None
+
+
+def summary(m: Moments) -> str:
+    """Return the sentence of the first and the last picture: what the field did in this run."""
+    did = {"detects": m.detected, "selects": m.selected, "remembers": m.remembered, "forgets": m.forgotten}
+    verbs = [verb for verb, sample in did.items() if sample is not None]
+    if not verbs:
+        return "One field, and no peak this time."
+    *most, last = verbs
+    return f"One field: it {', '.join(most)}{' and ' if most else ''}{last}."
+
+
+def events(m: Moments, measured: Thresholds) -> Sequence[Event]:
+    """Return the four lines of the film."""
+    if m.detected is not None:
+        detection = Event("Detection", f"input above {measured.needed}", m.detected)
+    else:
+        detection = Event("No detection", "no peak this time", m.again - 1)
+    if m.selected is not None:
+        selection = Event("Selection", "two inputs, one peak", m.selected)
+    else:
+        selection = Event("No selection", "no peak" if m.compete is None else "two peaks remain", m.go)
+    if m.remembered is not None:
+        memory = Event("Memory", "stays at input 0", m.remembered)
+    else:
+        memory = Event("No memory", "goes with its input", m.gone)
+    if m.forgotten is not None:
+        forgetting = Event("Forgetting", f"lowered by {measured.lowering}", m.forgotten)
+    else:
+        forgetting = Event("No forgetting", "no peak" if m.remembered is None else "the peak stays", m.falls)
+    return [detection, selection, memory, forgetting]
+
+
+def sentences(m: Moments, measured: Thresholds) -> Sequence[tuple[int, str]]:
+    """Return the sentences of the film, each with the sample at which it begins.
+
+    A sentence grows when what it announces has happened; until then nothing is claimed.
+    """
+    said = [(0, "One field at rest, below its threshold.")]
+    said.append((m.grows, "An input grows. The field only follows it."))
+    if m.detected is not None:
+        said.append((m.detected, f"Past {measured.needed} a peak rises by itself: detection."))
+    said.append((m.again, "Once more from rest: two equal inputs."))
+    if m.compete is None:
+        said.append((m.go, "They go, and no peak has risen this time."))
+    elif m.selected is None:
+        said += [(m.compete, "They compete"), (m.go, "They compete, and two peaks remain this time.")]
+    else:
+        said += [(m.compete, "They compete"), (m.selected, "They compete, and one wins: selection.")]
+        said.append((m.go, "The inputs go."))
+    if m.remembered is not None:
+        stays = "The peak stays" if m.selected is not None else "A peak stays"
+        said += [(m.gone, f"The inputs go. {stays}: memory."), (m.falls, "The field is lowered")]
+    elif m.compete is not None:
+        said.append((m.gone, "The inputs go, and no peak outlives them this time."))
+    if m.forgotten is not None:
+        said.append((m.forgotten, "The field is lowered, and the peak is gone: forgetting."))
+    return said
+
+
+def verdicts(m: Moments, measured: Thresholds) -> Sequence[tuple[str, str]]:
+    """Return the four lines of the terminal: the name of each, and what was measured and happened."""
+    (up, up_width), (down, down_width) = measured.detection, measured.forgetting
+    selection = {
+        (True, True): "of two equal inputs one makes a peak",
+        (True, False): "of two equal inputs both keep a peak in this run",
+        (False, False): "of two equal inputs none makes a peak in this run",
+    }[m.compete is not None, m.selected is not None]
+    return [
+        (
+            "detection",
+            f"a peak rises when the input exceeds {up:.2f} ± {up_width:.2f}"
+            + ("" if m.detected is not None else "; not in this run"),
+        ),
+        ("selection", selection),
+        (
+            "memory",
+            "the peak stays when its input goes"
+            if m.remembered is not None
+            else "no peak outlives its input in this run",
+        ),
+        (
+            "forgetting",
+            f"it is gone when the field is lowered by {-down:.3f} ± {down_width:.3f}"
+            + ("" if m.forgotten is not None else "; not in this run"),
+        ),
+    ]
+
+
+def claims(m: Moments, measured: Thresholds) -> list[Claim]:
+    """Return the four verdicts as claims; noise decides them, so none is required."""
+    held = (m.detected, m.selected, m.remembered, m.forgotten)
+    values = (measured.detection[0], None, None, measured.forgetting[0])
+    return [
+        Claim(f"one field, {name}: {says}", value, "it happens", k is not None, "reported", origin="ours")
+        for (name, says), value, k in zip(verdicts(m, measured), values, held, strict=True)
+    ]
