@@ -72,11 +72,11 @@ class FilmPalette:
         The other pixels of the rectangle are clear.
         """
         found = iter(frames)
-        frame = next(found)
-        keys = _keys(frame)
+        first = next(found)
+        keys = _keys(first)
         shown = self._numbers(keys)
-        yield Image.fromarray(shown), (0, 0)
-        for last, frame in itertools.pairwise(itertools.chain([frame], found)):
+        yield Image.fromarray(shown.copy()), (0, 0)
+        for last, frame in itertools.pairwise(itertools.chain([first], found)):
             if frame is last:
                 yield None
                 continue
