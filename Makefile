@@ -9,7 +9,7 @@ endif
 .PHONY: demo test whole rest verdict others test-core fast smoke browser lint types page studio docs generate mutants bench native lowest lock audit clean
 
 demo: .venv/installed
-	$(BIN)/python -m deodar demo saliency
+	$(BIN)/python -m deodar demo
 
 # the verdict that one waits for: the longest first, what waits for a browser beside it
 test: .venv/installed-test

@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
+from deodar.cli._options import shown
 from deodar.codec import Json
 
 if TYPE_CHECKING:
     from deodar.analysis.claims import Claim
 
-Show = Callable[[str, float], None]
-"""Callback of a running demonstration, called with its present task and the completed share."""
+
+class Show(Protocol):
+    """What a running demonstration shows."""
+
+    def __call__(self, what: str, share: float) -> None:
+        """Show the present task and the completed share, until the next call."""
+        ...
+
+    def line(self, text: str) -> None:
+        """Print a line of the result."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -26,6 +36,7 @@ class Demonstration:
         written: names of the files, in words.
         sentence: the result in one sentence.
         fill: writes the files into a folder, all but `results.json`.
+        model: name of a document in the folder that the studio may open; "" for none.
     """
 
     claims: Sequence[Claim]
@@ -33,3 +44,13 @@ class Demonstration:
     written: str
     sentence: str
     fill: Callable[[Path], None]
+    model: str = ""
+
+    def lines(self, out: Path) -> Iterator[str]:
+        """Yield what is printed after the folder `out` is written."""
+        for c in self.claims:
+            mark = "?" if c.holds is None else "yes" if c.holds else "NO"
+            value = f" -> {c.value}" if c.holds is not True or isinstance(c.value, int) else ""
+            yield f"  {mark:4}{c.name}{value}"
+        yield f"Written to {shown(out)}: {self.written} and results.json."
+        yield self.sentence

@@ -12,7 +12,8 @@ A paper is a module or a package with
 * `PICTURES`: pictures of the manual, each with its figure.
 
 A paper that is a package may have a file `demo.py`, its quick form, which `deodar demo NAME` runs: `HELP`,
-`arguments(parser)` and `run(args, show)`, which returns a `papers.Demonstration`.
+`arguments(parser)` and `run(args, show)`, which returns a `papers.Demonstration`. `deodar demo`
+without a name runs the file of `story`, which is no paper.
 
 Heavy imports are inside functions.
 """
@@ -57,8 +58,9 @@ PAPERS: Extensions[ModuleType] = Extensions("papers", "paper", dict, lambda plug
 
 
 def demos() -> dict[str, ModuleType]:
-    """Return the demonstrations of all papers, by the name of the paper."""
-    found = {name: f"{paper.__name__}.demo" for name, paper in PAPERS.items()}
+    """Return the demonstrations: the story, and those of all papers by the name of the paper."""
+    places = {"story": "deodar_papers.story", **{name: paper.__name__ for name, paper in PAPERS.items()}}
+    found = {name: f"{place}.demo" for name, place in places.items()}
     return {
         name: importlib.import_module(path) for name, path in found.items() if importlib.util.find_spec(path)
     }

@@ -41,9 +41,9 @@ def test_an_unknown_paper_suggests_the_nearest():
         papers.PAPERS["sba"]
 
 
-def test_each_paper_of_deodar_with_a_file_demo_is_a_demonstration():
+def test_the_story_and_each_paper_of_deodar_with_a_file_demo_are_demonstrations():
     found = [n for n, p in papers.PAPERS.items() if Path(str(p.__file__)).with_name("demo.py").is_file()]
-    assert list(papers.demos()) == found and "spa" in found
+    assert list(papers.demos()) == ["story", *found] and "spa" in found
     assert all(demo.HELP and demo.run and demo.arguments for demo in papers.demos().values())
 
 

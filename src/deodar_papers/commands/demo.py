@@ -1,39 +1,74 @@
-"""The command `deodar demo NAME`."""
+"""The command `deodar demo [NAME]`."""
 
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from deodar import codec
-from deodar.cli import _options, _rescue
+from deodar import cli, codec
+from deodar.cli import _options, _question, _rescue
 from deodar.cli._options import paragraph, shown, use_cores
 from deodar.codec import Json
 from deodar.errors import DeodarError, OutputError, OutputExists
 from deodar.model import output
 from deodar.recording import places
 from deodar_papers import papers
-
-if TYPE_CHECKING:
-    from deodar_papers.papers import Demonstration
+from deodar_papers.papers import Demonstration
+from deodar_papers.story import demo as story
 
 HELP = (
-    "run the quick form of a paper: saliency on photographs; serial-order, a robot that learns a sequence; or"
-    " spa, a robot that plans and drives"
+    "show what a field does, in two moving pictures, or run a paper's quick form: saliency on photographs;"
+    " serial-order, a robot that learns a sequence; or spa, a robot that plans and drives"
 )
+
+DEFAULT = "story"
+
+
+class _Shown:
+    """A progress bar on stderr, and lines on stdout; `quiet` hides the lines."""
+
+    def __init__(self, no_bar: bool, quiet: bool) -> None:
+        # start-up time
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn
+
+        columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
+        self._bar = Progress(
+            *columns,
+            console=Console(file=sys.stderr),
+            transient=True,
+            disable=no_bar or not sys.stderr.isatty(),
+            redirect_stdout=sys.stdout.isatty(),  # lines come above the bar; those for a pipe do not
+        )
+        self._task = self._bar.add_task("compiling", total=1.0)
+        self._quiet = quiet
+
+    def __enter__(self) -> _Shown:
+        self._bar.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+    def __call__(self, what: str, share: float) -> None:
+        self._bar.update(self._task, description=what, completed=share)
+
+    def line(self, text: str) -> None:
+        if not self._quiet:
+            print(text, flush=True)
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command; each demonstration adds its own."""
     demos = papers.demos()
     about = "; ".join(f"{name}: {demo.HELP}" for name, demo in demos.items())
-    parser.add_argument("name", choices=tuple(demos), metavar="NAME", help=about)
+    parser.add_argument("name", nargs="?", choices=tuple(demos), default=DEFAULT, metavar="NAME", help=about)
     parser.set_defaults(owners=_options.add_each(parser, demos))
     parser.add_argument(
-        "--seed", type=_options.whole, default=0, metavar="N", help="seed of all noise (default 0)"
+        "--seed", type=_options.whole, metavar="N", help="seed of all noise (default 0; of the story 12)"
     )
     parser.add_argument(
         "--out",
@@ -62,25 +97,23 @@ def run(args: argparse.Namespace) -> int:
         raise DeodarError(
             f"--{option} belongs to the demo {demo}", where=f"demo {args.name}", fix=f"Leave out --{option}"
         )
-    out = args.out or places.free(Path.cwd(), f"demo-{args.name}")
+    demo = papers.demos()[args.name]
+    if args.seed is None:
+        args.seed = getattr(demo, "SEED", 0)
+    out = args.out or _free(args.name)
     claim(out, args.force)
     use_cores(args.cores)
-    return _tell(args, out, _run(args))
+    with _Shown(args.no_progress, args.json) as show:
+        done = demo.run(args, show)
+    return _tell(args, out, done)
 
 
-def _run(args: argparse.Namespace) -> Demonstration:
-    """Run the demonstration with a progress bar on stderr."""
-    # start-up time
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
-    console = Console(file=sys.stderr)
-    with Progress(*columns, console=console, transient=True, disable=args.no_progress) as bar:
-        task = bar.add_task("compiling", total=1.0)
-        return papers.demos()[args.name].run(
-            args, lambda what, share: bar.update(task, description=what, completed=share)
-        )
+def _free(name: str) -> Path:
+    """Return a folder in the working folder that does not exist."""
+    if name != DEFAULT:
+        return places.free(Path.cwd(), f"demo-{name}")
+    first = Path.cwd() / story.FOLDER
+    return places.free(Path.cwd(), story.FOLDER) if first.exists() else first
 
 
 def _tell(args: argparse.Namespace, wanted: Path, demo: Demonstration) -> int:
@@ -100,20 +133,27 @@ def _tell(args: argparse.Namespace, wanted: Path, demo: Demonstration) -> int:
         answer = {"out": str(out), "claims": codec.parse(text)["claims"], **elsewhere}
         print(codec.text(answer))
     else:
-        for c in demo.claims:
-            mark = "?" if c.holds is None else "yes" if c.holds else "NO"
-            print(
-                f"  {mark:4}{c.name}"
-                + (f" -> {c.value}" if c.holds is not True or isinstance(c.value, int) else "")
-            )
-        print(f"Written to {shown(out)}: {demo.written} and results.json.")
-        print(demo.sentence)
+        print(*demo.lines(out), sep="\n")
     if why:
         print(
             f"deodar demo: {paragraph([why, f'The demo is written to {shown(out)} instead'])}",
             file=sys.stderr,
         )
+    if not args.json and demo.model and _display():
+        _offer(out / demo.model)
     return 1 if why or failed(demo.claims) else 0
+
+
+def _display() -> bool:
+    """Return whether a user is at a terminal, and a browser can show a page beside it."""
+    window = sys.platform in ("win32", "darwin") or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
+    return window and sys.stdout.isatty() and _question.on_terminal()
+
+
+def _offer(model: Path) -> None:
+    """Offer to open a document in the studio."""
+    if "studio" in cli.COMMANDS and _question.confirmed("Open the studio on this field?"):
+        cli.main(["studio", str(model)])
 
 
 def _written(args: argparse.Namespace, out: Path, fill: Callable[[Path], None]) -> tuple[Path, str]:

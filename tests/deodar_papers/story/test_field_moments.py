@@ -1,0 +1,146 @@
+"""The first act says what happened in its run, also where noise decided otherwise."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+
+import pytest
+
+from deodar_papers.story import field_moments
+from deodar_papers.story.field_moments import (
+    Thresholds,
+    claims,
+    events,
+    moments,
+    sentences,
+    summary,
+    verdicts,
+)
+from tests.deodar_papers.story.traces import AGAIN, FALLS, GO, GONE, THRESHOLDS, field_run
+
+DETECTED = (50, 20, 39)
+USUAL = field_run(DETECTED, (28, 48, 51), (72, 47, 90))
+
+
+def test_moments_are_read_from_the_run() -> None:
+    m = moments(USUAL)
+    assert dc.astuple(m) == (10, 20, AGAIN, 47, 51, GO, GONE, GONE, FALLS, 90)
+
+
+def test_the_sentences_of_a_usual_run_grow_when_what_they_announce_has_happened() -> None:
+    said = dict(sentences(moments(USUAL), THRESHOLDS))
+    assert said[20] == "Past 4.1 a peak rises by itself: detection."
+    assert (said[47], said[51]) == ("They compete", "They compete, and one wins: selection.")
+    assert (said[GO], said[GONE]) == ("The inputs go.", "The inputs go. The peak stays: memory.")
+    assert said[FALLS] == "The field is lowered"
+    assert said[90] == "The field is lowered, and the peak is gone: forgetting."
+    assert summary(moments(USUAL)) == "One field: it detects, selects, remembers and forgets."
+    assert [(e.name, e.sample) for e in events(moments(USUAL), THRESHOLDS)] == [
+        ("Detection", 20),
+        ("Selection", 51),
+        ("Memory", GONE),
+        ("Forgetting", 90),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("peaks", "at", "says", "in_all"),
+    [
+        (
+            [DETECTED, (28, 47, 75), (72, 47, 90)],
+            GO,
+            "They compete, and two peaks remain this time.",
+            "One field: it detects, remembers and forgets.",
+        ),
+        (
+            [DETECTED, (28, 47, 75), (72, 47, 90)],
+            GONE,
+            "The inputs go. A peak stays: memory.",
+            "One field: it detects, remembers and forgets.",
+        ),
+        ([DETECTED], GO, "They go, and no peak has risen this time.", "One field: it detects."),
+        (
+            [DETECTED, (28, 47, 66)],
+            GONE,
+            "The inputs go, and no peak outlives them this time.",
+            "One field: it detects and selects.",
+        ),
+        (
+            [DETECTED, (28, 47, 100)],
+            FALLS,
+            "The field is lowered",
+            "One field: it detects, selects and remembers.",
+        ),
+        ([], 10, "An input grows. The field only follows it.", "One field, and no peak this time."),
+    ],
+)
+def test_another_outcome_has_a_sentence_of_its_own(
+    peaks: list[tuple[int, int, int]], at: int, says: str, in_all: str
+) -> None:
+    m = moments(field_run(*peaks))
+    said = sentences(m, THRESHOLDS)
+    assert (at, says) in said and summary(m) == in_all
+    assert [k for k, _ in said] == sorted(k for k, _ in said)
+
+
+@pytest.mark.parametrize(
+    ("peaks", "names", "texts"),
+    [
+        ([DETECTED, (28, 47, 75), (72, 47, 90)], ["No selection"], ["two peaks remain"]),
+        (
+            [],
+            ["No detection", "No selection", "No memory", "No forgetting"],
+            ["no peak this time", "no peak", "goes with its input", "no peak"],
+        ),
+        ([DETECTED, (28, 47, 100)], ["No forgetting"], ["the peak stays"]),
+    ],
+)
+def test_the_lines_of_the_film_name_what_did_not_happen(
+    peaks: list[tuple[int, int, int]], names: list[str], texts: list[str]
+) -> None:
+    m = moments(field_run(*peaks))
+    missing = [e for e in events(m, THRESHOLDS) if e.name.startswith("No ")]
+    assert [e.name for e in missing] == names and [e.text for e in missing] == texts
+    held = {c.name.split()[2].rstrip(":"): c.holds for c in claims(m, THRESHOLDS)}
+    assert [f"No {name}" for name, holds in held.items() if not holds] == names
+
+
+@pytest.mark.parametrize(
+    ("peaks", "line", "says"),
+    [
+        ([], 0, "a peak rises when the input exceeds 4.09 ± 0.01; not in this run"),
+        ([], 1, "of two equal inputs none makes a peak in this run"),
+        ([DETECTED, (28, 47, 75), (72, 47, 90)], 1, "of two equal inputs both keep a peak in this run"),
+        ([], 2, "no peak outlives its input in this run"),
+        (
+            [DETECTED, (28, 47, 100)],
+            3,
+            "it is gone when the field is lowered by 0.826 ± 0.003; not in this run",
+        ),
+    ],
+)
+def test_the_lines_of_the_terminal_say_what_the_run_did_not_show(
+    peaks: list[tuple[int, int, int]], line: int, says: str
+) -> None:
+    assert verdicts(moments(field_run(*peaks)), THRESHOLDS)[line][1] == says
+
+
+def test_thresholds_are_those_that_regimes_measures() -> None:
+    measured = field_moments.Thresholds.of(_measured())
+    assert measured == Thresholds((4.0, pytest.approx(0.5)), (-0.75, pytest.approx(0.25)))
+    assert (measured.needed, measured.lowering) == ("4.0", "0.8")
+
+
+def _measured() -> object:
+    """Return what stands for `Regimes`: its transitions."""
+
+    @dc.dataclass(frozen=True)
+    class Transition:
+        value: float
+        interval: tuple[float, float]
+
+    @dc.dataclass(frozen=True)
+    class Regimes:
+        transitions: dict[str, Transition]
+
+    return Regimes({"detection": Transition(4.0, (3.5, 4.5)), "forgetting": Transition(-0.75, (-0.5, -1.0))})
