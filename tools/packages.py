@@ -55,7 +55,8 @@ ROLES: Mapping[str, tuple[str, ...]] = {
     "the classes of a tool": ("deodar_interop/importers/*/classes", "deodar_interop/exporters/*/classes"),
     "a family of classes": ("deodar_interop/importers/*/classes/*", "deodar_interop/exporters/*/classes/*"),
     "a part of a paper": tuple(
-        f"deodar_papers/{paper}/*" for paper in ("looking", "pointing", "saliency", "serial_order", "spa")
+        f"deodar_papers/{paper}/*"
+        for paper in ("looking", "pointing", "saliency", "serial_order", "spa", "story")
     ),
     "figures of papers": ("deodar_papers/figures", "deodar_papers/*/figures"),
     "the parser of a world on the command line": ("deodar_robots/*/argument",),

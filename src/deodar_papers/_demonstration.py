@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class Show(Protocol):
     """What a running demonstration shows."""
 
-    def __call__(self, what: str, share: float) -> None:
+    def __call__(self, task: str, share: float) -> None:
         """Show the present task and the completed share, until the next call."""
         ...
 
@@ -50,7 +50,7 @@ class Demonstration:
         """Yield what is printed after the folder `out` is written."""
         for c in self.claims:
             mark = "?" if c.holds is None else "yes" if c.holds else "NO"
-            value = f" -> {c.value}" if c.holds is not True or isinstance(c.value, int) else ""
-            yield f"  {mark:4}{c.name}{value}"
+            measured = f" -> {c.value}" if c.holds is not True or isinstance(c.value, int) else ""
+            yield f"  {mark:4}{c.name}{measured}"
         yield f"Written to {shown(out)}: {self.written} and results.json."
         yield self.sentence

@@ -15,7 +15,7 @@ import numpy as np
 from PIL import GifImagePlugin, Image
 
 from deodar.errors import MissingExtra, OutputError, RecordError
-from deodar.figures._palette import CLEAR, FilmPalette
+from deodar.figures._palette import CLEAR, VideoPalette
 from deodar.model import output
 from deodar.recording import places
 
@@ -25,7 +25,7 @@ FORMATS = {"png": "", "gif": ".gif", "mp4": ".mp4"}
 FASTEST = {"png": float("inf"), "gif": 50.0, "mp4": 60.0}
 """Most frames in a second: a GIF counts hundredths of a second, of which programs want two."""
 
-Change = tuple[Image.Image, tuple[int, int]]
+ChangedPart = tuple[Image.Image, tuple[int, int]]
 """A rectangle of changed pixels, and its corner (column, row)."""
 
 LOOP = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
@@ -57,7 +57,7 @@ def write(
     format: str,
     rate: float,
     force: bool = False,
-    palette: FilmPalette | None = None,
+    palette: VideoPalette | None = None,
 ) -> None:
     """Write a video.
 
@@ -103,13 +103,13 @@ def _png(frames: Iterable[np.ndarray], folder: Path) -> None:
         Image.fromarray(frame).save(folder / f"frame-{n:05}.png")
 
 
-def _gif(frames: Iterable[np.ndarray], path: Path, rate: float, palette: FilmPalette | None) -> None:
+def _gif(frames: Iterable[np.ndarray], path: Path, rate: float, palette: VideoPalette | None) -> None:
     """Write a GIF frame by frame: each has the pixels that differ from the one before.
 
     Pillow would keep all frames in memory. A frame without a change lengthens the one before.
     """
     with path.open("wb") as file:
-        waiting: Change | None = None
+        waiting: ChangedPart | None = None
         shown, clock = 0, 0.0
         for change in _changes(frames) if palette is None else palette.changes(frames):
             if change is not None:
@@ -126,7 +126,7 @@ def _gif(frames: Iterable[np.ndarray], path: Path, rate: float, palette: FilmPal
         file.write(b";")
 
 
-def _changes(frames: Iterable[np.ndarray]) -> Iterator[Change | None]:
+def _changes(frames: Iterable[np.ndarray]) -> Iterator[ChangedPart | None]:
     """Yield for each frame the rectangle of its changed pixels with a palette of its own, and its corner;
     None without a change.
     """
@@ -137,7 +137,7 @@ def _changes(frames: Iterable[np.ndarray]) -> Iterator[Change | None]:
         yield _indexed(frame, changed) if changed.any() else None
 
 
-def _indexed(frame: np.ndarray, changed: np.ndarray) -> Change:
+def _indexed(frame: np.ndarray, changed: np.ndarray) -> ChangedPart:
     """Return the rectangle of the changed pixels with a palette, other pixels being clear, and its corner."""
     rows, columns = (np.flatnonzero(changed.any(axis)) for axis in (1, 0))
     box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)

@@ -31,21 +31,21 @@ def of_samples(samples: Sequence[np.ndarray], fixed: np.ndarray) -> np.ndarray:
         samples: arrays (..., 3) of bytes.
         fixed: colours (colours, 3) that the palette has, at most 254.
     """
-    kept = np.unique(np.rint(fixed).astype(np.uint8), axis=0)
+    certain = np.unique(np.rint(fixed).astype(np.uint8), axis=0)
     seen = np.zeros(1 << 24, bool)
     for sample in samples:
         seen[_keys(sample)] = True
     colours = _colours(np.flatnonzero(seen)).astype(np.uint8)
-    room = MOST - len(kept)
+    room = MOST - len(certain)
     few = Image.fromarray(colours[None]).quantize(
         room, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE
     )
     others = np.array((few.getpalette() or [])[: 3 * room], np.uint8).reshape(-1, 3)
-    return np.concatenate([kept, others])
+    return np.concatenate([certain, others])
 
 
-class FilmPalette:
-    """The colours of a whole film, and its frames as numbers of them.
+class VideoPalette:
+    """The colours of a whole video, and its frames as numbers of them.
 
     Args:
         colours: bytes (colours, 3), at most 255.
@@ -71,27 +71,27 @@ class FilmPalette:
 
         The other pixels of the rectangle are clear.
         """
-        found = iter(frames)
-        first = next(found)
+        rest_of_frames = iter(frames)
+        first = next(rest_of_frames)
         keys = _keys(first)
-        shown = self._numbers(keys)
-        yield Image.fromarray(shown.copy()), (0, 0)
-        for last, frame in itertools.pairwise(itertools.chain([first], found)):
+        display = self._numbers(keys)
+        yield Image.fromarray(display.copy()), (0, 0)
+        for last, frame in itertools.pairwise(itertools.chain([first], rest_of_frames)):
             if frame is last:
                 yield None
                 continue
             before, keys = keys, _keys(frame)
             changed = keys != before
             numbers = self._numbers(keys[changed])
-            visible = self._visible[numbers, shown[changed]]
+            visible = self._visible[numbers, display[changed]]
             changed[changed] = visible
             if not visible.any():
                 yield None
                 continue
-            shown[changed] = numbers[visible]
+            display[changed] = numbers[visible]
             rows, columns = (np.flatnonzero(changed.any(axis)) for axis in (1, 0))
             box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
-            part = np.where(changed[box], shown[box], np.uint8(CLEAR))
+            part = np.where(changed[box], display[box], np.uint8(CLEAR))
             yield Image.fromarray(part), (int(columns[0]), int(rows[0]))
 
     def _numbers(self, keys: np.ndarray) -> np.ndarray:

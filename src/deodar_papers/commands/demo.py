@@ -53,8 +53,8 @@ class _Shown:
     def __exit__(self, *_: object) -> None:
         self._bar.stop()
 
-    def __call__(self, what: str, share: float) -> None:
-        self._bar.update(self._task, description=what, completed=share)
+    def __call__(self, task: str, share: float) -> None:
+        self._bar.update(self._task, description=task, completed=share)
 
     def line(self, text: str) -> None:
         if not self._quiet:

@@ -15,7 +15,7 @@ from deodar.model import output
 from deodar_papers.papers import Demonstration, Show
 
 if TYPE_CHECKING:
-    from deodar_papers.story.film import Film
+    from deodar_papers.story.figures.moving_picture import MovingPicture
 
 HELP = "one field detects, selects, remembers and forgets, then the same on a photograph (default)"
 
@@ -25,7 +25,7 @@ SEED = 12
 FOLDER = "deodar-demo"
 MODEL = "selection.json"
 
-HEAD = "deodar: a field, and a field that looks at a photograph (20 s of computing)"
+HEAD = "deodar: one field, then the same on a photograph (20 s of computing)"
 
 NOW_TRY = (
     ("deodar studio", "build, run and tune in the browser"),
@@ -41,7 +41,7 @@ class Story(Demonstration):
     def lines(self, out: Path) -> Iterator[str]:
         """Yield what is printed after the folder `out` is written."""
         yield f"Both are in {shown(out)}/. Now try"
-        yield from (f"     {command:<34} {what}" for command, what in NOW_TRY)
+        yield from (f"     {command:<34} {purpose}" for command, purpose in NOW_TRY)
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -56,14 +56,15 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, show: Show) -> Story:
-    """Run and draw both acts; a line tells when each is done."""
+    """Run and draw both acts; a line is printed when each is done."""
     # start-up time: these bring JAX
     from deodar.analysis.regimes import regimes
     from deodar.figures import _encode
     from deodar.model import document_files
     from deodar_papers.saliency import targets
-    from deodar_papers.story import field_film, field_moments, one_field, photograph, photograph_film
-    from deodar_papers.story.theme import THEMES
+    from deodar_papers.story import field_moments, one_field, photograph
+    from deodar_papers.story.figures import field_video, photograph_video
+    from deodar_papers.story.figures.theme import THEMES
 
     endings = (".gif", ".mp4") if args.mp4 else (".gif",)
     if args.mp4:
@@ -75,12 +76,12 @@ def run(args: argparse.Namespace, show: Show) -> Story:
     show("computing the run of a field", 0.0)
     field_run = one_field.run(args.seed)
     show("computing its thresholds", 0.1)
-    measured = field_moments.Thresholds.of(regimes(one_field.field()))
+    measured = field_moments.FieldThresholds.of(regimes(one_field.field()))
     moments = field_moments.moments(field_run)
     show("drawing the story", 0.2)
-    film = field_film.film(field_run, moments, measured, theme)
-    files = dict(_written(film, "story", endings))
-    _tell(show, f"1  {'The story of one field':<45}", film, "story.gif", began)
+    video = field_video.video(field_run, moments, measured, theme)
+    files = dict(_written(video, "story", endings))
+    _tell(show, f"1  {'The story of one field':<45}", video, "story.gif", began)
     _tell_verdicts(show, field_moments.verdicts(moments, measured))
 
     began = time.perf_counter()
@@ -88,9 +89,9 @@ def run(args: argparse.Namespace, show: Show) -> Story:
     scene = photograph.run(args.seed)
     courses = photograph.courses(scene)
     show("drawing the photograph", 0.8)
-    film = photograph_film.film(scene, courses, theme)
-    files |= _written(film, "photograph", endings)
-    _tell(show, f"2  {'The same on a photograph':<45}", film, "photograph.gif", began)
+    video = photograph_video.video(scene, courses, theme)
+    files |= _written(video, "photograph", endings)
+    _tell(show, f"2  {'The same on a photograph':<45}", video, "photograph.gif", began)
     _tell_verdicts(show, [(course.name, photograph.verdict(course)) for course in courses])
 
     def fill(folder: Path) -> None:
@@ -108,19 +109,19 @@ def run(args: argparse.Namespace, show: Show) -> Story:
     )
 
 
-def _written(film: Film, name: str, endings: Sequence[str]) -> Mapping[str, bytes]:
-    """Return the content of the files of a film by their names."""
+def _written(video: MovingPicture, name: str, endings: Sequence[str]) -> Mapping[str, bytes]:
+    """Return the content of the files of a video by their names."""
     with tempfile.TemporaryDirectory() as folder:
         paths = [Path(folder) / f"{name}{ending}" for ending in endings]
         for path in paths:
-            film.write(path)
+            video.write(path)
         return {path.name: path.read_bytes() for path in paths}
 
 
-def _tell(show: Show, title: str, film: Film, name: str, began: float) -> None:
-    """Print the line of an act: its title, its film, and the seconds that it took."""
+def _tell(show: Show, title: str, video: MovingPicture, name: str, began: float) -> None:
+    """Print the line of an act: its title, its video, and the seconds that it took."""
     took = f"{time.perf_counter() - began:.0f} s"
-    show.line(f"{title}{f'{name}, {film.seconds:.0f} s':<20}{took:>7}")
+    show.line(f"{title}{f'{name}, {video.seconds:.0f} s':<20}{took:>7}")
 
 
 def _tell_verdicts(show: Show, verdicts: Sequence[tuple[str, str]]) -> None:

@@ -25,7 +25,7 @@ class Moments:
     Attributes:
         grows: the first input becomes visible.
         detected: the first peak appears.
-        again: the second scene begins.
+        second: the second scene begins.
         compete: a peak or two appear.
         selected: of two peaks one is left, or only one has appeared, while both inputs are on.
         go: the inputs begin to fall.
@@ -37,7 +37,7 @@ class Moments:
 
     grows: int
     detected: int | None
-    again: int
+    second: int
     compete: int | None
     selected: int | None
     go: int
@@ -48,8 +48,8 @@ class Moments:
 
 
 @dataclass(frozen=True)
-class Event:
-    """One of the four lines of the film: its name, what it says, and its sample."""
+class StripLine:
+    """One of the four lines of the video: its name, what it says, and its sample."""
 
     name: str
     text: str
@@ -57,7 +57,7 @@ class Event:
 
 
 @dataclass(frozen=True)
-class Thresholds:
+class FieldThresholds:
     """The measured thresholds of the field, each with half the width of its interval.
 
     Attributes:
@@ -69,23 +69,23 @@ class Thresholds:
     forgetting: tuple[float, float]
 
     @classmethod
-    def of(cls, measured: Regimes) -> Thresholds:
+    def of(cls, measured: Regimes) -> FieldThresholds:
         """Return the thresholds that `regimes` measured."""
         pairs = []
         for name in ("detection", "forgetting"):
-            found = measured.transitions[name]
-            low, high = found.interval
-            pairs.append((found.value, abs(high - low) / 2))
+            transition = measured.transitions[name]
+            low, high = transition.interval
+            pairs.append((transition.value, abs(high - low) / 2))
         return cls(*pairs)
 
     @property
     def needed(self) -> str:
-        """The input of detection, as the film shows it."""
+        """The input of detection, as the video shows it."""
         return f"{self.detection[0]:.1f}"
 
     @property
     def lowering(self) -> str:
-        """By how much the field is lowered when it forgets, as the film shows it."""
+        """By how much the field is lowered when it forgets, as the video shows it."""
         return f"{-self.forgetting[0]:.1f}"
 
 
@@ -95,22 +95,22 @@ def moments(run: FieldRun) -> Moments:
     up = run.activation.max(1) > 0
     half = run.activation.shape[1] // 2
     left, right = (side.max(1) > 0 for side in (run.activation[:, :half], run.activation[:, half:]))
-    again, end = run.again, len(up)
-    full = again + np.flatnonzero(strength[again:] >= strength[again:].max())
+    second, end = run.second, len(up)
+    full = second + np.flatnonzero(strength[second:] >= strength[second:].max())
     go = int(full[-1]) + 1
     gone = _first(strength[go:] <= 0, go) or end - 1
-    compete = _first(up[again:go], again)
+    compete = _first(up[second:go], second)
     selected = None
     if compete is not None:
-        both = compete + np.flatnonzero(left[compete:go] & right[compete:go])
-        alone = int(both[-1]) + 1 if len(both) else compete
+        two_peaks = compete + np.flatnonzero(left[compete:go] & right[compete:go])
+        alone = int(two_peaks[-1]) + 1 if len(two_peaks) else compete
         selected = alone if alone < go else None
     falls = _first(run.lowered[gone:] < 0, gone) or end - 1
     last = falls + np.flatnonzero(up[falls:])
     return Moments(
         grows=_first(strength >= VISIBLE) or 0,
-        detected=_first(up[:again]),
-        again=again,
+        detected=_first(up[:second]),
+        second=second,
         compete=compete,
         selected=selected,
         go=go,
@@ -136,55 +136,57 @@ def summary(m: Moments) -> str:
     return f"One field: it {', '.join(most)}{' and ' if most else ''}{last}."
 
 
-def events(m: Moments, measured: Thresholds) -> Sequence[Event]:
-    """Return the four lines of the film."""
+def events(m: Moments, measured: FieldThresholds) -> Sequence[StripLine]:
+    """Return the four lines of the video."""
     if m.detected is not None:
-        detection = Event("Detection", f"input above {measured.needed}", m.detected)
+        detection = StripLine("Detection", f"input above {measured.needed}", m.detected)
     else:
-        detection = Event("No detection", "no peak this time", m.again - 1)
+        detection = StripLine("No detection", "no peak this time", m.second - 1)
     if m.selected is not None:
-        selection = Event("Selection", "two inputs, one peak", m.selected)
+        selection = StripLine("Selection", "two inputs, one peak", m.selected)
     else:
-        selection = Event("No selection", "no peak" if m.compete is None else "two peaks remain", m.go)
+        selection = StripLine("No selection", "no peak" if m.compete is None else "two peaks remain", m.go)
     if m.remembered is not None:
-        memory = Event("Memory", "stays at input 0", m.remembered)
+        memory = StripLine("Memory", "stays at input 0", m.remembered)
     else:
-        memory = Event("No memory", "goes with its input", m.gone)
+        memory = StripLine("No memory", "goes with its input", m.gone)
     if m.forgotten is not None:
-        forgetting = Event("Forgetting", f"lowered by {measured.lowering}", m.forgotten)
+        forgetting = StripLine("Forgetting", f"lowered by {measured.lowering}", m.forgotten)
     else:
-        forgetting = Event("No forgetting", "no peak" if m.remembered is None else "the peak stays", m.falls)
+        forgetting = StripLine(
+            "No forgetting", "no peak" if m.remembered is None else "the peak stays", m.falls
+        )
     return [detection, selection, memory, forgetting]
 
 
-def sentences(m: Moments, measured: Thresholds) -> Sequence[tuple[int, str]]:
-    """Return the sentences of the film, each with the sample at which it begins.
+def sentences(m: Moments, measured: FieldThresholds) -> Sequence[tuple[int, str]]:
+    """Return the sentences of the video, each with the sample at which it begins.
 
     A sentence grows when what it announces has happened; until then nothing is claimed.
     """
-    said = [(0, "One field at rest, below its threshold.")]
-    said.append((m.grows, "An input grows. The field only follows it."))
+    spoken = [(0, "One field at rest, below its threshold.")]
+    spoken.append((m.grows, "An input grows. The field only follows it."))
     if m.detected is not None:
-        said.append((m.detected, f"Past {measured.needed} a peak rises by itself: detection."))
-    said.append((m.again, "Once more from rest: two equal inputs."))
+        spoken.append((m.detected, f"Past {measured.needed} a peak rises by itself: detection."))
+    spoken.append((m.second, "Once more from rest: two equal inputs."))
     if m.compete is None:
-        said.append((m.go, "They go, and no peak has risen this time."))
+        spoken.append((m.go, "They go, and no peak has risen this time."))
     elif m.selected is None:
-        said += [(m.compete, "They compete"), (m.go, "They compete, and two peaks remain this time.")]
+        spoken += [(m.compete, "They compete"), (m.go, "They compete, and two peaks remain this time.")]
     else:
-        said += [(m.compete, "They compete"), (m.selected, "They compete, and one wins: selection.")]
-        said.append((m.go, "The inputs go."))
+        spoken += [(m.compete, "They compete"), (m.selected, "They compete, and one wins: selection.")]
+        spoken.append((m.go, "The inputs go."))
     if m.remembered is not None:
         stays = "The peak stays" if m.selected is not None else "A peak stays"
-        said += [(m.gone, f"The inputs go. {stays}: memory."), (m.falls, "The field is lowered")]
+        spoken += [(m.gone, f"The inputs go. {stays}: memory."), (m.falls, "The field is lowered")]
     elif m.compete is not None:
-        said.append((m.gone, "The inputs go, and no peak outlives them this time."))
+        spoken.append((m.gone, "The inputs go, and no peak outlives them this time."))
     if m.forgotten is not None:
-        said.append((m.forgotten, "The field is lowered, and the peak is gone: forgetting."))
-    return said
+        spoken.append((m.forgotten, "The field is lowered, and the peak is gone: forgetting."))
+    return spoken
 
 
-def verdicts(m: Moments, measured: Thresholds) -> Sequence[tuple[str, str]]:
+def verdicts(m: Moments, measured: FieldThresholds) -> Sequence[tuple[str, str]]:
     """Return the four lines of the terminal: the name of each, and what was measured and happened."""
     (up, up_width), (down, down_width) = measured.detection, measured.forgetting
     selection = {
@@ -213,11 +215,11 @@ def verdicts(m: Moments, measured: Thresholds) -> Sequence[tuple[str, str]]:
     ]
 
 
-def claims(m: Moments, measured: Thresholds) -> list[Claim]:
+def claims(m: Moments, measured: FieldThresholds) -> list[Claim]:
     """Return the four verdicts as claims; noise decides them, so none is required."""
-    held = (m.detected, m.selected, m.remembered, m.forgotten)
-    values = (measured.detection[0], None, None, measured.forgetting[0])
+    happened = (m.detected, m.selected, m.remembered, m.forgotten)
+    measured_values = (measured.detection[0], None, None, measured.forgetting[0])
     return [
-        Claim(f"one field, {name}: {says}", value, "it happens", k is not None, "reported", origin="ours")
-        for (name, says), value, k in zip(verdicts(m, measured), values, held, strict=True)
+        Claim(f"one field, {name}: {says}", threshold, "it happens", k is not None, "reported", origin="ours")
+        for (name, says), threshold, k in zip(verdicts(m, measured), measured_values, happened, strict=True)
     ]

@@ -30,7 +30,7 @@ EVERY = 4.0
 """Time between two samples of the record, ms."""
 
 HIDDEN = (768.0, 1008.0)
-"""Time in which the field is pushed down and returns to rest, ms. No picture shows it: with a peak that
+"""Time in which a negative input resets the field to rest, ms. No picture shows it: with a peak that
 outlives its input, two further inputs could not compete fairly.
 """
 
@@ -73,7 +73,7 @@ class FieldRun:
     activation: np.ndarray
     input: np.ndarray
     lowered: np.ndarray
-    again: int
+    second: int
 
 
 def field() -> Field:
@@ -120,8 +120,8 @@ def run(seed: int) -> FieldRun:
     paths = ["u.activation", "input.output", "lowered.output"]
     record = simulate(model, END, record=paths, every=EVERY, seed=seed, on=Resources(progress=False))
     at = record["time"].values
-    shown = (at < HIDDEN[0]) | (at >= HIDDEN[1])
-    activation, inputs, pushed = (record[name].values[shown] for name in paths)
+    visible = (at < HIDDEN[0]) | (at >= HIDDEN[1])
+    activation, inputs, pushed = (record[name].values[visible] for name in paths)
     return FieldRun(activation, inputs, pushed[:, 0], int((at < HIDDEN[0]).sum()))
 
 

@@ -15,7 +15,7 @@ THINGS = {"red": "the saucer", "light brown": "the coffee"}
 """What a present colour belongs to, shorter than in the marks of the photograph."""
 
 ABSENT_AT = 2000.0
-"""Time from which on it is said that there is no peak, ms: a peak appears 1.2 s after its cue."""
+"""Time from which on it is spoken that there is no peak, ms: a peak appears 1.2 s after its cue."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class CueCourse:
 
     Attributes:
         name: the colour.
-        thing: what has this colour in the photograph; "" if nothing has.
+        target: what has this colour in the photograph; "" if nothing has.
         outcome: the end, judged by the marks of the photograph.
         begins: number of the first sample with the cue.
         appears: the sample from which on the spatial field has a peak until the end; None: it has none.
@@ -36,7 +36,7 @@ class CueCourse:
     """
 
     name: str
-    thing: str
+    target: str
     outcome: Outcome
     begins: int
     appears: int | None
@@ -54,7 +54,7 @@ class CueCourse:
     @property
     def selects(self) -> bool:
         """Whether there is one peak, on the object of the cued colour."""
-        return bool(self.thing) and self.outcome.right
+        return bool(self.target) and self.outcome.right
 
 
 def run(seed: int) -> SceneResult:
@@ -63,22 +63,22 @@ def run(seed: int) -> SceneResult:
     return run_scene(scene, seed)
 
 
-def courses(result: SceneResult) -> Sequence[CueCourse]:
+def courses(scene: SceneResult) -> Sequence[CueCourse]:
     """Return what each cue did."""
-    record = result.record
+    record = scene.record
     times = record["time"].values
     begins, judged = (int(np.searchsorted(times, at)) for at in (CUE_AT, ABSENT_AT))
-    found = []
-    for k, outcome in enumerate(result.outcomes):
+    all_courses: list[CueCourse] = []
+    for k, outcome in enumerate(scene.outcomes):
         cue = record.isel({"cue.center": k})
         spatial = cue["spatial.activation"].transpose("time", "x", "y").values
         motor = np.stack([cue[f"{name}.output"].values for name in ("pan", "tilt")], axis=1)
         appears = _appears(spatial.max((1, 2)) > 0) if outcome.spatial else None
         moved = np.hypot(*(motor - SIDE / 2).T) > NEAR
-        found.append(
+        all_courses.append(
             CueCourse(
                 name=outcome.cue.name,
-                thing=THINGS[outcome.cue.name] if outcome.cue.expect == "present" else "",
+                target=THINGS[outcome.cue.name] if outcome.cue.expect == "present" else "",
                 outcome=outcome,
                 begins=begins,
                 appears=appears,
@@ -89,7 +89,7 @@ def courses(result: SceneResult) -> Sequence[CueCourse]:
                 motor=motor,
             )
         )
-    return found
+    return all_courses
 
 
 def _appears(up: np.ndarray) -> int:
@@ -98,43 +98,43 @@ def _appears(up: np.ndarray) -> int:
     return int(false[-1]) + 1 if len(false) else 0
 
 
-def found(course: CueCourse) -> str:
-    """Return what the film writes below a cue when it is decided."""
+def label(course: CueCourse) -> str:
+    """Return what the video writes below a cue when it is decided."""
     if course.selects:
-        return f"peak on {course.thing}"
+        return f"peak on {course.target}"
     if not course.peaks:
         return "no peak"
     return "peak elsewhere" if course.peaks == 1 else f"{course.peaks} peaks"
 
 
 def sentences(course: CueCourse) -> Sequence[tuple[int, str]]:
-    """Return the sentences of the film for one cue, each with the sample at which it begins."""
-    said = [(0, f"Cue: {course.name}.")]
+    """Return the sentences of the video for one cue, each with the sample at which it begins."""
+    spoken = [(0, f"Cue: {course.name}.")]
     if course.appears is not None:
-        said.append((course.appears, _rises(course)))
+        spoken.append((course.appears, _rises(course)))
         if course.turns is not None and course.outcome.converged:
-            said.append((max(course.turns, course.appears + 5), "The motor variable turns to it."))
-    elif course.thing:
-        said.append((course.judged, "No peak rises this time."))
+            spoken.append((max(course.turns, course.appears + 5), "The motor variable turns to it."))
+    elif course.target:
+        spoken.append((course.judged, "No peak rises this time."))
     else:
         stays = ", and the arrow stays" if course.outcome.converged else ""
-        said.append((course.judged, f"Nothing here is {course.name}: no peak{stays}."))
-    return said
+        spoken.append((course.judged, f"Nothing here is {course.name}: no peak{stays}."))
+    return spoken
 
 
 def _rises(course: CueCourse) -> str:
     if course.selects:
-        return f"One peak rises, on {course.thing}."
+        return f"One peak rises, on {course.target}."
     if course.peaks > 1:
         return f"{course.peaks} peaks rise this time."
-    if course.thing:
-        return f"One peak rises, this time not on {course.thing}."
+    if course.target:
+        return f"One peak rises, this time not on {course.target}."
     return f"One peak rises, though nothing here is {course.name}."
 
 
-def summary(found: Sequence[CueCourse]) -> str:
+def summary(cues: Sequence[CueCourse]) -> str:
     """Return the sentence of the first and the last picture."""
-    if all(course.outcome.right for course in found):
+    if all(course.outcome.right for course in cues):
         return "A peak for a colour that is there, none for one that is not."
     return "One photograph, three cues: this time not all select their colour."
 
@@ -142,13 +142,13 @@ def summary(found: Sequence[CueCourse]) -> str:
 def verdict(course: CueCourse) -> str:
     """Return the line of the terminal for one cue."""
     if course.selects:
-        peak = f"one peak, on {course.thing}"
+        peak = f"one peak, on {course.target}"
     elif course.peaks == 1:
-        peak = f"one peak, not on {course.thing}" if course.thing else "not in the picture, but one peak"
+        peak = f"one peak, not on {course.target}" if course.target else "not in the picture, but one peak"
     elif course.peaks:
         peak = f"{course.peaks} peaks"
     else:
-        peak = "no peak" if course.thing else "not in the picture: no peak"
+        peak = "no peak" if course.target else "not in the picture: no peak"
     if course.peaks:
         motor = "turns to it" if course.outcome.converged else "does not reach it"
     else:

@@ -188,7 +188,7 @@ def test_frames_of_one_palette_have_its_colours_and_keep_invisible_differences(
     tmp_path: Path,
 ) -> None:
     black, grey, red = [0, 0, 0], [100, 100, 100], [200, 0, 0]
-    palette = _palette.FilmPalette(np.array([black, grey, [104, 101, 100], red], np.uint8), tolerance=6)
+    palette = _palette.VideoPalette(np.array([black, grey, [104, 101, 100], red], np.uint8), tolerance=6)
     first = np.full((20, 31, 3), 99, np.uint8)
     second = first.copy()
     second[5:9, 3:20] = 104, 102, 100  # nearest to a colour that differs by 5 from the grey

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
-from deodar_papers.story import field_moments
+from deodar.analysis.thresholds import Transition
 from deodar_papers.story.field_moments import (
-    Thresholds,
+    FieldThresholds,
     claims,
     events,
     moments,
@@ -28,12 +31,12 @@ def test_moments_are_read_from_the_run() -> None:
 
 
 def test_the_sentences_of_a_usual_run_grow_when_what_they_announce_has_happened() -> None:
-    said = dict(sentences(moments(USUAL), THRESHOLDS))
-    assert said[20] == "Past 4.1 a peak rises by itself: detection."
-    assert (said[47], said[51]) == ("They compete", "They compete, and one wins: selection.")
-    assert (said[GO], said[GONE]) == ("The inputs go.", "The inputs go. The peak stays: memory.")
-    assert said[FALLS] == "The field is lowered"
-    assert said[90] == "The field is lowered, and the peak is gone: forgetting."
+    spoken = dict(sentences(moments(USUAL), THRESHOLDS))
+    assert spoken[20] == "Past 4.1 a peak rises by itself: detection."
+    assert (spoken[47], spoken[51]) == ("They compete", "They compete, and one wins: selection.")
+    assert (spoken[GO], spoken[GONE]) == ("The inputs go.", "The inputs go. The peak stays: memory.")
+    assert spoken[FALLS] == "The field is lowered"
+    assert spoken[90] == "The field is lowered, and the peak is gone: forgetting."
     assert summary(moments(USUAL)) == "One field: it detects, selects, remembers and forgets."
     assert [(e.name, e.sample) for e in events(moments(USUAL), THRESHOLDS)] == [
         ("Detection", 20),
@@ -78,9 +81,9 @@ def test_another_outcome_has_a_sentence_of_its_own(
     peaks: list[tuple[int, int, int]], at: int, says: str, in_all: str
 ) -> None:
     m = moments(field_run(*peaks))
-    said = sentences(m, THRESHOLDS)
-    assert (at, says) in said and summary(m) == in_all
-    assert [k for k, _ in said] == sorted(k for k, _ in said)
+    spoken = sentences(m, THRESHOLDS)
+    assert (at, says) in spoken and summary(m) == in_all
+    assert [k for k, _ in spoken] == sorted(k for k, _ in spoken)
 
 
 @pytest.mark.parametrize(
@@ -95,14 +98,14 @@ def test_another_outcome_has_a_sentence_of_its_own(
         ([DETECTED, (28, 47, 100)], ["No forgetting"], ["the peak stays"]),
     ],
 )
-def test_the_lines_of_the_film_name_what_did_not_happen(
+def test_the_lines_of_the_video_name_what_did_not_happen(
     peaks: list[tuple[int, int, int]], names: list[str], texts: list[str]
 ) -> None:
     m = moments(field_run(*peaks))
     missing = [e for e in events(m, THRESHOLDS) if e.name.startswith("No ")]
     assert [e.name for e in missing] == names and [e.text for e in missing] == texts
-    held = {c.name.split()[2].rstrip(":"): c.holds for c in claims(m, THRESHOLDS)}
-    assert [f"No {name}" for name, holds in held.items() if not holds] == names
+    happened = {c.name.split()[2].rstrip(":"): c.holds for c in claims(m, THRESHOLDS)}
+    assert [f"No {name}" for name, holds in happened.items() if not holds] == names
 
 
 @pytest.mark.parametrize(
@@ -126,21 +129,13 @@ def test_the_lines_of_the_terminal_say_what_the_run_did_not_show(
 
 
 def test_thresholds_are_those_that_regimes_measures() -> None:
-    measured = field_moments.Thresholds.of(_measured())
-    assert measured == Thresholds((4.0, pytest.approx(0.5)), (-0.75, pytest.approx(0.25)))
+    transition = functools.partial(Transition, before=0.0, after=0.0, jump=True, state=cast("Any", None))
+    regimes = SimpleNamespace(
+        transitions={
+            "detection": transition(value=4.0, interval=(3.5, 4.5)),
+            "forgetting": transition(value=-0.75, interval=(-0.5, -1.0)),
+        }
+    )
+    measured = FieldThresholds.of(cast("Any", regimes))
+    assert measured == FieldThresholds((4.0, 0.5), (-0.75, 0.25))
     assert (measured.needed, measured.lowering) == ("4.0", "0.8")
-
-
-def _measured() -> object:
-    """Return what stands for `Regimes`: its transitions."""
-
-    @dc.dataclass(frozen=True)
-    class Transition:
-        value: float
-        interval: tuple[float, float]
-
-    @dc.dataclass(frozen=True)
-    class Regimes:
-        transitions: dict[str, Transition]
-
-    return Regimes({"detection": Transition(4.0, (3.5, 4.5)), "forgetting": Transition(-0.75, (-0.5, -1.0))})

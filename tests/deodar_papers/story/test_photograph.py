@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from deodar_papers.story import photograph
-from deodar_papers.story.photograph import CueCourse, found, sentences, summary, verdict
+from deodar_papers.story.photograph import CueCourse, label, sentences, summary, verdict
 from tests.deodar_papers.story.traces import course
 
 SAUCER = course("red", "the saucer", (22.0, 49.0), right=True)
@@ -61,9 +61,9 @@ NOTHING = course("blue", "", right=True)
     ],
 )
 def test_every_outcome_of_a_cue_has_its_words(cue: CueCourse, below: str, says: str, line: str) -> None:
-    said = sentences(cue)
-    assert found(cue) == below and said[1][1] == says and verdict(cue) == line
-    turns = any(text == "The motor variable turns to it." for _, text in said)
+    spoken = sentences(cue)
+    assert label(cue) == below and spoken[1][1] == says and verdict(cue) == line
+    turns = any(text == "The motor variable turns to it." for _, text in spoken)
     assert turns == line.endswith("turns to it")
 
 

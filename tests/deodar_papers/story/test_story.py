@@ -77,7 +77,7 @@ def test_the_four_lines_have_the_numbers_of_regimes(run: Run) -> None:
     assert f"lowered by {-measured.forgetting:.3f} ± 0.003" in lines[3]
 
 
-def test_the_folder_has_both_films_the_claims_and_the_model(run: Run) -> None:
+def test_the_folder_has_both_videos_the_claims_and_the_model(run: Run) -> None:
     names = ["photograph.gif", "results.json", "selection.json", "story.gif"]
     assert sorted(p.name for p in run.folder.iterdir()) == names
     claims = json.loads((run.folder / "results.json").read_text())["claims"]
@@ -86,7 +86,7 @@ def test_the_folder_has_both_films_the_claims_and_the_model(run: Run) -> None:
 
 
 @pytest.mark.parametrize(("name", "seconds", "pictures"), [("story", 29.7, 280), ("photograph", 27.3, 140)])
-def test_a_film_is_small_and_loops(name: str, seconds: float, pictures: int, run: Run) -> None:
+def test_a_video_is_small_and_loops(name: str, seconds: float, pictures: int, run: Run) -> None:
     file = run.folder / f"{name}.gif"
     assert file.stat().st_size < LARGEST
     with Image.open(file) as gif:
@@ -109,23 +109,27 @@ def told_at_once(args: object, show: command._Shown) -> Story:
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(demo, "run", told_at_once)
     yield tmp_path
 
 
-def test_a_second_run_leaves_the_folder_of_the_first(here: Path) -> None:
+def test_a_second_run_leaves_the_folder_of_the_first(folder: Path) -> None:
     assert cli.main(["demo"]) == 0
-    (here / "deodar-demo" / "mine.txt").write_text("do not lose me")
+    (folder / "deodar-demo" / "mine.txt").write_text("do not lose me")
     assert cli.main(["demo", "story"]) == 0
-    assert sorted(p.name for p in here.iterdir()) == ["deodar-demo", "deodar-demo-001"]
-    assert (here / "deodar-demo" / "mine.txt").is_file()
+    assert sorted(p.name for p in folder.iterdir()) == ["deodar-demo", "deodar-demo-001"]
+    assert (folder / "deodar-demo" / "mine.txt").is_file()
 
 
 @pytest.mark.parametrize(("answer", "opens"), [("y\n", True), ("\n", False)])
 def test_the_studio_is_offered_at_a_terminal_with_a_display(
-    answer: str, opens: bool, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    answer: str,
+    opens: bool,
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     opened: list[list[str]] = []
     main = cli.main
@@ -133,7 +137,7 @@ def test_the_studio_is_offered_at_a_terminal_with_a_display(
     monkeypatch.setattr(sys, "stdin", io.StringIO(answer))
     monkeypatch.setattr(cli, "main", lambda words: opened.append(words) or 0)
     assert main(["demo", "--no-progress"]) == 0
-    assert opened == ([["studio", str(here / "deodar-demo" / "selection.json")]] if opens else [])
+    assert opened == ([["studio", str(folder / "deodar-demo" / "selection.json")]] if opens else [])
     assert "Open the studio on this field? [y/N]" in capsys.readouterr().err
 
 
@@ -146,8 +150,8 @@ def test_without_a_display_or_a_terminal_nothing_is_offered(
 ) -> None:
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
-    for name, value in environment.items():
-        monkeypatch.setenv(name, value)
+    for name, text in environment.items():
+        monkeypatch.setenv(name, text)
     monkeypatch.setattr(sys, "platform", "linux")
     for stream in ("stdin", "stdout", "stderr"):
         monkeypatch.setattr(getattr(sys, stream), "isatty", lambda: terminal, raising=False)
@@ -172,7 +176,7 @@ def test_at_a_terminal_the_line_of_the_present_task_is_overwritten() -> None:
         [sys.executable, "-c", TERMINAL], stdin=slave, stdout=slave, stderr=slave, env=environment
     )
     os.close(slave)
-    said = b""
+    output = b""
     while True:
         try:
             part = os.read(master, 4096)
@@ -180,10 +184,10 @@ def test_at_a_terminal_the_line_of_the_present_task_is_overwritten() -> None:
             break
         if not part:
             break
-        said += part
+        output += part
     os.close(master)
     assert process.wait() == 0
-    text = said.decode()
+    text = output.decode()
     assert text.index("computing the run of a field") < text.index("1  The story of one field")
     after = text[text.rindex("computing the run") :]
     assert "\x1b[2K" in after, "the line of the task is erased"

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from deodar_papers.saliency.scenes import Cue, Outcome
-from deodar_papers.story.field_moments import Thresholds
+from deodar_papers.story.field_moments import FieldThresholds
 from deodar_papers.story.one_field import FieldRun
 from deodar_papers.story.photograph import CueCourse
 
-THRESHOLDS = Thresholds((4.092, 0.012), (-0.826, 0.003))
+THRESHOLDS = FieldThresholds((4.092, 0.012), (-0.826, 0.003))
 
 COUNT, AGAIN, GO, GONE, FALLS = 100, 40, 60, 70, 80
 
@@ -33,19 +33,19 @@ def field_run(*peaks: tuple[int, int, int]) -> FieldRun:
 
 
 def course(
-    name: str, thing: str, *peaks: tuple[float, float], right: bool, arrives: bool = True
+    name: str, target: str, *peaks: tuple[float, float], right: bool, arrives: bool = True
 ) -> CueCourse:
     """Return a course of 71 samples with peaks that appear at sample 33 and stay.
 
     Args:
         name: the colour, and
-        thing: what has it; "" for nothing.
+        target: what has it; "" for nothing.
         peaks: positions of the spatial field in units of the scene.
         right: whether the marks are met.
         arrives: whether the motor variable ends at the peak, or stays without one.
     """
     outline = ((0.0, 0.0), (1e3, 0.0), (1e3, 1e3), (0.0, 1e3))
-    cue = Cue(5.0, name, "present" if thing else "absent", thing, (outline,) if right else ())
+    cue = Cue(5.0, name, "present" if target else "absent", target, (outline,) if right else ())
     gap = None if not peaks else 0.1 if arrives else 9.0
     moved = 20.0 if peaks or not arrives else 0.0
     outcome = Outcome(cue, peaks, peaks, peaks, (40.0, 40.0), gap, moved)
@@ -56,4 +56,4 @@ def course(
         spatial[33:, round(x / 2) - 2 : round(x / 2) + 2, round(y / 2) - 2 : round(y / 2) + 2] = 6.0
         motor[35:] = x, y
     appears, turns = (33, 35) if peaks else (None, None)
-    return CueCourse(name, thing, outcome, 10, appears, turns, 40, spatial, colour, motor)
+    return CueCourse(name, target, outcome, 10, appears, turns, 40, spatial, colour, motor)

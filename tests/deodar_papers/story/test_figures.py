@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from PIL import Image, ImageFont
 
-from deodar_papers.story import field_film, letters
-from deodar_papers.story.canvas import HIGH, SCALE, WIDE, Canvas
-from deodar_papers.story.field_film import FieldPainter
 from deodar_papers.story.field_moments import moments
-from deodar_papers.story.film import Film, Shot
-from deodar_papers.story.graph import Graph, interpolation
-from deodar_papers.story.light import Light, positions
-from deodar_papers.story.theme import THEMES, activation_colours
+from deodar_papers.story.figures import field_video, letters
+from deodar_papers.story.figures.canvas import HIGH, SCALE, WIDE, Canvas
+from deodar_papers.story.figures.field_video import FieldPainter
+from deodar_papers.story.figures.light import Light, positions
+from deodar_papers.story.figures.moving_picture import MovingPicture, Shot
+from deodar_papers.story.figures.plot import Plot, interpolation
+from deodar_papers.story.figures.theme import THEMES, activation_colours
 from tests.deodar_papers.story.traces import COUNT, THRESHOLDS, field_run
 
 RUN = field_run((50, 20, 39), (28, 48, 51), (72, 47, 90))
@@ -29,13 +29,13 @@ def painter() -> FieldPainter:
 
 def strip(picture: np.ndarray) -> np.ndarray:
     """Return the strip over time of a picture of the first act."""
-    rows = slice(round(field_film.STRIP_TOP * SCALE), round(field_film.STRIP_BOTTOM * SCALE))
-    return picture[rows, round(field_film.LEFT * SCALE) : round(field_film.RIGHT * SCALE)]
+    rows = slice(round(field_video.STRIP_TOP * SCALE), round(field_video.STRIP_BOTTOM * SCALE))
+    return picture[rows, round(field_video.LEFT * SCALE) : round(field_video.RIGHT * SCALE)]
 
 
 def test_the_strip_is_filled_up_to_the_present_sample(painter: FieldPainter) -> None:
-    shown = strip(painter.picture(30))
-    empty = (shown == LIGHT.sunk).all(2).all(0)
+    pixels = strip(painter.picture(30))
+    empty = (pixels == LIGHT.sunk).all(2).all(0)
     assert not empty[: int(30 / COUNT * len(empty))].any() and empty[int(32 / COUNT * len(empty)) :].all()
     assert not (strip(painter.whole(30)) == LIGHT.sunk).all(2).any()
 
@@ -44,7 +44,7 @@ def test_a_picture_of_the_first_act_shows_a_peak_in_the_colour_above_the_thresho
     painter: FieldPainter,
 ) -> None:
     above, flat = painter.picture(30), painter.picture(15)
-    curve = np.s_[: round(field_film.MIDDLE * SCALE)]
+    curve = np.s_[: round(field_video.MIDDLE * SCALE)]
     count = [(np.abs(picture[curve] - LIGHT.above).sum(2) < 30).sum() for picture in (above, flat)]
     assert count[0] > 100 and count[1] == 0
 
@@ -52,7 +52,7 @@ def test_a_picture_of_the_first_act_shows_a_peak_in_the_colour_above_the_thresho
 def test_a_line_of_the_strip_appears_with_its_moment_and_all_lines_with_the_summary(
     painter: FieldPainter,
 ) -> None:
-    names = np.s_[round((field_film.STRIP_BOTTOM + 10) * SCALE) :]
+    names = np.s_[round((field_video.STRIP_BOTTOM + 10) * SCALE) :]
     dark = [
         (picture[names].sum(2) < 200).sum()
         for picture in (painter.picture(25), painter.picture(55), painter.whole(55))
@@ -61,17 +61,17 @@ def test_a_line_of_the_strip_appears_with_its_moment_and_all_lines_with_the_summ
 
 
 def test_every_sample_of_a_decision_is_shown_and_others_by_turns_without_the_gap() -> None:
-    shown = field_film._shown(COUNT, moments(RUN))
-    assert set(range(14, 39)) <= set(shown) and 40 in shown and 39 in shown
-    assert shown == sorted(set(shown)) and shown[-1] >= COUNT - 2 and 1 not in shown
+    samples = field_video._samples(COUNT, moments(RUN))
+    assert set(range(14, 39)) <= set(samples) and 40 in samples and 39 in samples
+    assert samples == sorted(set(samples)) and samples[-1] >= COUNT - 2 and 1 not in samples
 
 
 def test_a_shot_is_shown_for_a_whole_number_of_pictures(tmp_path: Path) -> None:
     black, white = (np.full((40, 60, 3), v, np.uint8) for v in (0, 255))
     colours = np.array([[0, 0, 0], [255, 255, 255]], np.uint8)
-    film = Film([Shot(lambda: black, 50), Shot(lambda: white, 8)], 12.5, colours, 0)
-    assert film.seconds == pytest.approx(7 / 12.5) and len(list(film.frames())) == 7
-    film.write(tmp_path / "a.gif")
+    video = MovingPicture([Shot(lambda: black, 50), Shot(lambda: white, 8)], 12.5, colours, 0)
+    assert video.seconds == pytest.approx(7 / 12.5) and len(list(video.frames())) == 7
+    video.write(tmp_path / "a.gif")
     with Image.open(tmp_path / "a.gif") as gif:
         durations = []
         for k in range(gif.n_frames):
@@ -82,7 +82,7 @@ def test_a_shot_is_shown_for_a_whole_number_of_pictures(tmp_path: Path) -> None:
 
 def test_a_graph_draws_a_value_at_its_height() -> None:
     canvas = Canvas(LIGHT)
-    graph = Graph((20, 50, 620, 250), -10.0, 10.0, 11)
+    graph = Plot((20, 50, 620, 250), -10.0, 10.0, 11)
     assert graph.height(0.0) == pytest.approx(150, abs=0.5)
     graph.line(canvas, np.full(11, 5.0), LIGHT.text, width=2.0)
     rows = np.flatnonzero((canvas.frame()[:, 400] != LIGHT.page.astype(np.uint8)).any(1))
@@ -134,5 +134,5 @@ def test_text_is_written_with_the_font_of_matplotlib_where_a_woff2_cannot_be_rea
 
     monkeypatch.setattr(letters, "font", letters.font.__wrapped__)
     monkeypatch.setattr(letters.ImageFont, "truetype", refuse)
-    other = letters.mask.__wrapped__("peak", 18.0, 600)
-    assert other.shape != usual.shape and usual.max() == other.max() == 1.0
+    of_matplotlib = letters.mask.__wrapped__("peak", 18.0, 600)
+    assert of_matplotlib.shape != usual.shape and usual.max() == of_matplotlib.max() == 1.0

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from deodar_papers.story.canvas import SCALE, Canvas, Colour
+from deodar_papers.story.figures.canvas import SCALE, Canvas, Colour
 
 EDGE_STEPS, GLOW_STEPS, HALO_STEPS = 6, 10, 6
 """Steps of coverage of an edge, of the area below it and of the light around it: fewer colours make a smaller
@@ -20,7 +20,7 @@ HALO_WIDTH = 4.0
 """Width of the light around the line, units."""
 
 
-class Graph:
+class Plot:
     """The place of a plot.
 
     Args:
@@ -35,9 +35,9 @@ class Graph:
         self._at_columns = interpolation(np.linspace(0, samples - 1, self.right - self.left), samples)
         self._rows = (np.arange(self.top, self.bottom)[:, None] + 0.5).astype(np.float32)
 
-    def height(self, value: float) -> float:
-        """Return the y of a value, in units."""
-        return float(self._row(np.float32(value))) / SCALE
+    def height(self, level: float) -> float:
+        """Return the y of a level, in units."""
+        return float(self._row(np.float32(level))) / SCALE
 
     def shade(self, canvas: Canvas, base: float, values: np.ndarray, colour: Colour, alpha: float) -> None:
         """Fill the area between a level and a curve above it."""
@@ -85,9 +85,9 @@ class Graph:
         """Return the distance of pixels from a curve, which is straight between two columns."""
         return np.abs(rows - curve) / np.sqrt(1 + np.gradient(curve[0])[None] ** 2)
 
-    def _row(self, value: np.ndarray | np.float32) -> np.ndarray:
+    def _row(self, level: np.ndarray | np.float32) -> np.ndarray:
         return np.asarray(
-            self.bottom - (value - self.low) / (self.high - self.low) * (self.bottom - self.top)
+            self.bottom - (level - self.low) / (self.high - self.low) * (self.bottom - self.top)
         )
 
     def _between(self, top: float, bottom: float) -> tuple[int, np.ndarray]:
@@ -104,8 +104,8 @@ def _steps(cover: np.ndarray, count: int) -> np.ndarray:
 
 def interpolation(at: np.ndarray, samples: int) -> np.ndarray:
     """Return the matrix that interpolates samples at positions in samples, by cubic convolution."""
-    left = np.clip(np.floor(at).astype(int), 0, samples - 2)
-    f = at - left
+    before = np.clip(np.floor(at).astype(int), 0, samples - 2)
+    f = at - before
     weights = {
         -1: -0.5 * f**3 + f**2 - 0.5 * f,
         0: 1.5 * f**3 - 2.5 * f**2 + 1,
@@ -114,5 +114,5 @@ def interpolation(at: np.ndarray, samples: int) -> np.ndarray:
     }
     matrix = np.zeros((len(at), samples), np.float32)
     for offset, weight in weights.items():
-        np.add.at(matrix, (np.arange(len(at)), np.clip(left + offset, 0, samples - 1)), weight)
+        np.add.at(matrix, (np.arange(len(at)), np.clip(before + offset, 0, samples - 1)), weight)
     return matrix

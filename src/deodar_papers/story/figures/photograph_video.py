@@ -11,12 +11,12 @@ from PIL import Image
 from deodar.architectures.saliency import SIDE, scene
 from deodar.figures import _palette
 from deodar_papers.saliency.scenes import SceneResult
-from deodar_papers.story.canvas import SCALE, Canvas
-from deodar_papers.story.film import Film, Shot
-from deodar_papers.story.graph import Graph
-from deodar_papers.story.light import Light, positions
-from deodar_papers.story.photograph import CueCourse, found, sentences, summary
-from deodar_papers.story.theme import INK, WHITE, Theme, rgb
+from deodar_papers.story.figures.canvas import SCALE, Canvas
+from deodar_papers.story.figures.light import Light, positions
+from deodar_papers.story.figures.moving_picture import MovingPicture, Shot
+from deodar_papers.story.figures.plot import Plot
+from deodar_papers.story.figures.theme import INK, WHITE, Theme, rgb
+from deodar_papers.story.photograph import CueCourse, label, sentences, summary
 
 LEFT, TOP, WIDE, HIGH = 20, 52, 468, 312
 """Box of the photograph, in units."""
@@ -30,7 +30,7 @@ LOW, HIGH_ACTIVATION = -4.6, 8.0
 HUES = 24
 """Number of colours below the colour field."""
 
-CHIPS = {"light brown": rgb("#c48c48")}
+CHIPS = {"light brown": rgb("c48c48")}
 """Colours of cues whose hue has another name when it is saturated."""
 
 PHOTOGRAPH_COLOURS = 140
@@ -45,27 +45,27 @@ and of a new peak, and of the end of a cue, hundredths of a second.
 
 ANNOUNCEMENT = "The same on a photograph: one cue after the other."
 SLOW_AFTER = 30
-"""Samples after a peak has appeared from which on every second one is shown."""
+"""Samples after a peak has appeared from which on every second one is samples."""
 
 AFTER_JUDGEMENT = 8
-"""Samples that are shown after a missing peak is stated."""
+"""Samples that are samples after a missing peak is stated."""
 
 
 class PhotographPainter:
     """Draws the pictures of one scene.
 
     Args:
-        result: the run.
+        scene_result: the run.
         cues: what each cue did.
         theme: the colours.
     """
 
-    def __init__(self, result: SceneResult, cues: Sequence[CueCourse], theme: Theme) -> None:
+    def __init__(self, scene_result: SceneResult, cues: Sequence[CueCourse], theme: Theme) -> None:
         self.cues, self.theme = cues, theme
         self._chips = [CHIPS.get(c.name, _saturated(c.outcome.cue.hue)) for c in cues]
-        picture = result.scene.picture
+        picture = scene_result.scene.picture
         (x, y, hues), (columns, rows) = scene(), picture.size
-        self._graph = Graph((SIDE_LEFT, 256, SIDE_RIGHT, 338), LOW, HIGH_ACTIVATION, hues.samples + 1)
+        self._graph = Plot((SIDE_LEFT, 256, SIDE_RIGHT, 338), LOW, HIGH_ACTIVATION, hues.samples + 1)
         box = [round(v * SCALE) for v in (LEFT, TOP, LEFT + WIDE, TOP + HIGH)]
         self._box = slice(box[1], box[3]), slice(box[0], box[2])
         self.photograph = _resized(picture.pixels, box[2] - box[0], box[3] - box[1])
@@ -88,8 +88,8 @@ class PhotographPainter:
         canvas.pixels[self._box] = self.photograph
         step = (SIDE_RIGHT - SIDE_LEFT) / HUES
         for k in range(HUES):
-            left = SIDE_LEFT + k * step
-            canvas.rectangle((left, 342, left + step, 350), _hue_of_bar(k))
+            x = SIDE_LEFT + k * step
+            canvas.rectangle((x, 342, x + step, 350), _hue_of_bar(k))
         canvas.text(SIDE_LEFT, 364, "colour field", 11, colour=self.theme.dim)
         level = self._graph.height(0.0)
         canvas.line((SIDE_LEFT, level), (SIDE_RIGHT, level), self.theme.edge, dash=(4, 3))
@@ -108,8 +108,8 @@ class PhotographPainter:
     def picture(self, number: int, k: int) -> np.ndarray:
         """Draw the picture of a sample of a cue."""
         cue = self.cues[number]
-        said = [text for begin, text in sentences(cue) if begin <= k][-1]
-        return self._picture(number, k, said, decided=number + (k >= _decided(cue)))
+        sentence = [text for begin, text in sentences(cue) if begin <= k][-1]
+        return self._picture(number, k, sentence, decided=number + (k >= _decided(cue)))
 
     def whole(self, number: int, k: int) -> np.ndarray:
         """Draw the picture of a sample with the results of all cues, under the sentence of the run."""
@@ -140,7 +140,7 @@ class PhotographPainter:
             canvas.disc(SIDE_LEFT + 8, y, 8, chip)
             canvas.text(SIDE_LEFT + 24, y, cue.name, 13, 600)
             if n < decided:
-                canvas.text(SIDE_LEFT, y + 19, found(cue), 12, colour=self.theme.dim)
+                canvas.text(SIDE_LEFT, y + 19, label(cue), 12, colour=self.theme.dim)
 
     def _colour_field(self, canvas: Canvas, activation: np.ndarray) -> None:
         self._graph.activation(canvas, np.append(activation, activation[0]), width=2.0, halo=False)
@@ -172,20 +172,21 @@ class PhotographPainter:
         return _palette.of_samples([*changed, still[:, self._box[1].stop :]], fixed)
 
 
-def film(result: SceneResult, cues: Sequence[CueCourse], theme: Theme) -> Film:
-    """Return the film of a scene.
+def video(scene_result: SceneResult, cues: Sequence[CueCourse], theme: Theme) -> MovingPicture:
+    """Return the video of a scene.
 
-    Its first picture is a summary, which previews and stopped films show.
+    Its first picture is a summary, which previews and stopped videos show.
     """
-    painter = PhotographPainter(result, cues, theme)
+    painter = PhotographPainter(scene_result, cues, theme)
     end = len(cues[0].motor) - 1
     first, last = _with_peak(cues), len(cues) - 1
     shots = [Shot(lambda: painter.whole(first, end), FIRST), Shot(painter.announcement, TITLE)]
     for number, cue in enumerate(cues):
-        shown = _shown(cue, end)
-        pauses = {cue.begins: PAUSE, cue.appears or 0: PAUSE, shown[-1]: END_OF_CUE}
+        samples = _samples(cue, end)
+        pauses = {cue.begins: PAUSE, cue.appears or 0: PAUSE, samples[-1]: END_OF_CUE}
         shots += [
-            Shot(lambda n=number, k=k: painter.picture(n, k), pauses.get(k, round(100 / RATE))) for k in shown
+            Shot(lambda n=number, k=k: painter.picture(n, k), pauses.get(k, round(100 / RATE)))
+            for k in samples
         ]
     shots.append(Shot(lambda: painter.whole(last, end), LAST))
     looked_at = [painter.whole(first, end), painter.announcement(), painter.whole(last, end)]
@@ -196,7 +197,7 @@ def film(result: SceneResult, cues: Sequence[CueCourse], theme: Theme) -> Film:
         for k in (c.appears, c.appears + 8)
         if k <= end
     ]
-    return Film(shots, RATE, painter.palette(looked_at), TOLERANCE)
+    return MovingPicture(shots, RATE, painter.palette(looked_at), TOLERANCE)
 
 
 def _with_peak(cues: Sequence[CueCourse]) -> int:
@@ -205,12 +206,12 @@ def _with_peak(cues: Sequence[CueCourse]) -> int:
 
 
 def _decided(cue: CueCourse) -> int:
-    """Return the sample from which on the result of a cue is written."""
+    """Return the sample from which on the scene_result of a cue is written."""
     return cue.judged if cue.appears is None else cue.appears
 
 
-def _shown(cue: CueCourse, end: int) -> list[int]:
-    """Return the samples of a cue that are shown."""
+def _samples(cue: CueCourse, end: int) -> list[int]:
+    """Return the samples of a cue that are samples."""
     first = cue.begins - 1
     if cue.appears is None:
         return list(range(first, min(cue.judged + AFTER_JUDGEMENT, end) + 1))

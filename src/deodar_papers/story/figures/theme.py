@@ -8,8 +8,8 @@ import numpy as np
 
 
 def rgb(text: str) -> np.ndarray:
-    """Return red, green and blue, 0 to 255, of a colour such as `#f4f4f5`."""
-    return np.array([int(text[k : k + 2], 16) for k in (1, 3, 5)], np.float32)
+    """Return red, green and blue, 0 to 255, of a colour such as `f4f4f5`."""
+    return np.array(list(bytes.fromhex(text)), np.float32)
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Theme:
 
 
 def _row(colours: str) -> np.ndarray:
-    return np.stack([rgb(f"#{colour}") for colour in colours.split()])
+    return np.stack([rgb(colour) for colour in colours.split()])
 
 
 def _theme(colours: str) -> Theme:
@@ -56,7 +56,7 @@ THEMES = {
     "dark": _theme("121214 0d0d0f 2c2c31 6d6d78 ececef a5a5b0 5cc795 62b5f0 ff8a4c ff7832 e3ad3c"),
 }
 
-WHITE, INK = rgb("#ffffff"), rgb("#18181b")
+WHITE, INK = rgb("ffffff"), rgb("18181b")
 
 BELOW = _row("ffffff d3e6f5 93c1e6 4e93cb 21659f 0e4070 08294b")
 ABOVE = _row("ffffff ffe3bd ffb968 f98328 dd4d0d a02f06 641a02")

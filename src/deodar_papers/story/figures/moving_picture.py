@@ -1,4 +1,4 @@
-"""A film: pictures with durations, one palette, and its files."""
+"""A video: pictures with durations, one palette, and its files."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from deodar.figures import _encode
-from deodar.figures._palette import FilmPalette
+from deodar.figures._palette import VideoPalette
 
 Paint = Callable[[], np.ndarray]
 """A picture that is drawn when it is needed: all of them would fill the memory."""
@@ -24,14 +24,14 @@ class Shot:
 
 
 @dataclass(frozen=True)
-class Film:
+class MovingPicture:
     """A moving picture.
 
     Attributes:
         shots: its pictures in order.
         rate: pictures in a second; a shot is shown for a whole number of them.
         colours: the palette of a GIF.
-        tolerance: differences of colour that a GIF leaves out (`FilmPalette`).
+        tolerance: differences of colour that a GIF leaves out (`VideoPalette`).
     """
 
     shots: Sequence[Shot]
@@ -53,7 +53,7 @@ class Film:
 
     def write(self, path: Path) -> None:
         """Write a GIF or an MP4, by the ending of the name."""
-        palette = FilmPalette(self.colours, self.tolerance)
+        palette = VideoPalette(self.colours, self.tolerance)
         _encode.write(self.frames(), path, _encode.format_of(path), self.rate, palette=palette)
 
     def _repeats(self, shot: Shot) -> int:

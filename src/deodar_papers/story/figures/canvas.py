@@ -8,8 +8,8 @@ from typing import Literal
 import numpy as np
 from PIL import Image, ImageDraw
 
-from deodar_papers.story import letters
-from deodar_papers.story.theme import Theme
+from deodar_papers.story.figures import letters
+from deodar_papers.story.figures.theme import Theme
 
 WIDE, HIGH = 640, 400
 """Size of a picture in units."""
@@ -18,7 +18,7 @@ SCALE = 1.5
 """Pixels of a unit."""
 
 LARGER = 4
-"""A polygon is drawn so many times as large and reduced."""
+"""Factor by which a polygon is drawn larger before it is reduced."""
 
 MIDDLE_OF_DIGITS = 0.605
 """Distance of the middle of digits from the top of a mask of text, in sizes of type."""
@@ -37,9 +37,9 @@ class Canvas:
 
     def copy(self) -> Canvas:
         """Return another canvas with the same pixels."""
-        made = object.__new__(Canvas)
-        made.theme, made.pixels = self.theme, self.pixels.copy()
-        return made
+        twin = object.__new__(Canvas)
+        twin.theme, twin.pixels = self.theme, self.pixels.copy()
+        return twin
 
     def frame(self) -> np.ndarray:
         """Return the picture as bytes."""

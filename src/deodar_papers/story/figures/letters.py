@@ -10,7 +10,8 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont, features
 
 LARGER = 4
-"""Text is drawn so many times as large and reduced, as hinting of small letters spoils their distances."""
+"""Factor by which text is drawn larger before it is reduced: hinting of small letters spoils their distances.
+"""
 
 LINE = 1.4
 """Height of a mask, in sizes of type."""
@@ -22,17 +23,17 @@ BOLD = 600
 @cache
 def font(size: int, weight: int) -> ImageFont.FreeTypeFont:
     """Return the font at a size in pixels and a weight from 100 to 900."""
-    inter = resources.files("deodar_papers.story") / "inter-latin-wght-normal.woff2"
+    inter = resources.files("deodar_papers.story.figures") / "inter-latin-wght-normal.woff2"
     try:
         with resources.as_file(inter) as path:
-            made = ImageFont.truetype(path, size)
-        made.set_variation_by_axes([weight])
+            face = ImageFont.truetype(path, size)
+        face.set_variation_by_axes([weight])
     except OSError:  # this Pillow reads no WOFF2
-        made = ImageFont.truetype(_other(weight), size)
-    return made
+        face = ImageFont.truetype(_of_matplotlib(weight), size)
+    return face
 
 
-def _other(weight: int) -> Path:
+def _of_matplotlib(weight: int) -> Path:
     """Return the file of the font that comes with matplotlib."""
     # start-up time
     import matplotlib
@@ -48,9 +49,9 @@ def mask(text: str, size: float, weight: int) -> np.ndarray:
     Digits have one width, so that a number that changes does not shake.
     """
     form = ["tnum"] if features.check("raqm") else None
-    made = font(round(size * LARGER), weight)
-    wide = int(made.getlength(text, features=form)) + 2 * LARGER
+    face = font(round(size * LARGER), weight)
+    wide = int(face.getlength(text, features=form)) + 2 * LARGER
     columns, rows = -(-wide // LARGER) * LARGER, int(size * LINE) * LARGER
     picture = Image.new("L", (columns, rows), 0)
-    ImageDraw.Draw(picture).text((0, 0), text, font=made, fill=255, features=form)
+    ImageDraw.Draw(picture).text((0, 0), text, font=face, fill=255, features=form)
     return np.asarray(picture.reduce(LARGER), np.float32) / 255

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from deodar_papers.story.canvas import SCALE, Canvas
-from deodar_papers.story.graph import interpolation
-from deodar_papers.story.theme import WHITE, activation_colours
+from deodar_papers.story.figures.canvas import SCALE, Canvas
+from deodar_papers.story.figures.plot import interpolation
+from deodar_papers.story.figures.theme import WHITE, activation_colours
 
 NEAR = -1.8
 """Activation from which on a place is drawn; light fades out over the last `FADE`."""
@@ -36,12 +36,13 @@ class Patch:
     """Activation at the pixels of a rectangle of the photograph.
 
     Attributes:
-        top, left: number of its first row and column, counted from the corner of the photograph.
+        row: number of its first row, counted from the corner of the photograph.
+        column: number of its first column.
         activation: at its pixels.
     """
 
-    top: int
-    left: int
+    row: int
+    column: int
     activation: np.ndarray
 
 
@@ -61,12 +62,12 @@ class Light:
     def draw(self, canvas: Canvas, field: np.ndarray) -> None:
         """Draw the activation of a field over x and y."""
         smooth = _smooth(field).T
-        near = np.argwhere(smooth > NEAR)
-        if not len(near):
+        lit = np.argwhere(smooth > NEAR)
+        if not len(lit):
             return
         (top, bottom), (left, right) = (
             np.searchsorted(at, [cells.min() - 1.5, cells.max() + 1.5])
-            for at, cells in zip((self._rows, self._columns), near.T, strict=True)
+            for at, cells in zip((self._rows, self._columns), lit.T, strict=True)
         )
         activation = self._at_rows[top:bottom] @ smooth @ self._at_columns[left:right].T
         patch = Patch(int(top), int(left), activation)
@@ -85,7 +86,7 @@ class Light:
             float(np.average(np.arange(over.shape[axis]), weights=over.sum(1 - axis))) for axis in (0, 1)
         )
         reach = int(3 * (np.sqrt((over > 0).sum() / np.pi) + 1) + 6 * SCALE)
-        row, column = int(row) + patch.top, int(column) + patch.left
+        row, column = int(row) + patch.row, int(column) + patch.column
         top, bottom = max(row - reach, 0), min(row + reach, len(self._rows))
         left, right = max(column - reach, 0), min(column + reach, len(self._columns))
         y, x = np.ogrid[top:bottom, left:right]
@@ -97,7 +98,7 @@ class Light:
     def _shine(self, canvas: Canvas, patch: Patch) -> None:
         """Mix the colours of activation into the patch, and draw the line at the threshold."""
         z = patch.activation
-        row, column = self._corner[0] + patch.top, self._corner[1] + patch.left
+        row, column = self._corner[0] + patch.row, self._corner[1] + patch.column
         alpha = np.where(z < 0, np.clip(1 + z / FADE, 0, 1) * UNDER, OVER)
         view = canvas.pixels[row : row + z.shape[0], column : column + z.shape[1]]
         view += (activation_colours(z, LOW, HIGH, 20) - view) * _steps(alpha, 8)[..., None]

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.figures import _palette
-from deodar_papers.story.canvas import SCALE, Canvas, width
-from deodar_papers.story.field_moments import Event, Moments, Thresholds, events, sentences, summary
-from deodar_papers.story.film import Film, Shot
-from deodar_papers.story.graph import Graph
+from deodar_papers.story.field_moments import FieldThresholds, Moments, StripLine, events, sentences, summary
+from deodar_papers.story.figures.canvas import SCALE, Canvas, width
+from deodar_papers.story.figures.moving_picture import MovingPicture, Shot
+from deodar_papers.story.figures.plot import Plot
+from deodar_papers.story.figures.theme import WHITE, Theme, activation_colours, activation_scale
 from deodar_papers.story.one_field import AXIS, RESTING_LEVEL, FieldRun
-from deodar_papers.story.theme import WHITE, Theme, activation_colours, activation_scale
 
 LEFT, TOP, RIGHT, MIDDLE = 20, 52, 620, 250
 """Box of the curve, in units."""
@@ -20,7 +20,7 @@ LEFT, TOP, RIGHT, MIDDLE = 20, 52, 620, 250
 STRIP_TOP, STRIP_BOTTOM = 266, 344
 
 LOW, HIGH = -13.6, 13.2
-"""Activation at the bottom and the top: of the whole film, because limits from the data wobble."""
+"""Activation at the bottom and the top: of the whole video, because limits from the data wobble."""
 
 RATE = 12.5
 TOLERANCE = 12
@@ -52,11 +52,11 @@ class FieldPainter:
         theme: the colours.
     """
 
-    def __init__(self, run: FieldRun, m: Moments, measured: Thresholds, theme: Theme) -> None:
+    def __init__(self, run: FieldRun, m: Moments, measured: FieldThresholds, theme: Theme) -> None:
         self.run, self.moments, self.measured, self.theme = run, m, measured, theme
-        self.events: Sequence[Event] = events(m, measured)
+        self.events: Sequence[StripLine] = events(m, measured)
         self._sentences = sentences(m, measured)
-        self._graph = Graph((LEFT, TOP, RIGHT, MIDDLE), LOW, HIGH, AXIS.samples)
+        self._graph = Plot((LEFT, TOP, RIGHT, MIDDLE), LOW, HIGH, AXIS.samples)
         count = len(run.activation)
         pixels = self._graph.right - self._graph.left
         self._edges = np.rint(np.arange(count + 1) * pixels / count).astype(int)
@@ -76,7 +76,7 @@ class FieldPainter:
         strip = np.zeros((rows, pixels, 3), np.float32)
         for k, (first, last) in enumerate(zip(self._edges, self._edges[1:], strict=False)):
             strip[:, first:last] = colours[k][up][:, None]
-        gap = self._edges[self.run.again]
+        gap = self._edges[self.run.second]
         strip[:, gap - 2 : gap + 1] = self.theme.page
         return strip
 
@@ -126,7 +126,7 @@ class FieldPainter:
     def _input(self, canvas: Canvas, k: int, base: float, strength: float) -> None:
         """Label the input; in the first scene also the input that a peak needs."""
         middle, colour = (LEFT + RIGHT) / 2, self.theme.input
-        if k >= self.run.again:
+        if k >= self.run.second:
             if strength > 1:
                 canvas.text(middle, self._graph.height(base + 1.4), "input", 11, 500, colour, "middle")
             return
@@ -149,17 +149,16 @@ class FieldPainter:
 
     def _over_time(self, canvas: Canvas, k: int, until: int) -> None:
         """Draw the strip up to a sample, a line at sample k, and the lines that have happened by then."""
-        columns = self._edges[until]
-        left = self._graph.left
-        canvas.pixels[self._rows, left : left + columns] = self._strip[:, :columns]
-        now = self._time(k)
-        canvas.line((now, STRIP_TOP - 3), (now, STRIP_BOTTOM + 3), self.theme.text)
+        first, columns = self._graph.left, self._edges[until]
+        canvas.pixels[self._rows, first : first + columns] = self._strip[:, :columns]
+        x = self._time(k)
+        canvas.line((x, STRIP_TOP - 3), (x, STRIP_BOTTOM + 3), self.theme.text)
         end = float(RIGHT)
         for event in reversed(self.events):
             if event.sample < until:
                 end = self._event(canvas, event, end) - 12
 
-    def _event(self, canvas: Canvas, event: Event, end: float) -> float:
+    def _event(self, canvas: Canvas, event: StripLine, end: float) -> float:
         """Write one of the four lines so that it ends at `end` or before; return where it begins."""
         x = self._time(event.sample)
         canvas.line((x, STRIP_TOP), (x, STRIP_BOTTOM), WHITE, 1.2, dash=(3, 3))
@@ -174,38 +173,38 @@ class FieldPainter:
         return LEFT + (RIGHT - LEFT) * (k + 0.5) / len(self.run.activation)
 
 
-def film(run: FieldRun, m: Moments, measured: Thresholds, theme: Theme) -> Film:
-    """Return the film of a run.
+def video(run: FieldRun, m: Moments, measured: FieldThresholds, theme: Theme) -> MovingPicture:
+    """Return the video of a run.
 
-    Its first picture is a summary, which previews and stopped films show.
+    Its first picture is a summary, which previews and stopped videos show.
     """
     painter = FieldPainter(run, m, measured, theme)
-    shown = _shown(len(run.activation), m)
-    pauses = {shown[0]: REST, shown[-1]: LAST - 140}
+    samples = _samples(len(run.activation), m)
+    pauses = {samples[0]: REST, samples[-1]: LAST - 140}
     for moment, later in ((m.detected, 36), (m.remembered, 40)):
         if moment is not None:
-            pauses[min(shown, key=lambda k, at=moment + later: abs(k - at))] = PAUSE
+            pauses[min(samples, key=lambda k, at=moment + later: abs(k - at))] = PAUSE
     middle = (m.gone + m.falls) // 2
     usual = round(100 / RATE)
     shots = [
         Shot(lambda: painter.whole(middle), FIRST),
-        *(Shot(lambda k=k: painter.picture(k), pauses.get(k, usual)) for k in shown),
-        Shot(lambda: painter.whole(shown[-1]), LAST),
+        *(Shot(lambda k=k: painter.picture(k), pauses.get(k, usual)) for k in samples),
+        Shot(lambda: painter.whole(samples[-1]), LAST),
     ]
-    looked_at = [shown[20], (m.detected or m.grows) + 8, (m.compete or m.go) + 6, m.gone + 20, m.falls + 38]
-    samples = [painter.whole(middle), *(painter.picture(min(k, shown[-1])) for k in looked_at)]
+    looked_at = [samples[20], (m.detected or m.grows) + 8, (m.compete or m.go) + 6, m.gone + 20, m.falls + 38]
+    pictures = [painter.whole(middle), *(painter.picture(min(k, samples[-1])) for k in looked_at)]
     fixed = np.concatenate([activation_scale(), theme.colours()])
-    return Film(shots, RATE, _palette.of_samples(samples, fixed), TOLERANCE)
+    return MovingPicture(shots, RATE, _palette.of_samples(pictures, fixed), TOLERANCE)
 
 
-def _shown(count: int, m: Moments) -> list[int]:
-    """Return the samples that are shown: all of them around a decision, otherwise every second one."""
+def _samples(count: int, m: Moments) -> list[int]:
+    """Return the samples that are samples: all of them around a decision, otherwise every second one."""
     decided = [k for k in (m.detected, m.compete, None if m.forgotten is None else m.forgotten - 12) if k]
-    shown, k = [], 0
+    samples, k = [], 0
     while k < count:
-        if k and k - shown[-1] > 1 and shown[-1] < m.again < k:
-            k = m.again
-        shown.append(k)
+        if k and k - samples[-1] > 1 and samples[-1] < m.second < k:
+            k = m.second
+        samples.append(k)
         slow = any(at - 6 <= k <= at + 20 for at in decided)
         k += 1 if slow else SAMPLES_A_PICTURE
-    return shown
+    return samples
