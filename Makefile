@@ -1,4 +1,4 @@
-# Two words do everything: `make demo` and `make test`. The plain commands behind them stand in README.md.
+# Two words do everything: `make demo` and `make test`. The plain commands behind them stand in docs/install.md.
 PYTHON ?= python3
 BIN := .venv/bin
 ifeq ($(OS),Windows_NT)

@@ -24,7 +24,7 @@ DOCS = Path(__file__).parent
 ROOT = DOCS.parent
 FENCE = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TITLE = re.compile(r'title="([\w.-]+)"')
-PICTURE = re.compile(r"!\[[^\]]*\]\((?:[\w./]*/)?pictures/([\w.-]+)\)")
+PICTURE = re.compile(r"""(?:!\[[^\]]*\]\(|src="|srcset=")(?:[\w./]*/)?pictures/([\w.-]+)[)"]""")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 NEAR = 0.02
 
