@@ -92,8 +92,7 @@ def test_the_moving_picture_of_the_front_page_is_the_one_that_is_drawn_now(theme
     with Image.open(file) as gif:
         assert gif.size == (960, 600) and abs(gif.n_frames - len(drawn.shots)) <= 12
         first = np.asarray(gif.convert("RGB")).astype(float)
-    now = drawn.shots[0].paint()
-    assert np.abs(first - now).mean() < 3, "draw it again: python docs/front_page.py"
+    assert np.abs(first - drawn.shots[0].paint()).mean() < 3, "draw it again: python docs/front_page.py"
 
 
 def test_the_script_of_the_front_page_writes_both_pictures(

@@ -34,11 +34,19 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="measure every convolution strategy and compare it with its estimated cost (about a minute)",
     )
 
+    parser.add_argument(
+        "--sizes",
+        action="store_true",
+        help="measure the size of each package that deodar needs, and the time of its import (half a minute)",
+    )
+
 
 def run(args: argparse.Namespace) -> int:
     """Examine the installation; status 1 if a requirement is missing."""
     if args.plans:
         return _plans(args.json)
+    if args.sizes:
+        return _measure_sizes(args.json)
     state = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
     if args.json:
         print(codec.text(state))
@@ -89,6 +97,31 @@ def _plans(as_json: bool) -> int:
         f"The chosen strategy is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst"
         f" it takes {max(lost):.2f} times as long"
     )
+    return 0
+
+
+def _measure_sizes(as_json: bool) -> int:
+    """Print the size and the time of an import of each package that deodar needs, the largest first."""
+    # start-up time
+    from rich.console import Console
+    from rich.progress import track
+
+    from deodar.cli import _sizes
+
+    modules, needed = _sizes.modules_by_distribution(), _sizes.closure()
+    bar = track(needed.items(), "measuring", console=Console(stderr=True), transient=True)
+    costs = sorted((_sizes.measure(name, parent, modules) for name, parent in bar), key=lambda cost: -cost.mb)
+    if as_json:
+        print(codec.text([dc.asdict(cost) for cost in costs]))
+        return 0
+    print(f"{'package':<24}{'version':<14}{'MB':>8}{'import, s':>11}  needed by")
+    for cost in costs:
+        seconds = "-" if cost.seconds is None else f"{cost.seconds:.2f}"
+        print(f"{cost.name:<24}{cost.version:<14}{cost.mb:>8.1f}{seconds:>11}  {cost.needed_by}")
+    print(
+        f"{len(costs)} packages, {sum(cost.mb for cost in costs):.0f} MB. The time of an import is CPU time,"
+    )
+    print("with all that the package itself imports.")
     return 0
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from deodar.cli import main
+from deodar.cli import _sizes, main
 from deodar.compiler import device
 
 
@@ -67,3 +67,22 @@ def test_the_line_of_devices_states_how_to_choose_or_install_one(
     main(["doctor"])
     (line,) = [x for x in capsys.readouterr().out.splitlines() if x.startswith("devices")]
     assert line.endswith(advice)
+
+
+def test_sizes_are_those_of_the_packages_that_deodar_needs_without_an_extra(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    imported: list[str] = []
+    monkeypatch.setattr(_sizes, "_import_seconds", lambda module: imported.append(module) or 0.25)
+    assert main(["doctor", "--sizes", "--json"]) == 0
+    costs = {cost["name"]: cost for cost in json.loads(capsys.readouterr().out)}
+    assert costs["jax"]["needed_by"] == "deodar" and costs["jaxlib"]["needed_by"] == "jax"
+    assert costs["jaxlib"]["mb"] > 50 > costs["packaging"]["mb"] > 0.1 and "pytest" not in costs
+    assert {"PIL", "google_crc32c", "jax"} <= set(imported)
+    assert main(["doctor", "--sizes"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1].startswith("jaxlib ") and lines[1].endswith("0.25  jax") and "packages, " in lines[-2]
+
+
+def test_the_time_of_an_import_is_measured_and_a_module_that_cannot_be_imported_has_none() -> None:
+    assert 0 <= _sizes._import_seconds("json") < 5 and _sizes._import_seconds("no_such_module") is None
