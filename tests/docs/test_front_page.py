@@ -6,6 +6,7 @@ import re
 import tomllib
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -66,7 +67,7 @@ def test_the_front_page_has_at_most_eighty_lines() -> None:
 
 def test_with_an_address_no_link_of_the_description_is_relative_and_no_picture_is_missing() -> None:
     targets = rendered(description())
-    assert len(targets.links) > 20 and len(targets.pictures) == 5
+    assert len(targets.links) > 20 and len(targets.pictures) == 7
     relative = [t for t in (*targets.links, *targets.pictures) if not t.startswith("https://")]
     assert not relative, relative
     paths = [
@@ -80,6 +81,15 @@ def test_with_an_address_no_link_of_the_description_is_relative_and_no_picture_i
 def test_in_a_clone_links_and_pictures_of_the_front_page_are_files() -> None:
     targets = rendered(README)
     assert not [t for t in (*targets.links, *targets.pictures) if not (ROOT / t).is_file()]
+
+
+def test_the_ten_lines_build_the_model_of_the_first_act() -> None:
+    [block] = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(block.partition("data =")[0], names)
+    written, act = names["model"], one_field.selection()
+    written.describe(notes=act.document.notes)
+    assert written.document == act.document and len(block.split("\n\n")[1].splitlines()) <= 10
 
 
 @pytest.mark.parametrize("theme", list(THEMES))

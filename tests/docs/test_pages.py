@@ -19,7 +19,11 @@ TEXTS = [*sorted(ROOT.glob("*.md")), *sorted(DOCS.rglob("*.md"))]
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
 DRAWN_ELSEWHERE = {
     "saliency.md": {"saliency-untuned.png"},  # by `deodar demo saliency --untuned`, made smaller
-    "README.md": {"pointing.png", "spa.png", "story-dark.gif", "story-light.gif"},
+    "README.md": {
+        *(f"studio-{name}.png" for name in ("pointing", "pointing-dark", "world", "world-dark")),
+        "story-dark.gif",
+        "story-light.gif",
+    },
     # by `python docs/demonstrations.py`
     "serial-order.md": {
         *(
