@@ -10,6 +10,7 @@ from typing import Any, cast
 import pytest
 
 from deodar.analysis.thresholds import Transition
+from deodar_papers.story import demo, one_field
 from deodar_papers.story.field_moments import (
     FieldThresholds,
     claims,
@@ -139,3 +140,13 @@ def test_thresholds_are_those_that_regimes_measures() -> None:
     measured = FieldThresholds.of(cast("Any", regimes))
     assert measured == FieldThresholds((4.0, 0.5), (-0.75, 0.25))
     assert (measured.needed, measured.lowering) == ("4.0", "0.8")
+
+
+def test_in_a_run_the_moments_lie_beyond_the_measured_thresholds_and_in_order() -> None:
+    run = one_field.run(demo.SEED)
+    m = moments(run)
+    assert m.detected is not None and m.selected is not None and m.forgotten is not None
+    assert run.input[m.grows].max() < THRESHOLDS.detection[0] < run.input[m.detected].max()
+    assert run.lowered[m.forgotten] < THRESHOLDS.forgetting[0] < run.lowered[m.falls]
+    assert m.detected < m.second < m.selected < m.go < m.gone == m.remembered < m.falls < m.forgotten
+    assert run.input[m.gone].max() == 0 < run.activation[m.gone].max()
