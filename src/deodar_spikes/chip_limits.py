@@ -54,5 +54,5 @@ def chip_limits(name: str) -> ChipLimits:
     """
     if name not in chip_names():
         raise UnknownName(f"there is no chip {name!r}", fix=did_you_mean(name, chip_names()))
-    data: dict[str, Any] = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
-    return ChipLimits(name, **data)
+    document: dict[str, Any] = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
+    return ChipLimits(name, **document)

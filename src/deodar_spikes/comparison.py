@@ -162,7 +162,7 @@ def _rate_model(
     labels = [p.label for p in made.translated.network.populations if p.probed]
     many = world is not None or any(e.element.noise_axes() is not None for e in model.document.entries)
     dt = model.document.step
-    found = simulate(
+    record = simulate(
         model,
         -(-windows * window // dt) * dt,
         seed=seed,
@@ -175,7 +175,7 @@ def _rate_model(
     at = np.round((np.arange(windows) + 0.5) * window / dt).astype(int)
     out: dict[str, NDArray[np.float32]] = {}
     for label in labels:
-        values = found[f"{label}.output"].values
+        values = record[f"{label}.output"].values
         values = values if many else values[None]
         values = values[:, np.minimum(at, values.shape[1] - 1)]
         each = np.broadcast_to(values, (trials, *values.shape[1:]))
@@ -193,11 +193,11 @@ def _estimates(
     level = max(float(runs["rates"].max()), 1e-6)
     found = {run: outcomes(values, axes, on, window, level) for run, values in runs.items()}
     winner = found["rates"].winner
-    wanted = winner if paired else np.full_like(winner, _most(winner))
+    expected = winner if paired else np.full_like(winner, _most(winner))
     mean = runs["rates"] if paired else runs["rates"].mean(1, keepdims=True)
     return {
         run: {
-            "winner": _winner(f, wanted, axes),
+            "winner": _winner(f, expected, axes),
             "peaks": _mean(f.peaks),
             "detection": _mean(f.detection),
             "forgetting": _mean(f.forgetting),
@@ -218,12 +218,13 @@ def _most(winners: NDArray[np.float64]) -> float:
     return float(values[counts.argmax()])
 
 
-def _winner(found: FieldOutcomes, wanted: NDArray[np.float64], axes: Axes) -> Estimate:
+def _winner(found: FieldOutcomes, expected: NDArray[np.float64], axes: Axes) -> Estimate:
     """Return the share of trials with the wanted winner, of those in which one is wanted."""
-    known = ~np.isnan(wanted)
+    known = ~np.isnan(expected)
     sizes = [a.samples for a in axes] or [1]
     places, targets = (
-        np.stack(np.unravel_index(np.nan_to_num(v[known]).astype(int), sizes)) for v in (found.winner, wanted)
+        np.stack(np.unravel_index(np.nan_to_num(v[known]).astype(int), sizes))
+        for v in (found.winner, expected)
     )
     apart = np.abs(places - targets)
     for k, axis in enumerate(axes):

@@ -100,7 +100,7 @@ def network_input(
         model = Model(doc.name)
         model.commit(doc)
         ports = {r.label: f"{r.label}.input" for r in ranges}
-        data = simulate(
+        record = simulate(
             model,
             steps * step,
             dt=step,
@@ -112,7 +112,7 @@ def network_input(
             on=Resources(progress=False),
         )
         for r in ranges:
-            values = data[ports[r.label]].values
+            values = record[ports[r.label]].values
             values = values if trials is None else np.moveaxis(values, 0, 1)
             analog[settling:, ..., r.start : r.stop] = values[:steps].reshape(steps, *many, -1)
     expected = np.zeros(graph.nodes[INPUT].size, np.float32)

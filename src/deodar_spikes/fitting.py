@@ -52,14 +52,14 @@ def fit(graph: NirGraph, limits: ChipLimits) -> Fitted:
     """Return a graph for a chip, without its mismatch (see `mismatch.py`)."""
     lines: list[Line] = []
     nodes = {name: _rounded(graph, name, limits, lines) for name in graph.nodes}
-    found = dc.replace(graph, nodes=nodes)
-    parts = _divide(found, limits, lines)
+    copied = dc.replace(graph, nodes=nodes)
+    parts = _divide(copied, limits, lines)
     cores = 1 + max((p.core for p in parts), default=-1)
     if limits.cores is not None and cores > limits.cores:
         lines.append(
             Line("", "file", "cores", "dropped", f"it needs {cores} cores, and the chip has {limits.cores}")
         )
-    return Fitted(found, parts, lines)
+    return Fitted(copied, parts, lines)
 
 
 def _rounded(graph: NirGraph, name: str, limits: ChipLimits, lines: list[Line]) -> GraphNode:
@@ -122,18 +122,18 @@ def _divide(graph: NirGraph, limits: ChipLimits, lines: list[Line]) -> list[Core
             lines += _too_many(label, counts[part], limits)
         start = 0
         for k in range(node.size):
-            own = set(np.flatnonzero(connected[k]).tolist())
+            indices = set(np.flatnonzero(connected[k]).tolist())
             needed = int(counts[k]) * weight_bits
             full = (
                 (limits.neurons_per_core is not None and used + 1 > limits.neurons_per_core)
-                or (limits.sources_per_core is not None and len(sources | own) > limits.sources_per_core)
+                or (limits.sources_per_core is not None and len(sources | indices) > limits.sources_per_core)
                 or (limits.synapse_bits_per_core is not None and bits + needed > limits.synapse_bits_per_core)
             )
             if full and used:
                 if k > start:
                     parts.append(CorePart(core, name, start, k))
                 core, used, bits, sources, start = core + 1, 0, 0, set(), k
-            used, bits, sources = used + 1, bits + needed, sources | own
+            used, bits, sources = used + 1, bits + needed, sources | indices
         if node.size > start:
             parts.append(CorePart(core, name, start, node.size))
     return parts

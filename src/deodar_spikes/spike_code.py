@@ -126,12 +126,12 @@ def _linear(slope: float, threshold: float, neurons: int, step: float, membrane:
     lifts = 1 - x**FOOT * (0.5 / np.mean(x**FOOT))
     high = threshold + REACH / slope
     u = np.linspace(threshold - 1 / slope, high, POINTS)
-    wanted = np.maximum(0.0, slope * (u - threshold))
+    expected = np.maximum(0.0, slope * (u - threshold))
     rate = _mean_rate(slope * (u - threshold), lifts, share)
-    unit = float(rate @ wanted / (rate @ rate))
+    unit = float(rate @ expected / (rate @ rate))
     offsets = lifts - slope * threshold
     code = SpikeCode(slope, offsets, unit, membrane, float(u[0]), high, REACH, 0.0, 0.0)
-    return _measured(code, u, wanted, step)
+    return _measured(code, u, expected, step)
 
 
 def _bounded(sigmoid: SigmoidFunction, neurons: int, step: float) -> SpikeCode:
@@ -146,20 +146,20 @@ def _bounded(sigmoid: SigmoidFunction, neurons: int, step: float) -> SpikeCode:
         middle = 0.05 * max(1.0, abs(float(thresholds[0])))
     margin = max(spread / 2, 2 * middle)
     u = np.linspace(thresholds[0] - margin, thresholds[-1] + margin, POINTS)
-    wanted = _values(sigmoid, u)
+    expected = _values(sigmoid, u)
     found: list[SpikeCode] = []
     for width in (w * middle for w in RAMPS):
         gain = (QUICK - 1) / width
         for shift in SHIFTS:
             offsets = 1 - gain * (thresholds - shift * width)
             code = SpikeCode(gain, offsets, most, QUICK * step, float(u[0]), float(u[-1]), most, 0.0, 0.0)
-            found.append(_measured(code, u, wanted, step))
+            found.append(_measured(code, u, expected, step))
     return min(found, key=lambda c: (c.rms, c.worst))
 
 
-def _measured(code: SpikeCode, u: Levels, wanted: Levels, step: float) -> SpikeCode:
+def _measured(code: SpikeCode, u: Levels, expected: Levels, step: float) -> SpikeCode:
     """Return a code with its errors."""
-    difference = np.abs(code.output(u, step) - wanted) / code.peak
+    difference = np.abs(code.output(u, step) - expected) / code.peak
     return dc.replace(code, rms=float(np.sqrt(np.mean(difference**2))), worst=float(difference.max()))
 
 

@@ -275,24 +275,24 @@ class _Translation:
     def _drive(self) -> Document:
         """Return the document of what is computed by deodar: its runs give the input of the network."""
         spiking = {ident for ident, _ in self.index}
-        kept = {e.id for e in self.doc.entries if e.id not in self.reached}
+        ids = {e.id for e in self.doc.entries if e.id not in self.reached}
         inner = [c for c in self.doc.connections if c.source not in spiking and c.target not in self.failed]
         grown = True
         while grown:  # linear couplings that pass on what deodar computes
             more = {
                 c.target
                 for c in inner
-                if c.source in kept and c.target not in spiking and self._linear(self.nodes[c.target])
+                if c.source in ids and c.target not in spiking and self._linear(self.nodes[c.target])
             }
-            grown = bool(more - kept)
-            kept |= more
-        kept |= spiking
+            grown = bool(more - ids)
+            ids |= more
+        ids |= spiking
         return dc.replace(
             self.doc,
-            entries=tuple(e for e in self.doc.entries if e.id in kept),
-            connections=tuple(c for c in inner if c.source in kept and c.target in kept),
+            entries=tuple(e for e in self.doc.entries if e.id in ids),
+            connections=tuple(c for c in inner if c.source in ids and c.target in ids),
             parameters=tuple(
-                dc.replace(p, links=tuple(link for link in p.links if link[0] in kept))
+                dc.replace(p, links=tuple(link for link in p.links if link[0] in ids))
                 for p in self.doc.parameters
             ),
             uses=(),

@@ -95,10 +95,10 @@ def mutated(random: random.Random, data: Any) -> str:
             case "rename" if isinstance(parent, dict):
                 parent[random.choice((f"{last}x", str(last)[:-1], "", "kind", "a.b.c"))] = parent.pop(last)
             case "copy":
-                value = copy.deepcopy(data)
+                copied = copy.deepcopy(data)
                 for key in random.choice(places(data)):
-                    value = value[key]
-                parent[last] = value
+                    copied = copied[key]
+                parent[last] = copied
             case "scale" if isinstance(parent[last], (int, float)):
                 parent[last] = parent[last] * random.choice((-1, 0, 1e6, 1e-6, 1e300))
             case _:
@@ -122,8 +122,8 @@ def attack(count: int, seed: int) -> Outcome:
         try:
             document = document_files.from_data(codec.read(text), {})
             problems(document)
-            again = document_files.from_data(json.loads(document_files.dumps(document)[0]), {})
-            if again != document:
+            restored = document_files.from_data(json.loads(document_files.dumps(document)[0]), {})
+            if restored != document:
                 outcome.errors.append(f"{k}: what is written differs from what was read: {text[:2000]}")
             outcome.read += 1
         except DeodarError:

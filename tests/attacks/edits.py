@@ -218,49 +218,49 @@ async def attack(address: str, pages: int, edits: int, seed: int) -> Outcome:
     """
     async with contextlib.AsyncExitStack() as stack:
         editors = [await stack.enter_async_context(page(address, kind=Editor)) for _ in range(pages)]
-        for one in editors:  # the first edits are made while the document is compiled
-            await one.until(lambda one=one: one.said.get("opened", {}).get("document"))
+        for visitor in editors:  # the first edits are made while the document is compiled
+            await visitor.until(lambda visitor=visitor: visitor.said.get("opened", {}).get("document"))
         ids = {e["path"]: e["id"] for e in editors[0].document["elements"]}
         preset = small()
         preset.set({"u.tau": 33.0, "g.factor": 7.0})
         text = preset.to_json()
         logs = await asyncio.gather(
             *(
-                _edit(one, random.Random(f"{seed} {k}"), edits // pages, ids, text)
-                for k, one in enumerate(editors)
+                _edit(visitor, random.Random(f"{seed} {k}"), edits // pages, ids, text)
+                for k, visitor in enumerate(editors)
             )
         )
         done = [(k, m, answer) for k, log in enumerate(logs) for m, answer in log]
         last = max(answer["version"] for _, _, answer in done)
-        for one in editors:
-            await one.until(lambda one=one: one.version >= last and one.checked >= last)
+        for visitor in editors:
+            await visitor.until(lambda visitor=visitor: visitor.version >= last and visitor.checked >= last)
         shown = await _running(editors[0], ids["s"])
-        outcome = _outcome(done, [one.document for one in editors], last)
-        wanted = next(e for e in editors[0].document["elements"] if e["path"] == "s")["values"]["amplitude"]
+        outcome = _outcome(done, [visitor.document for visitor in editors], last)
+        expected = next(e for e in editors[0].document["elements"] if e["path"] == "s")["values"]["amplitude"]
         return (
             outcome
-            if shown == pytest.approx(wanted, rel=1e-6)
-            else dc.replace(outcome, differ=[*outcome.differ, f"s runs at {shown}, not at {wanted}"])
+            if shown == pytest.approx(expected, rel=1e-6)
+            else dc.replace(outcome, differ=[*outcome.differ, f"s runs at {shown}, not at {expected}"])
         )
 
 
-async def _running(one: Page, stimulus: str) -> float:
+async def _running(p: Page, stimulus: str) -> float:
     """Return the output of a stimulus in the running program."""
-    await one.runs()
-    await one.do("watch", stream=1, element=stimulus, port="output")
-    await one.do("step", n=1)
-    await one.until(lambda: 1 in one.frames and one.frames[1][0] == one.clock["time"] > 0)
-    return float(one.frames[1][1])
+    await p.runs()
+    await p.do("watch", stream=1, element=stimulus, port="output")
+    await p.do("step", n=1)
+    await p.until(lambda: 1 in p.frames and p.frames[1][0] == p.clock["time"] > 0)
+    return float(p.frames[1][1])
 
 
 async def _edit(
-    one: Page, random: random.Random, n: int, ids: dict[str, str], preset: str
+    p: Page, random: random.Random, n: int, ids: dict[str, str], preset: str
 ) -> list[tuple[dict[str, Any], dict[str, Any]]]:
     """Send edits, a few at once, in the order in which they are drawn."""
     log: list[tuple[dict[str, Any], dict[str, Any]]] = []
     while len(log) < n:
-        wanted = [drawn(random, ids, preset) for _ in range(min(AT_ONCE, n - len(log)))]
-        log += zip(wanted, await asyncio.gather(*(one.ask(**m) for m in wanted)), strict=True)
+        expected = [drawn(random, ids, preset) for _ in range(min(AT_ONCE, n - len(log)))]
+        log += zip(expected, await asyncio.gather(*(p.ask(**m) for m in expected)), strict=True)
     return log
 
 
@@ -281,13 +281,13 @@ def _outcome(
         state = after
     differ += [f"page {k} differs from page 0" for k, seen in enumerate(documents) if seen != documents[0]]
     undo, redo = _length(state.past), _length(state.future)
-    wanted = json.loads(
+    expected = json.loads(
         msgspec.json.encode(view.document(state.document, "edits.json", documents[0]["unsaved"], undo, redo))
     )
     differ += [
-        f"{key} is {documents[0][key]!r}, and one after the other {wanted[key]!r}"
-        for key in wanted
-        if documents[0][key] != wanted[key]
+        f"{key} is {documents[0][key]!r}, and one after the other {expected[key]!r}"
+        for key in expected
+        if documents[0][key] != expected[key]
     ]
     accepted = sum(map(len, versions.values()))
     return Outcome(

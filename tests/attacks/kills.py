@@ -51,13 +51,13 @@ async def edit_and_save(address: str, process: subprocess.Popen[str], after: int
     save.
     """
     saved = 0.0
-    async with page(address) as one:
-        await one.until(lambda: one.document)
-        u = one.element("u")
-        closed = asyncio.create_task(one.socket.wait_closed())
+    async with page(address) as visitor:
+        await visitor.until(lambda: visitor.document)
+        u = visitor.element("u")
+        closed = asyncio.create_task(visitor.socket.wait_closed())
         for k in range(after + 1):
-            await one.do("set", element=u, parameter="tau", value=100 + k)
-            saving = asyncio.create_task(one.do("save", replace=True))
+            await visitor.do("set", element=u, parameter="tau", value=100 + k)
+            saving = asyncio.create_task(visitor.do("save", replace=True))
             if k == after:
                 await asyncio.sleep(0.02 * random.random())
                 process.send_signal(signal.SIGKILL)
@@ -81,9 +81,9 @@ def attack(folder: Path, count: int, seed: int = 0) -> Outcome:
             stop(process)
         outcome.kills += 1
         try:
-            found = dd.load(folder / "m.json").get("u.tau")
-            if saved and found not in (saved, saved + 1):
-                outcome.errors.append(f"{k}: {saved} was answered as saved, and the file holds {found}")
+            loaded = dd.load(folder / "m.json").get("u.tau")
+            if saved and loaded not in (saved, saved + 1):
+                outcome.errors.append(f"{k}: {saved} was answered as saved, and the file holds {loaded}")
         except dd.errors.DeodarError as error:
             outcome.errors.append(f"{k}: {error}")
     return outcome

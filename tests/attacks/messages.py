@@ -119,8 +119,8 @@ async def attack(address: str, count: int, seed: int) -> Outcome:
         ids = [e["id"] for e in other.document["elements"]]
         while outcome.sent < count:
             outcome.connections += 1
-            async with page(address) as one:
-                await _one_connection(one, random_, outcome, known, ids, count)
+            async with page(address) as visitor:
+                await _one_connection(visitor, random_, outcome, known, ids, count)
             await other.do("pause")
         await other.open("open_file", path="m.json", discard=True)
         await other.do("set", element=ids[0], parameter="tau", value=33)

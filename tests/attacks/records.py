@@ -45,13 +45,16 @@ class Outcome:
 
 def model(kind: str) -> dd.Model:
     """Return a noisy model: `line` or `plane` with a node."""
-    made = dd.Model(kind)
+    network = dd.Model(kind)
     x = dd.Axis("x", 0, 20, samples=30)
     axes = [x] if kind == "line" else [x, dd.Axis("y", 0, 20, samples=40)]
-    made.add(dd.Field("u", axes, kernel=[dd.Gaussian(6, 2)], noise=0.5))
-    made.add(dd.GaussianStimulus("s", axes, center=[10.0] * len(axes), sigma=3, amplitude=6)) >> made["u"]
-    made.add(dd.Field("n", [], tau=10, noise=0.2))
-    return made
+    network.add(dd.Field("u", axes, kernel=[dd.Gaussian(6, 2)], noise=0.5))
+    (
+        network.add(dd.GaussianStimulus("s", axes, center=[10.0] * len(axes), sigma=3, amplitude=6))
+        >> network["u"]
+    )
+    network.add(dd.Field("n", [], tau=10, noise=0.2))
+    return network
 
 
 CASES: dict[str, tuple[str, dict[str, Any]]] = {
@@ -123,7 +126,7 @@ def kill(folder: Path, case: str, seconds: float, outcome: Outcome, limit: float
     cut = {name: slice(n) for name, n in record.sizes.items()}
     whole = expected.isel(cut)
     for name in record.data_vars:
-        same = record[name].values[..., :samples].tobytes() == whole[name].values.tobytes()
+        same = record[name].values.tobytes() == whole[name].values.tobytes()
         if case in ("pieces", "workers"):  # of the second piece nothing may be written yet
             same = all(
                 record[name].values[k, : own[k // 2]].tobytes()
@@ -159,18 +162,18 @@ def resume(folder: Path, case: str, outcome: Outcome) -> None:
                 if again:
                     dd.resume(out, on=dd.Resources(progress=stopping(1800)))
                 else:
-                    given: dict[str, Any] = {"seed": 3, "out": dd.Output(out, snapshots=200), **settings}
+                    fields: dict[str, Any] = {"seed": 3, "out": dd.Output(out, snapshots=200), **settings}
                     on = dc.replace(settings.get("on", dd.Resources()), progress=stopping(600))
-                    dd.simulate(model(kind), end, **given | {"on": on})
+                    dd.simulate(model(kind), end, **fields | {"on": on})
             except dd.errors.Interrupted:
                 pass
             else:
                 outcome.errors.append(f"{case}: the run was not stopped")
     dd.resume(out)
-    found, whole = files.load_record(out), undisturbed(case, end)
+    record, whole = files.load_record(out), undisturbed(case, end)
     outcome.resumed += 1
     for name in whole.variables:
-        if found[name].values.tobytes() != whole[name].values.tobytes():
+        if record[name].values.tobytes() != whole[name].values.tobytes():
             outcome.errors.append(f"{case}: {name} differs after the run was resumed")
 
 
@@ -179,11 +182,11 @@ def attack(
     kills: int,
     seed: int,
     cases: Sequence[str] = tuple(CASES),
+    resumed: Sequence[str] = RESUMED,
     longest: float = 3.0,
     limit: float = LOST_SECONDS,
 ) -> Outcome:
-    """Kill runs of some cases up to `longest` seconds after their first chunk, and stop and resume those of
-    all.
+    """Kill runs of some cases up to `longest` seconds after their first chunk, and stop and resume others.
 
     The later in the attack, the later a run is killed, so that the last ones have samples that must be there.
     """
@@ -192,6 +195,6 @@ def attack(
         case = cases[k % len(cases)]
         seconds = (k + draw.random()) / kills * longest
         shutil.rmtree(kill(folder, case, seconds, outcome, limit), ignore_errors=True)
-    for case in RESUMED:
+    for case in resumed:
         resume(folder, case, outcome)
     return outcome

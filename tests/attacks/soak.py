@@ -126,24 +126,26 @@ def settled(
     end, last = time.monotonic() + PATIENCE, held(process, counts)
     while True:
         time.sleep(0.2)
-        now = held(process, counts)
-        errors = beyond(before or dc.replace(now, tasks=min(now.tasks, last.tasks)), now, visits)
-        if (not errors and now.tasks >= last.tasks) or time.monotonic() > end:
-            return now, errors
-        last = now
+        parameter = held(process, counts)
+        errors = beyond(
+            before or dc.replace(parameter, tasks=min(parameter.tasks, last.tasks)), parameter, visits
+        )
+        if (not errors and parameter.tasks >= last.tasks) or time.monotonic() > end:
+            return parameter, errors
+        last = parameter
 
 
 async def visit(address: str, random: random.Random) -> None:
     """Connect, watch, run, edit and disconnect."""
-    async with page(address) as one:
-        await one.runs()
-        u = one.element("u")
-        await one.do("watch", stream=1, element=u, port="activation")
-        await one.do("trace", stream=2, element=u, port="activation", reduce="max")
-        await one.do("play")
+    async with page(address) as visitor:
+        await visitor.runs()
+        u = visitor.element("u")
+        await visitor.do("watch", stream=1, element=u, port="activation")
+        await visitor.do("trace", stream=2, element=u, port="activation", reduce="max")
+        await visitor.do("play")
         for _ in range(random.randrange(1, 10)):
-            await one.do("set", element=u, parameter="tau", value=random.uniform(10, 90), gesture=1)
-        await one.do("undo")
+            await visitor.do("set", element=u, parameter="tau", value=random.uniform(10, 90), gesture=1)
+        await visitor.do("undo")
 
 
 async def visits(address: str, seconds: float, random: random.Random) -> int:
@@ -151,8 +153,8 @@ async def visits(address: str, seconds: float, random: random.Random) -> int:
     end, count = time.monotonic() + seconds, 0
     while count == 0 or time.monotonic() < end:
         await asyncio.gather(*(visit(address, random) for _ in range(AT_ONCE)))
-        async with page(address) as one:
-            await one.open("open_file", path="m.json", discard=True)
+        async with page(address) as visitor:
+            await visitor.open("open_file", path="m.json", discard=True)
         count += AT_ONCE + 1
     return count
 

@@ -49,11 +49,11 @@ def test_an_edit_that_is_meant_for_another_document_is_refused(tmp_path: Path) -
             await a.runs()
             session, u = a.said["opened"]["session"], a.element("u")
             await b.open("open_file", path="other.json")
-            wanted: list[dict[str, Any]] = [
+            expected: list[dict[str, Any]] = [
                 {"type": "set", "element": u, "parameter": "tau", "value": 77},
                 {"type": "undo"},
             ]
-            for edit in [*wanted, {"type": "save", "path": "third"}]:
+            for edit in [*expected, {"type": "save", "path": "third"}]:
                 refused = await a.ask(**edit, session=session)
                 assert "another document" in refused["problems"][0]["what"]
             await b.do("set", element=u, parameter="tau", value=44, session=b.said["opened"]["session"])

@@ -87,10 +87,12 @@ def _some(draw: Draw, doc: Document) -> list[str]:
     return [e.id for e in draw.sample(doc.entries, min(len(doc.entries), draw.randint(1, 3)))]
 
 
-def _added(draw: Draw, doc: Document, kind: str, **more: Any) -> Document:
+def _added(draw: Draw, doc: Document, kind: str, **options: Any) -> Document:
     if len(doc.entries) >= MOST_ELEMENTS:
         raise dd.errors.ModelError("full")
-    return building.add(doc, kind, {}, draw.choice(("", "u", "v")), at=(draw.randint(0, 99), 5.0), **more)[0]
+    return building.add(doc, kind, {}, draw.choice(("", "u", "v")), at=(draw.randint(0, 99), 5.0), **options)[
+        0
+    ]
 
 
 def _at_an_end(wire: tuple[str, str, str, str]) -> Around:
@@ -162,10 +164,10 @@ def _comment(draw: Draw, doc: Document) -> str:
 
 
 def _with_tau(doc: Document) -> list[Entry]:
-    found = [e for e in doc.entries if isinstance(e.element, dd.Field)]
-    if len(found) < 2:
+    elements = [e for e in doc.entries if isinstance(e.element, dd.Field)]
+    if len(elements) < 2:
         raise dd.errors.ModelError("too few fields")
-    return found
+    return elements
 
 
 def _inserted(draw: Draw, doc: Document) -> Document:
@@ -211,10 +213,10 @@ def _copied(draw: Draw, doc: Document) -> Document:
 
 
 def _named(draw: Draw, doc: Document, parameter: str) -> Entry:
-    found = [e for e in doc.entries if hasattr(e.element, parameter)]
-    if not found:
+    elements = [e for e in doc.entries if hasattr(e.element, parameter)]
+    if not elements:
         raise dd.errors.ModelError("none")
-    return draw.choice(found)
+    return draw.choice(elements)
 
 
 def written(doc: Document) -> tuple[str, bytes | None]:
@@ -225,9 +227,9 @@ def written(doc: Document) -> tuple[str, bytes | None]:
 def whole(doc: Document) -> Any:
     """Return a document as a page has it, with problems of its structure: the warnings follow later."""
     made = converted.convert(doc)
-    shown = view.document(doc, "", False, 0, 0, made)
-    shown = msgspec.structs.replace(shown, problems=view.problems(made.problems, doc))
-    return json.loads(msgspec.json.encode(shown))
+    document = view.document(doc, "", False, 0, 0, made)
+    document = msgspec.structs.replace(document, problems=view.problems(made.problems, doc))
+    return json.loads(msgspec.json.encode(document))
 
 
 def _scripted(doc: Document) -> Document:
@@ -280,9 +282,9 @@ def _walk(draw: Draw, outcome: Outcome, times: int) -> None:
         found = converted.patch(
             shown, after, status, lambda after=after, doc=doc: view.problems(after.problems, doc)
         )
-        wanted = whole(doc)
-        page = wanted if found is None else patched(page, json.loads(msgspec.json.encode(found)))
-        if page != wanted:
+        expected = whole(doc)
+        page = expected if found is None else patched(page, json.loads(msgspec.json.encode(found)))
+        if page != expected:
             outcome.fail("the patched document differs")
         shown = after
 

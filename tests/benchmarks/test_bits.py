@@ -16,9 +16,9 @@ import bits
 
 
 def test_copies_of_equal_width_agree_to_the_bit() -> None:
-    found = bits.check(10, seed=1, names=["two lines of 31"], widths=(1, 3), workers_every=0)
-    assert not found.differences and found.compared > 50
-    assert {key[1] for key in found.first} == {1, 3}
+    problems = bits.check(10, seed=1, names=["two lines of 31"], widths=(1, 3), workers_every=0)
+    assert not problems.differences and problems.compared > 50
+    assert {key[1] for key in problems.first} == {1, 3}
 
 
 def test_a_difference_in_the_last_digit_is_found() -> None:
@@ -34,17 +34,19 @@ def test_the_last_piece_is_as_wide_as_the_others() -> None:
 
     def run(batch: int, **others: object) -> np.ndarray:
         on = dd.Resources(batch=batch)
-        data = dd.simulate(model, 20, record=["u1.activation"], every=20, on=on, **others)  # type: ignore[arg-type]
-        return data["u1.activation"].values
+        recording = dd.simulate(model, 20, record=["u1.activation"], every=20, on=on, **others)  # type: ignore[arg-type]
+        return recording["u1.activation"].values
 
     np.testing.assert_array_equal(run(trials=[0, 1, 2, 3], batch=3)[3], run(trials=[3, 5, 7], batch=3)[0])
     sweep = {"s.amplitude": [2.0, 4.0, 6.0, 8.0]}
     np.testing.assert_array_equal(
         run(sweep=sweep, batch=3)[3], run(sweep={"s.amplitude": [8.0, 1.0, 3.0]}, batch=3)[0]
     )
-    both = run(sweep=sweep, trials=2, batch=6)
-    assert both.shape[:2] == (4, 2)
-    np.testing.assert_array_equal(both[3], run(sweep={"s.amplitude": [8.0, 1.0, 3.0]}, trials=2, batch=6)[0])
+    record = run(sweep=sweep, trials=2, batch=6)
+    assert record.shape[:2] == (4, 2)
+    np.testing.assert_array_equal(
+        record[3], run(sweep={"s.amplitude": [8.0, 1.0, 3.0]}, trials=2, batch=6)[0]
+    )
 
 
 def test_a_batch_of_one_has_the_bits_of_a_single_run() -> None:

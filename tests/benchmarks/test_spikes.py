@@ -49,19 +49,19 @@ def test_the_stored_results_hold_what_is_required() -> None:
 def test_20_trials_select_as_the_rates_do() -> None:
     given = pairs(20)
     inputs = spikes.constant(given.inputs)
-    wanted = spikes.rate_winners(given)
+    expected = spikes.rate_winners(given)
     graph = spikes.network(winner_take_all(given.inputs[0]))
     for mismatch in (0.0, 0.2):
-        found = spikes.spikes(graph, inputs, mismatch, 20, 200)
-        assert spikes._same(spikes.winners(graph, found), wanted) == 20
+        counts = spikes.spikes(graph, inputs, mismatch, 20, 200)
+        assert spikes._same(spikes.winners(graph, counts), expected) == 20
 
 
 def test_controls_fail() -> None:
     given = pairs(20, 0.05, 0.05)
     inputs = spikes.constant(given.inputs)
     graph = spikes.network(winner_take_all(given.inputs[0]))
-    found = spikes.spikes(graph, inputs, 0.5, 20, 200)
-    assert spikes._same(spikes.winners(graph, found), given.places) < 19
+    counts = spikes.spikes(graph, inputs, 0.5, 20, 200)
+    assert spikes._same(spikes.winners(graph, counts), given.places) < 19
     none = spikes.network(winner_take_all(given.inputs[0], 0.0))
     out = spikes.rates(none, spikes.spikes(none, inputs, 0.0, 1, 200)[2:], 200)["pool"].mean(0)
     assert ((out > 0.3 * out.max(1, keepdims=True)).sum(1) > 12).all()

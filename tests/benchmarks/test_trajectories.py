@@ -33,9 +33,9 @@ def stored() -> trajectories.Stored:
 
 @pytest.mark.parametrize("name", SOME)
 def test_a_model_has_its_stored_trajectory(name: str, stored: trajectories.Stored) -> None:
-    found = trajectories.compare(name, SCENES[name], stored.models[name], stored.values[name], ["float64"])
-    assert not found.problems
-    assert found.largest["float64"][0] <= trajectories.LIMITS["float64"]
+    values = trajectories.compare(name, SCENES[name], stored.models[name], stored.values[name], ["float64"])
+    assert not values.problems
+    assert values.largest["float64"][0] <= trajectories.LIMITS["float64"]
 
 
 def test_the_events_of_an_experiment_have_their_stored_times(stored: trajectories.Stored) -> None:
@@ -90,10 +90,10 @@ def test_a_full_name_selects_one_model_and_a_part_all_that_contain_it(stored: tr
     assert trajectories.chosen(["example projection"]).keys() == {"example projection"}
     assert trajectories.stored_names(stored, ["example projection"]) == ["example projection"]
     assert trajectories.stored_names(stored, ["projection to"]) == ["example projection to the end"]
-    other = dc.replace(stored, models={"example older": {}, "example projection": {}})
+    copied = dc.replace(stored, models={"example older": {}, "example projection": {}})
     assert (
-        trajectories.stored_names(other, ["example older"]) == ["example older"]
-        and len(trajectories.stored_names(other, [])) == 2
+        trajectories.stored_names(copied, ["example older"]) == ["example older"]
+        and len(trajectories.stored_names(copied, [])) == 2
     )
 
 
@@ -116,12 +116,12 @@ def test_values_are_read_with_the_bits_that_were_written(tmp_path: Path) -> None
         {"models": 1}, {"m": {"name": "m"}, "t": {"name": "t", "numbers": {}}}, values
     )
     written.write(tmp_path)
-    again = trajectories.Stored.read(tmp_path)
-    assert again.models == written.models and again.about == written.about
+    reading = trajectories.Stored.read(tmp_path)
+    assert reading.models == written.models and reading.about == written.about
     for precision, rows in values["m"].items():
         for row, array in rows.items():
-            assert again.values["m"][precision][row].dtype == precision
-            np.testing.assert_array_equal(again.values["m"][precision][row], array)
+            assert reading.values["m"][precision][row].dtype == precision
+            np.testing.assert_array_equal(reading.values["m"][precision][row], array)
 
 
 def test_every_stored_model_states_its_versions_and_can_be_run(stored: trajectories.Stored) -> None:

@@ -123,11 +123,11 @@ def another(value: float, lower: float | None, upper: float | None) -> float:
 def changes(element: Element) -> list[tuple[str, Any]]:
     """Return for each traced leaf of an element another value: (path, value)."""
     out: list[tuple[str, Any]] = []
-    for path, value, p in leaves(element):
-        if isinstance(value, np.ndarray):
-            out.append((path, 0.5 * value + 0.125))
+    for path, number, p in leaves(element):
+        if isinstance(number, np.ndarray):
+            out.append((path, 0.5 * number + 0.125))
         else:
-            out.append((path, another(float(value), p.lower, p.upper)))
+            out.append((path, another(float(number), p.lower, p.upper)))
     return out
 
 

@@ -27,7 +27,7 @@ COPIES = {
 
 
 @pytest.fixture(params=COPIES)
-def again(request):
+def copied_by(request):
     """Return a function that copies or pickles an object."""
     return COPIES[request.param]
 
@@ -41,8 +41,8 @@ def again(request):
     ],
     ids=lambda a: a.name,
 )
-def test_an_axis_is_copied_and_pickled(axis, again):
-    other = again(axis)
+def test_an_axis_is_copied_and_pickled(axis, copied_by):
+    other = copied_by(axis)
     assert other == axis and hash(other) == hash(axis) and str(other) == str(axis)
     assert np.array_equal(other.points, axis.points)
 
@@ -54,9 +54,9 @@ def test_a_pickled_axis_is_checked_when_it_is_read():
         pickle.loads(pickle.dumps(axis))
 
 
-def test_a_copied_array_parameter_stays_read_only(again):
+def test_a_copied_array_parameter_stays_read_only(copied_by):
     array = FrozenArray([[1.0, 2.0], [3.0, 4.0]])
-    other = again(array)
+    other = copied_by(array)
     assert other == array and hash(other) == hash(array) and np.array_equal(other.data, array.data)
     with pytest.raises(ValueError, match="read-only"):
         other.data[0, 0] = 5.0
@@ -65,8 +65,8 @@ def test_a_copied_array_parameter_stays_read_only(again):
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
 def test_every_registered_kind_is_copied_and_pickled(kind):
     element = any_example(kind)
-    for how, again in COPIES.items():
-        other = again(element)
+    for how, copied_by in COPIES.items():
+        other = copied_by(element)
         assert (type(other), other, hash(other)) == (type(element), element, hash(element)), how
 
 
@@ -74,16 +74,16 @@ def test_every_registered_kind_is_copied_and_pickled(kind):
 def test_documents_and_models_of_every_kind_are_copied_and_pickled(kind):
     model = around(any_example(kind))
     model.parameter("gain", 2.0)
-    for again in COPIES.values():
-        other = again(model)
-        assert again(model.document) == model.document == other.document
-        assert again(model.document).by_id().keys() == model.document.by_id().keys()
+    for copied_by in COPIES.values():
+        other = copied_by(model)
+        assert copied_by(model.document) == model.document == other.document
+        assert copied_by(model.document).by_id().keys() == model.document.by_id().keys()
 
 
-def test_the_copy_of_a_model_is_edited_alone(again):
+def test_the_copy_of_a_model_is_edited_alone(copied_by):
     model = around(any_example("Field"))
     model.set("example.tau", 30.0)
-    other = again(model)
+    other = copied_by(model)
     other.set("example.tau", 40.0)
     assert model.get("example.tau") == 30.0 and other.get("example.tau") == 40.0
     assert other.undo() and other.undo() and other.get("example.tau") == 20.0
@@ -93,16 +93,16 @@ def test_the_copy_of_a_model_is_edited_alone(again):
 
 def test_a_handle_is_copied_with_its_model():
     model = around(any_example("Field"))
-    for again in (copy.deepcopy, COPIES["pickle 5"]):
-        other, handle = again((model, model["example"]))
+    for copied_by in (copy.deepcopy, COPIES["pickle 5"]):
+        other, handle = copied_by((model, model["example"]))
         assert handle.model is other and handle.path == "example"
 
 
-def test_copies_contain_no_compiled_programs(again):
+def test_copies_contain_no_compiled_programs(copied_by):
     model = around(any_example("Field"))
     dd.simulate(model, 2, record=["example"])
     assert model.programs
-    assert not again(model).programs
+    assert not copied_by(model).programs
 
 
 def test_a_copied_model_gives_the_same_bits():
@@ -114,15 +114,15 @@ def test_a_copied_model_gives_the_same_bits():
         )
 
 
-def test_a_session_continues_from_a_copied_snapshot_as_from_the_snapshot(again):
+def test_a_session_continues_from_a_copied_snapshot_as_from_the_snapshot(copied_by):
     model = around(any_example("Field"), noisy=True)
-    one = session(model, seed=5)
-    one.step(7)
-    kept = one.snapshot()
-    one.step(5)
-    expected = one.read("example.activation")
+    running = session(model, seed=5)
+    running.step(7)
+    snapshot = running.snapshot()
+    running.step(5)
+    expected = running.read("example.activation")
     other = session(model, seed=5)
-    other.restore(again(kept))
+    other.restore(copied_by(snapshot))
     other.step(5)
     assert np.array_equal(other.read("example.activation"), expected)
 
@@ -133,9 +133,9 @@ def test_a_pickled_snapshot_holds_the_state_of_its_world():
     """
     one, two = dd.Session(closed(True), world=Tank()), dd.Session(closed(True), world=Tank())
     one.step(9)
-    kept = pickle.loads(pickle.dumps(one.snapshot()))
+    copied = pickle.loads(pickle.dumps(one.snapshot()))
     one.step(6)
-    two.restore(kept)
+    two.restore(copied)
     two.step(6)
     assert one.read("level").any() and np.array_equal(one.read("level"), two.read("level"))
 
@@ -156,28 +156,28 @@ def test_a_copy_in_the_same_process_has_the_trust_of_its_model(trust, tmp_path):
 
 
 def test_a_pickle_contains_no_trust(tmp_path):
-    other = pickle.loads(pickle.dumps(foreign(tmp_path, trust=True)))
+    copied = pickle.loads(pickle.dumps(foreign(tmp_path, trust=True)))
     with pytest.raises(Untrusted, match=r"dd\.Model\(document=model\.document, trusted=True\)"):
-        dd.Session(other)
+        dd.Session(copied)
     with pytest.raises(Untrusted):
-        dd.Session(dd.Model(document=other.document))
-    dd.Session(dd.Model(document=other.document, trusted=True)).step()
+        dd.Session(dd.Model(document=copied.document))
+    dd.Session(dd.Model(document=copied.document, trusted=True)).step()
 
 
 def test_undo_after_unpickling_does_not_restore_trust(tmp_path):
     model = foreign(tmp_path, trust=True)
     model.remove(model.document.entries[0].path)
     assert not any(e.element.external_code() for e in model.document.entries)
-    other = pickle.loads(pickle.dumps(model))
-    other.undo()
+    copied = pickle.loads(pickle.dumps(model))
+    copied.undo()
     with pytest.raises(Untrusted):
-        dd.Session(other)
+        dd.Session(copied)
 
 
 def test_a_pickled_model_without_functions_accepts_functions_of_the_script():
-    other = pickle.loads(pickle.dumps(around(any_example("Field"))))
-    other.add(KINDS["Function"].example(), group="own")
-    assert other.trusted
+    copied = pickle.loads(pickle.dumps(around(any_example("Field"))))
+    copied.add(KINDS["Function"].example(), group="own")
+    assert copied.trusted
 
 
 def test_reading_a_pickled_model_runs_none_of_the_functions_it_names(tmp_path):

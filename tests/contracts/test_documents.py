@@ -31,14 +31,14 @@ def test_document_to_text_to_document_is_identity(kind, tmp_path):
 def test_values_other_than_defaults_are_saved_and_loaded(kind, tmp_path):
     """Every traced leaf has a value that is not the default."""
     model = around(any_example(kind))
-    for path, value in changes(model["example"].element):
-        model.set(f"example.{path}", value)
+    for path, number in changes(model["example"].element):
+        model.set(f"example.{path}", number)
     dd.save(model, tmp_path / "a.json")
     back = dd.load(tmp_path / "a.json", trust=True)
     assert back.document == model.document
-    for path, value in changes(any_example(kind)):
+    for path, number in changes(any_example(kind)):
         found = get(back["example"].element, path)
-        assert np.array_equal(found.data if isinstance(found, FrozenArray) else found, value), path
+        assert np.array_equal(found.data if isinstance(found, FrozenArray) else found, number), path
 
 
 @pytest.mark.parametrize("kind", ["Field", "Weights", "Project"])
@@ -56,6 +56,6 @@ def test_a_loaded_document_gives_the_same_bits(kind, tmp_path):
 def test_parts_are_compared_by_their_values(kind):
     one, two = any_example(kind), any_example(kind)
     assert one == two and hash(one) == hash(two)
-    for path, value in changes(one):
-        assert replace(one, path, value) != one
+    for path, number in changes(one):
+        assert replace(one, path, number) != one
     assert dc.replace(one, name="other") != one

@@ -25,24 +25,24 @@ COMMANDS = {
 def faults(line: str) -> list[str]:
     """Return the problems of a line of TeX: unpaired signs, no equals sign, unknown commands."""
     bare = re.sub(r"\\[\\{}_,!; ]", "", line)
-    found: list[str] = []
+    complaints: list[str] = []
     depth = 0
     for sign in re.findall(r"[{}]", bare):
         depth += 1 if sign == "{" else -1
         if depth < 0:
             break
     if depth:
-        found.append("braces")
-    found += [
+        complaints.append("braces")
+    complaints += [
         a
         for a, b in ((r"\left", r"\right"), (r"\begin", r"\end"))
         if len(re.findall(rf"\{a}(?![a-z])", bare)) != len(re.findall(rf"\{b}(?![a-z])", bare))
     ]
     if "=" not in line and r"\quad {}" not in line and not line.endswith(r"\text{:}"):
-        found.append("=")
+        complaints.append("=")
     if "$" in line:
-        found.append("$")
-    return found + sorted(set(re.findall(r"\\([A-Za-z]+)", bare)) - COMMANDS)
+        complaints.append("$")
+    return complaints + sorted(set(re.findall(r"\\([A-Za-z]+)", bare)) - COMMANDS)
 
 
 def test_every_equation_is_valid_tex() -> None:
@@ -55,7 +55,7 @@ def test_every_equation_is_valid_tex() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "found"),
+    ("line", "complaints"),
     [
         (r"y = \frac{a}{b", ["braces"]),
         (r"y = \left( a", [r"\left"]),
@@ -65,5 +65,5 @@ def test_every_equation_is_valid_tex() -> None:
         (r"$y = a$", ["$"]),
     ],
 )
-def test_invalid_tex_is_found(line: str, found: list[str]) -> None:
-    assert faults(line) == found
+def test_invalid_tex_is_found(line: str, complaints: list[str]) -> None:
+    assert faults(line) == complaints

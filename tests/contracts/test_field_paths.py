@@ -27,9 +27,9 @@ def model() -> dd.Model:
 
 
 def test_record_by_the_path_of_a_field_contains_its_activation(model: dd.Model) -> None:
-    data = dd.simulate(model, 3, record=[model["g.u"], "s", "n"])
-    assert list(data.data_vars) == ["g.u.activation", "s.output", "n.activation"]
-    assert about(data)["record"] == ["g.u.activation", "s.output", "n.activation"]
+    record = dd.simulate(model, 3, record=[model["g.u"], "s", "n"])
+    assert list(record.data_vars) == ["g.u.activation", "s.output", "n.activation"]
+    assert about(record)["record"] == ["g.u.activation", "s.output", "n.activation"]
     assert dd.simulate(model, 3, record="g.u").equals(dd.simulate(model, 3, record="g.u.activation"))
 
 

@@ -22,8 +22,8 @@ def numbers(model: dd.Model) -> list[str]:
     """Return the paths of all numbers and arrays that drive a program."""
     found: list[str] = []
     for entry in model.document.entries:
-        for leaf, value, parameter in leaves(entry.element):
-            if np.size(value) and parameter.role not in ("moment", "duration"):
+        for leaf, number, parameter in leaves(entry.element):
+            if np.size(number) and parameter.role not in ("moment", "duration"):
                 found.append(f"{entry.path}.{leaf}")
     return found
 

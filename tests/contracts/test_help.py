@@ -73,11 +73,11 @@ def missing(cls: type[Any], text: str) -> Iterator[str]:
     for p in parameters(cls):
         if p.name == "name" and "\n    name: " not in documented:
             continue
-        found = re.search(rf"^ \|      {p.name}: (.+(?:\n \|          .+)*)", text, re.MULTILINE)
-        says = " ".join(found[1].replace(" |", " ").split()) if found else ""
+        match = re.search(rf"^ \|      {p.name}: (.+(?:\n \|          .+)*)", text, re.MULTILINE)
+        says = " ".join(match[1].replace(" |", " ").split()) if match else ""
         bound = "" if p.lower is None else f"{p.lower:g}"
-        wanted = (f"unit {p.unit}" if p.unit else "", bound, *p.choices)
-        yield from (f"{cls.__name__}.{p.name}: {word}" for word in wanted if not says or word not in says)
+        expected = (f"unit {p.unit}" if p.unit else "", bound, *p.choices)
+        yield from (f"{cls.__name__}.{p.name}: {word}" for word in expected if not says or word not in says)
 
 
 def test_help_lists_every_parameter_with_unit_range_and_meaning() -> None:

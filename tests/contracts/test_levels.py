@@ -11,7 +11,7 @@ from tests.contracts.build import KINDS, around, example, session
 @pytest.mark.parametrize("kind", [name for name, cls in KINDS.items() if cls.levels])
 def test_levels_name_ports_and_numbers(kind: str) -> None:
     element = example(kind)
-    numbers = {path for path, value, p in leaves(element) if isinstance(value, float) and p.cost == "live"}
+    numbers = {path for path, number, p in leaves(element) if isinstance(number, float) and p.cost == "live"}
     running = session(around(element))
     for port, levels in element.levels.items():
         assert running.read(f"example.{port}").size

@@ -40,8 +40,8 @@ def three(kind: str) -> tuple[dd.Model, Axes]:
 @pytest.mark.parametrize("kind", LINEAR)
 def test_linear_couplings_superpose(kind):
     model, _ = three(kind)
-    data = record(model, 3, ["of a", "of b", "of both"], precision="float64", dt=1.0)
-    a, b, both = (data[f"{name}.output"].values for name in ("of a", "of b", "of both"))
+    recording = record(model, 3, ["of a", "of b", "of both"], precision="float64", dt=1.0)
+    a, b, both = (recording[f"{name}.output"].values for name in ("of a", "of b", "of both"))
     assert abs(a).max() > 0 and abs(b).max() > 0
     np.testing.assert_allclose(both, a + b, rtol=0, atol=1e-12 * max(abs(a).max(), abs(b).max()))
 

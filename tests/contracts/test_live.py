@@ -10,16 +10,7 @@ import pytest
 
 import deodar as dd
 from deodar.leaves import leaves, resting
-from tests.contracts.build import (
-    KINDS,
-    PARTS,
-    any_example,
-    around,
-    changes,
-    node,
-    parameters,
-    session,
-)
+from tests.contracts.build import KINDS, PARTS, any_example, around, changes, node, parameters, session
 
 EVENTS: list[str] = []
 
@@ -61,15 +52,15 @@ def test_live_parameters_change_without_recompiling(kind):
     neutral = resting(element)
     ports = [f"example.{port}" for port in node(model).outs]
     s = session(model)
-    for path, value in changes(element):  # leaving a neutral value makes another program, once
+    for path, number in changes(element):  # leaving a neutral value makes another program, once
         if path in neutral:
-            assert s.set(f"example.{path}", value) == "recompile"
+            assert s.set(f"example.{path}", number) == "recompile"
     first = read(s, ports)
     costs = {path: "rebuild" if p.form == "array" else p.cost for path, _, p in leaves(element)}
     traced = sum(program.traced for program in model.programs.values())
     EVENTS.clear()
-    for path, value in changes(s.document.by_names()[("example",)].element):
-        assert s.set(f"example.{path}", value) == costs[path], path
+    for path, number in changes(s.document.by_names()[("example",)].element):
+        assert s.set(f"example.{path}", number) == costs[path], path
     second = read(s, ports)
     assert not EVENTS
     assert sum(program.traced for program in model.programs.values()) == traced
@@ -92,7 +83,7 @@ def test_live_parameters_change_without_recompiling(kind):
 def alone(kind: str) -> list[tuple[str, object]]:
     """Return the changes of a kind that need no other program."""
     element = any_example(kind)
-    return [(path, value) for path, value in changes(element) if path not in resting(element)]
+    return [(path, number) for path, number in changes(element) if path not in resting(element)]
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if alone(kind)])
@@ -101,10 +92,10 @@ def test_each_change_alone_equals_the_same_value_from_the_start(kind):
     model = around(any_example(kind))
     ports = [f"example.{port}" for port in node(model).outs]
     s = session(model)
-    for path, value in alone(kind):
-        s.set(f"example.{path}", value)
+    for path, number in alone(kind):
+        s.set(f"example.{path}", number)
         changed = read(s, ports)
-        model.set(f"example.{path}", value)
-        given = read(session(model), ports)
-        for a, b in zip(changed, given, strict=True):
+        model.set(f"example.{path}", number)
+        reading = read(session(model), ports)
+        for a, b in zip(changed, reading, strict=True):
             np.testing.assert_array_equal(a, b, err_msg=path)

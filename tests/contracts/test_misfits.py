@@ -39,9 +39,9 @@ def test_a_second_source_with_other_axes_is_a_problem(kind, port):
     axes = node(model).ins[port]
     bad = moved(axes)
     model.connect(model.add(source("wrong", tuple(bad))), model["example"][port])
-    said = message(model)
+    text = message(model)
     for part in ("wrong.output", describe(bad), f"example.{port}", describe(axes), "Write: ", "(build.py:"):
-        assert part in said, f"{part!r} is missing in: {said}"
+        assert part in text, f"{part!r} is missing in: {text}"
 
 
 @pytest.mark.parametrize(("kind", "port"), OUT_OF)
@@ -50,9 +50,9 @@ def test_a_target_with_other_axes_is_a_problem(kind, port):
     axes = node(model).outs[port]
     bad = moved(axes)
     model.connect(model["example"][port], model.add(dd.Field("target", bad)))
-    said = message(model)
+    text = message(model)
     for part in (f"example.{port}", describe(axes), "target.input", describe(bad), "Write: "):
-        assert part in said, f"{part!r} is missing in: {said}"
+        assert part in text, f"{part!r} is missing in: {text}"
 
 
 def misfit(kind: str, port: str) -> tuple[dd.Model, list[dd.Axis]]:
@@ -88,12 +88,12 @@ def test_elements_that_declare_their_axes_are_among_the_tested_kinds():
 def test_an_only_source_with_other_axes_is_a_problem(kind, port):
     """Also if the port accepts any axes and only the parameters do not fit."""
     model, bad = misfit(kind, port)
-    said = message(model)
+    text = message(model)
     others = [other for other in any_example(kind).ports() if other != port]
     # if two ports must fit each other, the message may name either
     assert any(
-        f"{name}.output" in said and f"example.{end}" in said
+        f"{name}.output" in text and f"example.{end}" in text
         for name, end in [(f"wrong {port}", port), *zip(others, others, strict=True)]
     )
     for part in (describe(bad), "rite: "):
-        assert part in said, f"{part!r} is missing in: {said}"
+        assert part in text, f"{part!r} is missing in: {text}"

@@ -64,14 +64,14 @@ def test_the_call_that_an_error_proposes_has_every_value_in_its_place() -> None:
 
 @pytest.mark.parametrize(("kind", "name"), NEEDED)
 def test_a_document_without_the_axes_has_a_problem_that_names_an_axis_of_it(kind: str, name: str) -> None:
-    data = {"deodar": 3, "axes": SPACE, "elements": {"e": {"kind": kind}}}
+    document = {"deodar": 3, "axes": SPACE, "elements": {"e": {"kind": kind}}}
     with pytest.raises(DocumentError) as caught:
-        document_files.from_data(data, {})
+        document_files.from_data(document, {})
     [problem] = [p for p in caught.value.problems if p.where == f"e.{name}"]
     assert problem.what == f"{kind} needs {name}" and f'"{name}": ' in problem.fix
     assert '"space"' in problem.fix or name == "slots", problem.fix
     with pytest.raises(DocumentError, match='"samples"'):
-        document_files.from_data({**data, "axes": {}}, {})
+        document_files.from_data({**document, "axes": {}}, {})
 
 
 @pytest.mark.parametrize(("kind", "name"), OLD)
@@ -99,11 +99,11 @@ def test_a_document_of_version_1_runs_as_before() -> None:
         "connections": rows,
     }
     model = dd.Model(document=document_files.from_data(data, {}))
-    shown = dd.simulate(model, 1, record=["p"])["p.output"].values[-1]
-    assert np.array_equal(shown, [float(k % 7 == 3) for k in range(21)])
+    values = dd.simulate(model, 1, record=["p"])["p.output"].values[-1]
+    assert np.array_equal(values, [float(k % 7 == 3) for k in range(21)])
 
 
 def test_a_document_of_version_1_that_states_its_axes_is_read_as_it_is() -> None:
-    data = {"deodar": 1, "axes": SPACE, "elements": {"e": {"kind": "SpaceCode", "axes": ["space"]}}}
-    [entry] = document_files.from_data(data, {}).entries
+    document = {"deodar": 1, "axes": SPACE, "elements": {"e": {"kind": "SpaceCode", "axes": ["space"]}}}
+    [entry] = document_files.from_data(document, {}).entries
     assert entry.element.axes == (Axis("space", 0, 100, 101),)  # type: ignore[attr-defined]

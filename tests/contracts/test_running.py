@@ -117,8 +117,8 @@ def test_every_element_runs_at_a_step_of_its_own(kind):
     """Every kind may run at a multiple of the step; its state then changes at that multiple only."""
     element = any_example(kind)
     model = around(element, every=3)
-    data = record(model, 12, [f"example.{port}" for port in node(model).outs], every=1, dt=1.0)
-    for variable in data.data_vars.values():
+    recording = record(model, 12, [f"example.{port}" for port in node(model).outs], every=1, dt=1.0)
+    for variable in recording.data_vars.values():
         values = variable.values.reshape(13, -1)
         assert np.isfinite(values).all()
         if element.stateful:
@@ -128,6 +128,6 @@ def test_every_element_runs_at_a_step_of_its_own(kind):
 
 def test_examples_have_parameters_in_range():
     for kind in (*KINDS, *PARTS):
-        for path, value, p in leaves(any_example(kind)):
-            assert p.lower is None or np.min(value) >= p.lower, path
-            assert p.upper is None or np.max(value) <= p.upper, path
+        for path, number, p in leaves(any_example(kind)):
+            assert p.lower is None or np.min(number) >= p.lower, path
+            assert p.upper is None or np.max(number) <= p.upper, path

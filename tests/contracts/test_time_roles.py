@@ -92,7 +92,7 @@ def test_a_longer_step_is_refused_at_check_and_at_run_with_one_sentence(
     kind: str, name: str, every: int
 ) -> None:
     rate, step = LIMITED[kind][name] == "rate", 0.001
-    said = f"1/{name} = " if rate else f"the {LIMITED[kind][name]} {name} = "
+    message = f"1/{name} = " if rate else f"the {LIMITED[kind][name]} {name} = "
     for factor, fits in ((1.0, True), (0.99, False)):
         longest = factor * step * every
         model = around(replace(example(kind), name, 1 / longest if rate else longest), every=every)
@@ -105,7 +105,7 @@ def test_a_longer_step_is_refused_at_check_and_at_run_with_one_sentence(
             require_step(model.document, step)
             continue
         [problem] = found
-        assert problem.severity == "problem" and said in problem.what and name in problem.fix
+        assert problem.severity == "problem" and message in problem.what and name in problem.fix
         with pytest.raises(TimeError) as caught:
             require_step(model.document, step)
         assert caught.value.problems == (problem,)
@@ -113,7 +113,7 @@ def test_a_longer_step_is_refused_at_check_and_at_run_with_one_sentence(
 
 def test_a_run_and_a_session_refuse_every_role() -> None:
     x = dd.Axis("x", 0, 10, samples=11)
-    for element, said in (
+    for element, message in (
         (
             Attractor("e", x, tau=0.5),
             r"e: the step of 1 ms is longer than the time scale tau = 0\.5\. Use dt <= 0\.5",
@@ -129,9 +129,9 @@ def test_a_run_and_a_session_refuse_every_role() -> None:
         u >> handle
         if "post" in element.ports():
             model.connect(u, handle["post"])
-        with pytest.raises(TimeError, match=said):
+        with pytest.raises(TimeError, match=message):
             dd.simulate(model, 10, record="e.output")
-        with pytest.raises(TimeError, match=said):
+        with pytest.raises(TimeError, match=message):
             dd.Session(model)
 
 
@@ -187,11 +187,11 @@ def test_roles_do_not_depend_on_the_name() -> None:
         for kind in ("MemoryTrace", "DelayLine", "TimeSeries", "Attractor")
         for p in parameters(KINDS[kind])
     }
-    wanted = {
+    expected = {
         "tau_build": "time constant",
         "delay": "duration",
         "times": "moment",
         "period": "duration",
         "tau": "time scale",
     }
-    assert {name: declared[name] for name in wanted} == wanted
+    assert {name: declared[name] for name in expected} == expected

@@ -74,9 +74,9 @@ def test_a_sensor_in_a_model_has_the_reading_of_the_world(kind):
         model = dd.Model("sensing")
         model.add(Sensor("eye", axes, sensor))
         session = dd.Session(model, world=world)
-        shown = session.read("eye")
+        reading = session.read("eye")
         read = np.asarray(world.sense(sensor, axes, 0.0))
-        np.testing.assert_allclose(shown, read[0] if signal.each else read, rtol=1e-6)
+        np.testing.assert_allclose(reading, read[0] if signal.each else read, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_a_snapshot_inside_a_period_is_restored(kind):
     paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries if isinstance(e.element, Sensor)]
     session = dd.Session(model, dt=dt, world=WORLDS[kind].example())
     session.step(5)
-    kept = session.snapshot()
+    snapshot = session.snapshot()
 
     def onward():
         out = []
@@ -143,7 +143,7 @@ def test_a_snapshot_inside_a_period_is_restored(kind):
         return out
 
     first = onward()
-    session.restore(kept)
+    session.restore(snapshot)
     assert onward() == first
 
 

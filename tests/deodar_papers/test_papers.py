@@ -20,8 +20,8 @@ def test_a_paper_has_the_parts_that_the_command_uses(name, quick):
     jobs = paper.jobs(quick)
     keys = [key for job in jobs for key in job.keys]
     assert len(keys) == len(set(keys)) and all(job.cost > 0 for job in jobs)
-    again = pickle.loads(pickle.dumps(jobs))  # they are sent to workers
-    assert [job.arguments for job in again] == [dict(json.loads(json.dumps(job.arguments))) for job in jobs]
+    copied = pickle.loads(pickle.dumps(jobs))  # they are sent to workers
+    assert [job.arguments for job in copied] == [dict(json.loads(json.dumps(job.arguments))) for job in jobs]
     assert json.loads(json.dumps(paper.about(quick))) == json.loads(json.dumps(paper.about(quick)))
     named = {name for entry in paper.BY_CONDITION for name in paper.about(quick)[entry]}
     assert named == {key.rpartition("/")[0] for key in keys}

@@ -216,8 +216,8 @@ def test_no_word_of_a_camera_has_its_credentials(
     session = dd.Session(model, world=robot)
     session.run(40)
     robot.close()
-    said = json.dumps(robot.describe())
-    assert hidden in said and SECRET not in said
+    text = json.dumps(robot.describe())
+    assert hidden in text and SECRET not in text
     for wrong in (
         f"camra:{address}",
         f"combined:arena:blocks;{address}",
@@ -233,21 +233,21 @@ def test_a_record_names_the_camera_and_netrc_states_the_login(
 ) -> None:
     peer.login = f"us@er:{SECRET}"
     camera = made(f"http://us%40er:{SECRET}@{peer.place}/", open_timeout=30.0)
-    said = camera.describe()
+    description = camera.describe()
     monkeypatch.setenv("NETRC", str(tmp_path / "netrc"))
-    opened = again(Camera, said)
+    opened = again(Camera, description)
     with pytest.raises(WorldError, match=r"states no login for 127.0.0.1.*machine 127.0.0.1 login USER"):
         opened.reset(0)
     (tmp_path / "netrc").write_text(f"machine 127.0.0.1 login us@er password {SECRET}\n")
     opened.reset(0)
-    assert isinstance(opened, Camera) and opened.describe() == said
+    assert isinstance(opened, Camera) and opened.describe() == description
     opened.close()
     (tmp_path / "netrc").write_text(f"machine 127.0.0.1 login {SECRET} passwor\n")
     with pytest.raises(WorldError, match="cannot be read") as caught:
         opened.reset(0)
     assert SECRET not in str(caught.value)
     with pytest.raises(WorldError, match="was stored without its secrets"):
-        again(Camera, said | {"source": f"http://{peer.place}/?token=***"}).reset(0)
+        again(Camera, description | {"source": f"http://{peer.place}/?token=***"}).reset(0)
 
 
 def test_the_results_of_an_experiment_have_no_login(peer: PeerServer, tmp_path: Path) -> None:
@@ -335,8 +335,8 @@ def test_a_camera_stands_in_for_a_sensor_on_the_command_line(peer: PeerServer) -
     world = from_command_line(f"combined:arena:blocks;camera=http://{peer.place}/?a=1;above=camera:0")
     assert isinstance(world, dd.Combined) and isinstance(world.others["camera"], Camera)
     assert world.others["camera"].source == f"http://{peer.place}/?a=1"
-    found = world.sense("camera", AXES, 0.0)
-    assert np.isfinite(found).all() and peer.asked[0] == "/?a=1"
+    reading = world.sense("camera", AXES, 0.0)
+    assert np.isfinite(reading).all() and peer.asked[0] == "/?a=1"
     world.close()
     assert isinstance(from_command_line("rtsp://host/live"), Camera)
 
@@ -374,6 +374,6 @@ def test_opencv_and_ffmpeg_write_nothing_to_the_terminal(
         wait_until(lambda: ("/" in peer.asked and peer.sent > 20) or run.poll() is not None, 120.0)
         peer.stalled.set()
         assert run.wait(60) == 0
-    said = capfd.readouterr()
-    assert said.err == ""
-    assert len(said.out.splitlines()) == len(sources), said.out
+    printed = capfd.readouterr()
+    assert printed.err == ""
+    assert len(printed.out.splitlines()) == len(sources), printed.out

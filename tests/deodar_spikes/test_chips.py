@@ -34,20 +34,20 @@ def test_an_unknown_chip_suggests_the_nearest() -> None:
 
 
 def test_the_ideal_chip_changes_nothing() -> None:
-    found = fit(graph(), chip_limits("ideal"))
-    assert found.fits and not found.lines and found.cores == 1
-    assert np.array_equal(found.graph.nodes["synapses"].weight, graph().nodes["synapses"].weight)
+    fitted = fit(graph(), chip_limits("ideal"))
+    assert fitted.fits and not fitted.lines and fitted.cores == 1
+    assert np.array_equal(fitted.graph.nodes["synapses"].weight, graph().nodes["synapses"].weight)
 
 
 def test_weights_of_8_bits_have_few_values_in_each_block() -> None:
-    found, whole = fit(graph(), chip_limits("digital-8-bit")), graph()
-    new, old = found.graph.nodes["synapses"], whole.nodes["synapses"]
+    fitted, whole = fit(graph(), chip_limits("digital-8-bit")), graph()
+    new, old = fitted.graph.nodes["synapses"], whole.nodes["synapses"]
     assert isinstance(new, AffineNode) and isinstance(old, AffineNode)
     block = new.weight[:600, :600]
     assert len(np.unique(block)) <= 255 and np.abs(block - old.weight[:600, :600]).max() <= (
         np.abs(block).max() / 127 / 2 * 1.001
     )
-    assert found.fits and any("8 bits" in line.why for line in found.lines)
+    assert fitted.fits and any("8 bits" in line.why for line in fitted.lines)
 
 
 def test_neurons_are_divided_among_cores_without_gaps() -> None:
@@ -59,9 +59,9 @@ def test_neurons_are_divided_among_cores_without_gaps() -> None:
 
 
 def test_neurons_with_too_many_synapses_are_named() -> None:
-    found = fit(graph(), chip_limits("analog-mismatch"))
-    assert not found.fits
-    assert [line.where for line in found.lines if line.verdict == "dropped"] == ["pool", "pool inhibitory"]
+    fitted = fit(graph(), chip_limits("analog-mismatch"))
+    assert not fitted.fits
+    assert [line.where for line in fitted.lines if line.verdict == "dropped"] == ["pool", "pool inhibitory"]
 
 
 def test_chips_differ_and_each_has_the_spread_that_was_asked_for() -> None:

@@ -19,7 +19,7 @@ def neurons(path: Path) -> int:
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     model = dd.Model("small", dt=0.5)
     u = model.add(dd.Field("u", [dd.Axis("x", 0, 9, samples=10)], 10, -5.0))
@@ -28,18 +28,20 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_model_is_written_as_a_file_of_nir(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_model_is_written_as_a_file_of_nir(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = ["export", "nir", "small.json", "-o", "small.nir", "--neurons", "4", "--chip", "digital-8-bit"]
     assert main([*call, "--json"]) == 0
-    data = json.loads(capsys.readouterr().out)
-    assert neurons(here / "small.nir") == 40 and data["tool"] == "nir"
-    assert any("8 bits" in line["why"] for line in data["lines"])
+    answer = json.loads(capsys.readouterr().out)
+    assert neurons(workspace / "small.nir") == 40 and answer["tool"] == "nir"
+    assert any("8 bits" in line["why"] for line in answer["lines"])
     assert main([*call, "--force", "--tonic"]) == 0
-    assert neurons(here / "small.nir") == 44
+    assert neurons(workspace / "small.nir") == 44
     assert "40 neurons" not in capsys.readouterr().err
 
 
-def test_options_of_neurons_are_refused_elsewhere(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_options_of_neurons_are_refused_elsewhere(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(SystemExit):
         main(["export", "cosivina", "small.json", "--neurons", "4"])
     assert "--neurons is about spiking neurons" in capsys.readouterr().err
@@ -48,21 +50,21 @@ def test_options_of_neurons_are_refused_elsewhere(here: Path, capsys: pytest.Cap
     assert "there is no chip 'digital'" in capsys.readouterr().err
 
 
-def test_a_comparison_prints_a_table_and_draws(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_comparison_prints_a_table_and_draws(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = ["neuromorphic", "compare", "small.json", "--trials", "3", "--duration", "100", "--no-norse"]
     assert main([*call, "-o", "both.png"]) == 0
-    said = capsys.readouterr().out
-    assert "200 neurons" in said and "detection after" in said and "forgetting after" in said
-    assert (here / "both.png").stat().st_size > 5000
+    printed = capsys.readouterr().out
+    assert "200 neurons" in printed and "detection after" in printed and "forgetting after" in printed
+    assert (workspace / "both.png").stat().st_size > 5000
     assert main([*call, "--json", "--mismatch", "0.1", "--seed", "3"]) == 0
-    data = json.loads(capsys.readouterr().out)
-    assert data["elements"]["u"]["spikes"]["winner"]["value"] == 1.0 and data["neurons"] == 200
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["elements"]["u"]["spikes"]["winner"]["value"] == 1.0 and answer["neurons"] == 200
 
 
-def test_chips_are_listed_with_sources(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_chips_are_listed_with_sources(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["neuromorphic", "chips"]) == 0
-    said = capsys.readouterr().out
-    assert "digital-8-bit" in said and "MAX_COMPARTMENTS" in said
+    printed = capsys.readouterr().out
+    assert "digital-8-bit" in printed and "MAX_COMPARTMENTS" in printed
     assert main(["neuromorphic", "chips", "--json"]) == 0
     assert len(json.loads(capsys.readouterr().out)["chips"]) == 3
 

@@ -80,9 +80,9 @@ def test_fields_that_are_coupled_become_one_network() -> None:
     assert report["both", "u"].verdict == "dropped" and report["cue", "GaussianStimulus"].verdict == "carried"
     graph = build(translated.network)
     run = simulated(graph, network_input(translated, graph, 300), SpikingTrials(1, 10))
-    wanted = dd.simulate(model, 300, record=["v.output"], every=300)["v.output"].values[-1]
+    expected = dd.simulate(model, 300, record=["v.output"], every=300)["v.output"].values[-1]
     assert run["v"].shape == (60, 1, 16)
-    assert np.sqrt(np.mean((run["v"][-10:].mean((0, 1)) - wanted) ** 2)) < 0.05 * wanted.max()
+    assert np.sqrt(np.mean((run["v"][-10:].mean((0, 1)) - expected) ** 2)) < 0.05 * expected.max()
 
 
 def test_outcomes_of_a_peak_that_moves_and_goes() -> None:

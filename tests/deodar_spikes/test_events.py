@@ -26,9 +26,9 @@ def compared(model: dd.Model, given: Targets, duration: float = 600) -> SpikingC
     return compare_spikes(model, duration, TRIALS, options, given.world, norse=False)
 
 
-def last(found: SpikingComparison, run: str) -> np.ndarray:
+def last(comparison: SpikingComparison, run: str) -> np.ndarray:
     """The mean output in the last 100 ms, trials x cells."""
-    return found.runs[run]["perceptual"][-20:].mean(0)
+    return comparison.runs[run]["perceptual"][-20:].mean(0)
 
 
 @pytest.fixture(scope="module")
@@ -37,34 +37,36 @@ def given() -> Targets:
 
 
 @pytest.fixture(scope="module")
-def found(given: Targets) -> SpikingComparison:
+def comparison(given: Targets) -> SpikingComparison:
     return compared(MODEL, given)
 
 
 def test_rates_and_spikes_select_the_target_with_more_contrast(
-    found: SpikingComparison, given: Targets
+    comparison: SpikingComparison, given: Targets
 ) -> None:
     for run in ("rates", "spikes"):
-        target, other = chosen(last(found, run), given)
+        target, other = chosen(last(comparison, run), given)
         assert target.all() and not other.any(), run
     # the places differ, so that each trial must be compared with itself
-    assert len(np.unique(last(found, "rates").argmax(-1))) > 4
-    same = found.estimates["perceptual"]["spikes"]["winner"]
+    assert len(np.unique(last(comparison, "rates").argmax(-1))) > 4
+    same = comparison.estimates["perceptual"]["spikes"]["winner"]
     assert same.value == 1.0 and same.n == TRIALS
-    assert found.estimates["perceptual"]["spikes"]["difference"].value < 0.05
+    assert comparison.estimates["perceptual"]["spikes"]["difference"].value < 0.05
 
 
 def test_without_inhibition_they_select_neither(given: Targets) -> None:
-    found = compared(dd.architectures.event_selection(inhibition=0.0), given, 400)
+    comparison = compared(dd.architectures.event_selection(inhibition=0.0), given, 400)
     for run in ("rates", "spikes"):
-        target, other = chosen(last(found, run), given)
+        target, other = chosen(last(comparison, run), given)
         assert target.all() and other.all(), run
 
 
-def test_both_read_the_same_events_and_each_trial_its_own(found: SpikingComparison, given: Targets) -> None:
-    spikes = found.given.analog[found.given.settling :]
-    data = dd.simulate(MODEL, 100, record="perceptual.input", every=1, trials=TRIALS, world=given.world)
-    rates = np.moveaxis(data["perceptual.input"].values, 0, 1)[:100].reshape(100, TRIALS, -1)
+def test_both_read_the_same_events_and_each_trial_its_own(
+    comparison: SpikingComparison, given: Targets
+) -> None:
+    spikes = comparison.given.analog[comparison.given.settling :]
+    record = dd.simulate(MODEL, 100, record="perceptual.input", every=1, trials=TRIALS, world=given.world)
+    rates = np.moveaxis(record["perceptual.input"].values, 0, 1)[:100].reshape(100, TRIALS, -1)
     assert np.array_equal(spikes[:100], rates)
     assert np.ptp(spikes[:100], axis=1).max() > 1
 
@@ -76,5 +78,5 @@ def test_a_recording_is_the_input_of_all_trials() -> None:
     network = network_input(translated, graph, 60, world, 2)
     given = network.analog[network.settling :]
     assert given.max() > 0 and np.array_equal(given[:, 0], given[:, 1])
-    data = dd.simulate(MODEL, 60, record="perceptual.input", every=1, world=world)
-    assert np.array_equal(given[:, 0].reshape(60, 16, 16), data["perceptual.input"].values[:60])
+    record = dd.simulate(MODEL, 60, record="perceptual.input", every=1, world=world)
+    assert np.array_equal(given[:, 0].reshape(60, 16, 16), record["perceptual.input"].values[:60])

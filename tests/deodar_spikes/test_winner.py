@@ -27,14 +27,14 @@ def rates(inputs: np.ndarray, inhibition: float = 1.0) -> np.ndarray:
 def test_neurons_select_the_stronger_input_as_the_rate_model_does() -> None:
     trials = pairs(20)
     found = rates(trials.inputs)
-    wanted = np.array(
+    expected = np.array(
         [
             dd.simulate(winner_take_all(s), 400, record=["pool.output"], every=400)["pool.output"].values[-1]
             for s in trials.inputs[:5]
         ]
     )
     assert (abs(found.argmax(1) - trials.places) <= 2).all()
-    assert np.sqrt(np.mean((found[:5] - wanted) ** 2)) <= 0.05 * wanted.max()
+    assert np.sqrt(np.mean((found[:5] - expected) ** 2)) <= 0.05 * expected.max()
 
 
 def test_without_inhibition_they_do_not_select() -> None:

@@ -227,10 +227,12 @@ P = TypeVar("P", bound=Page)
 
 
 @contextlib.asynccontextmanager
-async def page(address: str, draws: bool = True, kind: type[P] = Page, **how: Any) -> AsyncIterator[P]:  # type: ignore[assignment]
+async def page(address: str, draws: bool = True, kind: type[P] = Page, **options: Any) -> AsyncIterator[P]:  # type: ignore[assignment]
     """Connect to a studio."""
     there = urlsplit(address)
-    async with websockets.connect(f"ws://{there.netloc}/ws?{there.query}", max_size=None, **how) as socket:
+    async with websockets.connect(
+        f"ws://{there.netloc}/ws?{there.query}", max_size=None, **options
+    ) as socket:
         one = kind(socket, draws)
         listening = asyncio.create_task(one.listen())
         try:
@@ -242,11 +244,11 @@ async def page(address: str, draws: bool = True, kind: type[P] = Page, **how: An
                 await listening
 
 
-def play(address: str, scene: Callable[[Page], Coroutine[Any, Any, None]], **how: Any) -> None:
+def play(address: str, scene: Callable[[Page], Coroutine[Any, Any, None]], **options: Any) -> None:
     """Run a scene with one page."""
 
     async def main() -> None:
-        async with page(address, **how) as one:
-            await scene(one)
+        async with page(address, **options) as visitor:
+            await scene(visitor)
 
     asyncio.run(main())

@@ -52,21 +52,21 @@ def test_a_model_is_built_from_nothing_and_runs(root: Path) -> None:
 def test_each_edit_is_one_step_of_undo(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
-        u, left, right = p.element("u"), p.element("left"), p.element("right")
+        u, left_id, right = p.element("u"), p.element("left"), p.element("right")
         before = p.document
-        wire = {"source": left, "target": u}
+        wire = {"source": left_id, "target": u}
         edits: list[tuple[str, dict[str, Any]]] = [
             ("add_element", {"kind": "Gain", "wire": wire, "at": [1, 2]}),
             ("disconnect", {"source": right, "target": u}),
             ("connect", {"source": u, "target": u, "source_port": "output", "target_port": "input"}),
             ("reconnect", {"old": {"source": u, "target": u}, "new": {"source": right, "target": u}}),
             ("rename", {"element": u, "name": "field"}),
-            ("group", {"elements": [left, right], "name": "inputs", "at": [0, 0]}),
+            ("group", {"elements": [left_id, right], "name": "inputs", "at": [0, 0]}),
             ("rename", {"group": ["inputs"], "name": "stimuli"}),
             ("move_into", {"elements": [u], "group": ["stimuli"], "positions": {u: [5, 6]}}),
             ("ungroup", {"group": ["stimuli"]}),
             ("place", {"positions": {u: [3, 4]}}),
-            ("remove", {"elements": [left], "connections": [{"source": right, "target": u}]}),
+            ("remove", {"elements": [left_id], "connections": [{"source": right, "target": u}]}),
         ]
         for k, (type, message) in enumerate(edits):
             await p.do(type, **message)
@@ -88,8 +88,8 @@ def test_each_edit_is_one_step_of_undo(root: Path) -> None:
 def test_an_existing_element_and_a_moved_end_are_one_step_each(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
-        u, left, right = p.element("u"), p.element("left"), p.element("right")
-        wire = {"source": left, "target": u}
+        u, left_id, right = p.element("u"), p.element("left"), p.element("right")
+        wire = {"source": left_id, "target": u}
         (gain,) = await made(p, "add_element", kind="Gain", name="gain")
         await p.do("insert", element=gain, wire=wire, positions={gain: [5, 6]})
         assert wires(p) == {("left", "gain"), ("gain", "u"), ("right", "u")} and p.document["undo"] == 2
@@ -116,11 +116,11 @@ def test_an_existing_element_and_a_moved_end_are_one_step_each(root: Path) -> No
 def test_a_refused_edit_states_the_reason_and_changes_nothing(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
-        u, left = p.element("u"), p.element("left")
+        u, left_id = p.element("u"), p.element("left")
         before = p.document
         refused: list[tuple[str, dict[str, Any], str]] = [
-            ("connect", {"source": left, "target": u}, "already connected"),
-            ("connect", {"source": u, "target": left}, "no input port"),
+            ("connect", {"source": left_id, "target": u}, "already connected"),
+            ("connect", {"source": u, "target": left_id}, "no input port"),
             ("connect", {"source": u, "source_port": "outptu", "target": u}, "does not exist"),
             ("disconnect", {"source": u, "target": u}, "not connected"),
             ("rename", {"element": u, "name": "left"}, "already an element"),
@@ -145,8 +145,8 @@ def test_elements_are_copied_to_another_document(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         answer = await p.do("copy", elements=[e["id"] for e in p.document["elements"]])
-        data = json.loads(answer["text"])
-        assert data["elements"].keys() == {"u", "left", "right"} and len(data["connections"]) == 2
+        document = json.loads(answer["text"])
+        assert document["elements"].keys() == {"u", "left", "right"} and len(document["connections"]) == 2
         new = await made(p, "paste", text=answer["text"], at=[100, 100])
         assert names(p) == {"u", "left", "right", "u2", "left2", "right2"} and len(new) == 3
         assert len(p.document["connections"]) == 4
@@ -221,10 +221,10 @@ def test_a_record_is_copied_from_and_not_built_on(root: Path) -> None:
 def test_the_page_learns_what_a_port_can_be_connected_with(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
-        u, left = p.element("u"), p.element("left")
-        await p.do("fits", element=left)
+        u, left_id = p.element("u"), p.element("left")
+        await p.do("fits", element=left_id)
         found = p.said["fitting"]
-        assert found["element"] == left and [f["element"] for f in found["ports"]] == [u]
+        assert found["element"] == left_id and [f["element"] for f in found["ports"]] == [u]
         assert found["ports"][0]["reason"] == "they are connected already"
         assert {"kind": "Field", "port": "input"} in found["kinds"]
         axis = {"name": "y", "lower": 0, "upper": 100, "samples": 51}

@@ -31,9 +31,9 @@ def fetch(address: str) -> tuple[int, bytes]:
     """Return status and content of the page at an address."""
     connection = http.client.HTTPConnection("127.0.0.1", urlsplit(address).port, timeout=600)
     try:
-        there = urlsplit(address)
+        parts = urlsplit(address)
         connection.request(
-            "GET", "/", headers={"Cookie": f"deodar_token_{there.port}={there.query.removeprefix('token=')}"}
+            "GET", "/", headers={"Cookie": f"deodar_token_{parts.port}={parts.query.removeprefix('token=')}"}
         )
         answer = connection.getresponse()
         return answer.status, answer.read()
@@ -55,13 +55,13 @@ def start(folder: Path, *words: str) -> tuple[subprocess.Popen[str], str]:
 def test_the_studio_prints_its_address_responds_and_ends_with_ctrl_c(tmp_path: Path) -> None:
     process, address = start(tmp_path)
     try:
-        there = urlsplit(address)
-        assert there.hostname == "127.0.0.1" and len(there.query.removeprefix("token=")) == 32
+        parts = urlsplit(address)
+        assert parts.hostname == "127.0.0.1" and len(parts.query.removeprefix("token=")) == 32
         assert b"<title>" in fetch(address)[1]
     finally:
         process.send_signal(signal.SIGINT)
-        _, told = process.communicate(timeout=600)
-    assert process.returncode == 0 and told == ""
+        _, printed = process.communicate(timeout=600)
+    assert process.returncode == 0 and printed == ""
 
 
 def test_a_studio_in_the_background_of_a_script_ends_with_sigterm_and_says_so(tmp_path: Path) -> None:
@@ -75,9 +75,9 @@ def test_a_studio_in_the_background_of_a_script_ends_with_sigterm_and_says_so(tm
         assert b"<title>" in fetch(address)[1]
     finally:
         process.terminate()
-        _, told = process.communicate(timeout=600)
+        _, printed = process.communicate(timeout=600)
     assert process.returncode == 128 + signal.SIGTERM
-    assert told == "deodar studio: SIGTERM has ended the studio\n"
+    assert printed == "deodar studio: SIGTERM has ended the studio\n"
 
 
 def test_a_file_is_opened_by_a_relative_path_and_through_a_link(tmp_path: Path) -> None:
@@ -119,7 +119,7 @@ def opened_at(
     """Start a studio that answers at an address; return the addresses that it prints."""
     said: list[str] = []
     monkeypatch.setattr(serve.webbrowser, "open", opens)
-    monkeypatch.setattr(serve, "prepare", lambda *given: (FakeServer(address, *given[-2:]), None))
+    monkeypatch.setattr(serve, "prepare", lambda *arguments: (FakeServer(address, *arguments[-2:]), None))
     serve.serve(Service(folder, port=0), browser, said.append)
     return said
 
@@ -225,14 +225,14 @@ def test_a_missing_page_is_an_error_that_states_what_to_type(
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return an empty working folder."""
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
-def test_the_studio_opens_a_package_and_saves_it(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("DEODAR_STATE", str(here / "state"))
+def test_the_studio_opens_a_package_and_saves_it(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DEODAR_STATE", str(workspace / "state"))
     assert main(["pack", "example:node"]) == 0
 
     async def scene(p: Page) -> None:
@@ -242,22 +242,22 @@ def test_the_studio_opens_a_package_and_saves_it(here: Path, monkeypatch: pytest
         await p.do("set", element=p.element("u"), parameter="tau", value=33.0)
         await p.do("save")
 
-    with studio(here, here / "node.deodar") as address:
+    with studio(workspace, workspace / "node.deodar") as address:
         play(address, scene)
     assert dd.load("node.deodar").get("u.tau") == 33.0
-    assert sorted(p.name for p in here.iterdir()) == ["node.deodar", "state"]
+    assert sorted(p.name for p in workspace.iterdir()) == ["node.deodar", "state"]
 
 
 def test_the_studio_opens_an_example_as_a_copy_without_a_file(
-    here: Path, monkeypatch: pytest.MonkeyPatch
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The studio writes below the working folder, never into the folder of the examples."""
-    monkeypatch.setenv("DEODAR_STATE", str(here / "state"))
-    given: list[Any] = []
-    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: given.extend(args))
+    monkeypatch.setenv("DEODAR_STATE", str(workspace / "state"))
+    served: list[Any] = []
+    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: served.extend(args))
     assert main(["studio", "example:node", "--no-browser"]) == 0
-    service = given[0]
-    assert service.root == here
+    service = served[0]
+    assert service.root == workspace
 
     async def scene(p: Page) -> None:
         await p.runs()
@@ -267,34 +267,31 @@ def test_the_studio_opens_an_example_as_a_copy_without_a_file(
         play(address, scene)
 
 
-def test_a_missing_document_is_reported_before_a_port_is_opened(here: Path) -> None:
+def test_a_missing_document_is_reported_before_a_port_is_opened(workspace: Path) -> None:
     command = [sys.executable, "-m", "deodar", "studio", "nope.json", "--no-browser", "--port", "0"]
     done = subprocess.run(
         command,
         capture_output=True,
         text=True,
-        cwd=here,
-        env=os.environ | {"DEODAR_STATE": str(here)},
+        cwd=workspace,
+        env=os.environ | {"DEODAR_STATE": str(workspace)},
         timeout=600,
     )
     assert done.returncode == 1 and not done.stdout and "nope.json: there is no such file" in done.stderr
 
 
 def test_an_example_is_opened_by_the_command_that_opens_documents(
-    here: Path, monkeypatch: pytest.MonkeyPatch
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    given: list[Any] = []
-    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: given.extend(args))
+    served: list[Any] = []
+    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: served.extend(args))
     assert main(["examples", "open", "node"]) == 0
-    assert given[0].root == here and given[0].file == examples.file("node")
+    assert served[0].root == workspace and served[0].file == examples.file("node")
 
 
 @pytest.mark.parametrize(
     ("name", "says"),
-    [
-        ("nope.json", "nope.json: there is no such file"),
-        ("selection", "Did you mean 'example:selection'?"),
-    ],
+    [("nope.json", "nope.json: there is no such file"), ("selection", "Did you mean 'example:selection'?")],
 )
 def test_an_unknown_example_is_an_error_that_states_what_to_type(
     name: str, says: str, capsys: pytest.CaptureFixture[str]

@@ -28,11 +28,11 @@ def driving() -> dd.Model:
 
 
 def test_an_example_with_all_sensors_and_motors_is_the_default() -> None:
-    found = Embodiment()
-    picture, arena = found.world(saliency().document), found.world(driving().document)
-    assert isinstance(picture, Picture) and found.label(picture) == "Picture: an example"
-    assert isinstance(arena, Arena) and found.label(arena) == "Arena: an example"
-    assert found.world(dd.Model("blind").document) is None and found.label(None) == ""
+    embodiment = Embodiment()
+    picture, arena = embodiment.world(saliency().document), embodiment.world(driving().document)
+    assert isinstance(picture, Picture) and embodiment.label(picture) == "Picture: an example"
+    assert isinstance(arena, Arena) and embodiment.label(arena) == "Arena: an example"
+    assert embodiment.world(dd.Model("blind").document) is None and embodiment.label(None) == ""
 
 
 def test_an_example_that_the_axes_of_a_planner_cover_is_preferred() -> None:
@@ -61,21 +61,21 @@ def test_a_search_for_colours_gets_a_khepera_that_sees_no_block_at_its_start() -
 
 
 def test_a_world_in_use_is_kept_where_it_fits() -> None:
-    found, present = Embodiment(Arena("z")), Arena("blocks")
-    assert found.world(driving().document, present) is present
+    embodiment, present = Embodiment(Arena("z")), Arena("blocks")
+    assert embodiment.world(driving().document, present) is present
 
 
 def test_a_chosen_world_is_kept_where_it_fits() -> None:
     arena = Arena("z")
-    found = Embodiment(arena)
-    assert found.world(driving().document) is arena and found.label(arena) == "Arena: z"
-    assert isinstance(found.world(saliency().document), Picture)
+    embodiment = Embodiment(arena)
+    assert embodiment.world(driving().document) is arena and embodiment.label(arena) == "Arena: z"
+    assert isinstance(embodiment.world(saliency().document), Picture)
 
 
 def test_problems_name_each_signal_that_a_world_lacks() -> None:
     eyes, left = driving().document.entries
-    found = problems(driving().document, Picture(np.zeros((4, 4, 3))))
-    assert [(p.where, p.what) for p in found] == [
+    listed = problems(driving().document, Picture(np.zeros((4, 4, 3))))
+    assert [(p.where, p.what) for p in listed] == [
         (eyes.path, "the world Picture lacks the sensor 'infrared'"),
         (left.path, "the world Picture lacks the motor 'left'"),
     ]
@@ -105,13 +105,13 @@ def test_a_world_may_have_a_preview_of_its_own() -> None:
 
 
 def test_the_page_shows_no_login_of_a_camera() -> None:
-    found, address = Embodiment(), "rtsp://user:s3cr3t@127.0.0.1:1/live?token=s3cr3t"
-    camera = found.open("Camera", address, address, {})
+    embodiment, address = Embodiment(), "rtsp://user:s3cr3t@127.0.0.1:1/live?token=s3cr3t"
+    camera = embodiment.open("Camera", address, address, {})
     with pytest.raises(WorldError, match=r"has no 'infrared', 'left'") as caught:
-        found.choose(camera, "Camera", address, driving().document)
+        embodiment.choose(camera, "Camera", address, driving().document)
     assert "s3cr3t" not in str(caught.value)
     with pytest.raises(WorldError) as caught:
-        found.open("Camera", address, address, {"period": -1})
+        embodiment.open("Camera", address, address, {"period": -1})
     assert "s3cr3t" not in str(caught.value)
-    found.choose(camera, "Camera", address, dd.Model("blind").document)
-    assert found.label(camera) == "Camera: rtsp://***@127.0.0.1:1/live?token=***"
+    embodiment.choose(camera, "Camera", address, dd.Model("blind").document)
+    assert embodiment.label(camera) == "Camera: rtsp://***@127.0.0.1:1/live?token=***"

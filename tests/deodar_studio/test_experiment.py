@@ -38,13 +38,7 @@ def two_targets() -> dd.Experiment:
     model = dd.Model("two targets")
     u = model.add(
         dd.Field(
-            "u",
-            [x],
-            tau=20,
-            resting_level=-5,
-            kernel=[dd.Gaussian(1.2, 5)],
-            global_inhibition=0.6,
-            noise=1.0,
+            "u", [x], tau=20, resting_level=-5, kernel=[dd.Gaussian(1.2, 5)], global_inhibition=0.6, noise=1.0
         )
     )
     for name in ("left", "right"):
@@ -68,9 +62,9 @@ def two_targets() -> dd.Experiment:
     )
 
 
-def few(trials: int = 3, **given: Any) -> dd.Experiment:
+def few(trials: int = 3, **options: Any) -> dd.Experiment:
     """The same with few trials, which end soon."""
-    return changed(two_targets(), trials=trials, limit=150, **given)
+    return changed(two_targets(), trials=trials, limit=150, **options)
 
 
 @pytest.fixture
@@ -209,13 +203,13 @@ def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
         record = p.document["record"]
         assert record["path"] == "two_targets-001/repeats/000005.nc"
         assert experiment(p)["repeated"] == 5 and experiment(p)["problems"] == []
-        found = dd.open_record(folder / record["path"])
+        recording = dd.open_record(folder / record["path"])
         row = next(row for row in rows(p) if row["trial"] == 5)
-        shown = np.argmax(found["u.activation"].values.max(axis=1) > 0)
+        shown = np.argmax(recording["u.activation"].values.max(axis=1) > 0)
         if row["events"]["detected"] is not None:
-            assert found["time"].values[shown] == row["events"]["detected"]
-        assert float(found["time"][-1]) == row["duration"]
-        assert json.loads(found.attrs["deodar"])["levels"] == row["levels"]
+            assert recording["time"].values[shown] == row["events"]["detected"]
+        assert float(recording["time"][-1]) == row["duration"]
+        assert json.loads(recording.attrs["deodar"])["levels"] == row["levels"]
         center = p.document["elements"][1]["values"]["center"]
         assert p.document["elements"][1]["path"] == "left"
         assert center == {"near": 46, "far": 35}[row["levels"]["distance"]]
@@ -326,8 +320,8 @@ class Desk:
     async def edit(self, **changes: Any) -> None:
         """Change the plain data of the open experiment."""
         experiment = self.hub.experiment
-        data = {**(experiment.data or {}), **changes}
-        await self.do(to_server.EditExperiment(data=data, version=experiment.version))
+        settings = {**(experiment.data or {}), **changes}
+        await self.do(to_server.EditExperiment(data=settings, version=experiment.version))
 
 
 @contextlib.asynccontextmanager

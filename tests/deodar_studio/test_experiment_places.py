@@ -78,9 +78,9 @@ def test_the_processes_of_a_cluster_run_the_trials_and_are_counted(folder: Path)
 
     at_its_experiment(folder, scene)
     expected = few().run(folder / "by script", on=dd.Resources(workers=1))
-    found = dd.load_results(folder / "two_targets-001")
+    table = dd.load_results(folder / "two_targets-001")
     for name in ("place", "duration"):
-        assert np.array_equal(found[name], expected[name], equal_nan=True)
+        assert np.array_equal(table[name], expected[name], equal_nan=True)
 
 
 def test_a_row_that_names_its_machine_is_repeated(folder: Path) -> None:

@@ -46,10 +46,10 @@ def test_a_failed_write_keeps_the_data_and_leaves_no_file(suffix: str, tmp_path:
     done = subprocess.run(
         command, capture_output=True, text=True, env=os.environ | {"DEODAR_CACHE": "off"}, check=True
     )
-    told, same = done.stdout.splitlines()
+    printed, same = done.stdout.splitlines()
     assert (
-        f"record{suffix}: cannot be written: File too large" in told
-        and "The data are still in memory" in told
+        f"record{suffix}: cannot be written: File too large" in printed
+        and "The data are still in memory" in printed
         and same == "True"
     )
     assert list(tmp_path.iterdir()) == []
@@ -79,10 +79,10 @@ def test_a_run_that_fills_its_quota_ends_with_an_error_and_keeps_its_record(tmp_
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     assert done.returncode == 1
     assert "File too large" in done.stderr and "is kept" in done.stderr and "--resume" in done.stderr
-    kept = files.load_record(tmp_path / "run")
-    n = kept.sizes["time"]
+    recording = files.load_record(tmp_path / "run")
+    n = recording.sizes["time"]
     expected = dd.simulate(model(), n - 1, seed=3, record="u", every=1)
-    assert 100 < n < 100_001 and kept["u.activation"].equals(expected["u.activation"])
+    assert 100 < n < 100_001 and recording["u.activation"].equals(expected["u.activation"])
 
 
 def full(monkeypatch: pytest.MonkeyPatch, code: int = errno.ENOSPC) -> None:
@@ -98,10 +98,10 @@ def full(monkeypatch: pytest.MonkeyPatch, code: int = errno.ENOSPC) -> None:
 def test_a_disk_that_is_full_when_a_file_is_flushed_is_an_error(
     suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    data = record()
+    recording = record()
     full(monkeypatch)
     with pytest.raises(OutputError, match="No space left"):
-        files.save_record(data, tmp_path / f"record{suffix}")
+        files.save_record(recording, tmp_path / f"record{suffix}")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -21,10 +21,10 @@ from tests.deodar_studio.page import studio
 
 def get(address: str, path: str = "/", token: bool = True, **headers: str) -> tuple[int, str, dict[str, str]]:
     """Return status, body and headers of a request to a studio, with the token of its address as a cookie."""
-    there = urlsplit(address)
-    if token and there.query:
+    parts = urlsplit(address)
+    if token and parts.query:
         headers = {"Cookie": cookie(address), **headers}
-    connection = http.client.HTTPConnection(there.hostname or "", there.port, timeout=600)
+    connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=600)
     connection.request(
         "GET", path, headers={name.replace("_", "-"): value for name, value in headers.items()}
     )
@@ -36,18 +36,18 @@ def get(address: str, path: str = "/", token: bool = True, **headers: str) -> tu
 
 def cookie(address: str) -> str:
     """Return the cookie that a browser stores for an address."""
-    there = urlsplit(address)
-    return f"deodar_token_{there.port}={there.query.removeprefix('token=')}"
+    parts = urlsplit(address)
+    return f"deodar_token_{parts.port}={parts.query.removeprefix('token=')}"
 
 
 def socket_status(address: str, path: str = "/ws", token: bool = True, **headers: str) -> int:
     """Return 101 if the socket opens, else the status of the refusal."""
-    there = urlsplit(address)
-    if token and there.query:
+    parts = urlsplit(address)
+    if token and parts.query:
         headers = {"Cookie": cookie(address), **headers}
     origin = headers.pop("Origin", None)
     try:
-        with connect(f"ws://{there.netloc}{path}", additional_headers=headers, origin=origin) as socket:  # type: ignore[arg-type]
+        with connect(f"ws://{parts.netloc}{path}", additional_headers=headers, origin=origin) as socket:  # type: ignore[arg-type]
             assert json.loads(socket.recv(timeout=600))["type"] == "welcome"
             return 101
     except websockets.InvalidStatus as error:

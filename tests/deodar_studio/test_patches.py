@@ -39,8 +39,8 @@ def same(old: Document, new: Document) -> bool:
     content = sent(old, new)
     if content is None:
         return False
-    result, wanted = patched(whole(old), json.loads(content)), whole(new)
-    return all(result[key] == wanted[key] for key in wanted if key != "problems")
+    result, expected = patched(whole(old), json.loads(content)), whole(new)
+    return all(result[key] == expected[key] for key in expected if key != "problems")
 
 
 def many(pairs: int) -> Document:
@@ -130,7 +130,7 @@ def test_an_array_that_gets_another_name_is_sent_again() -> None:
 
 def test_a_page_that_edits_has_the_document_of_a_page_that_connects_later(root: Path) -> None:
     async def main(address: str) -> None:
-        async with page(address) as p, page(address) as other:
+        async with page(address) as p, page(address) as visitor:
             await p.runs()
             u, left, right = p.element("u"), p.element("left"), p.element("right")
             opened = sum(m["type"] == "opened" for m in p.all)
@@ -150,9 +150,9 @@ def test_a_page_that_edits_has_the_document_of_a_page_that_connects_later(root: 
                 await p.do(type, **message)
                 async with page(address) as late:
                     await late.until(lambda late=late: late.said.get("opened"))
-                    wanted = {k: v for k, v in late.document.items() if k != "problems"}
-                await other.until(lambda wanted=wanted: wanted.items() <= other.document.items())
-                assert wanted.items() <= p.document.items()
+                    expected = {k: v for k, v in late.document.items() if k != "problems"}
+                await visitor.until(lambda expected=expected: expected.items() <= visitor.document.items())
+                assert expected.items() <= p.document.items()
             assert sum(m["type"] == "opened" for m in p.all) == opened, "every edit was sent as a patch"
 
     with studio(root, root / "selection.json") as address:

@@ -20,19 +20,26 @@ def test_a_page_records_the_run_and_stops_it(root: Path) -> None:
         await p.do("step", n=10)
         await p.until(lambda: p.clock["tick"] == 10)
         assert p.clock["recording"] == {"path": "selection-001", "ended": ""}
-        again = await p.ask("start_record")
-        assert "recorded already" in again["problems"][0]["what"]
+        answer = await p.ask("start_record")
+        assert "recorded already" in answer["problems"][0]["what"]
         await p.do("stop_record")
         await p.until(lambda: p.clock["recording"]["ended"] == "closed")
-        found = dd.open_record(root / "selection-001")
-        assert list(found.data_vars) == ["u.output"] and found["time"].values.tolist() == [0, 2, 4, 6, 8, 10]
+        record = dd.open_record(root / "selection-001")
+        assert list(record.data_vars) == ["u.output"] and record["time"].values.tolist() == [
+            0,
+            2,
+            4,
+            6,
+            8,
+            10,
+        ]
         await p.do("start_record")
         await p.do("step", n=3)
         await p.until(lambda: p.clock["tick"] == 13)
         await p.do("reset")
         await p.until(lambda: "reset" in p.clock["recording"]["ended"])
-        found = dd.open_record(root / "selection-002")
-        assert list(found.data_vars) == ["u.activation"] and not about(found)["complete"]
+        record = dd.open_record(root / "selection-002")
+        assert list(record.data_vars) == ["u.activation"] and not about(record)["complete"]
 
     with studio(root) as address:
         play(address, scene)
@@ -46,8 +53,8 @@ def test_a_record_is_complete_when_the_document_is_closed(root: Path) -> None:
         await p.until(lambda: p.clock["tick"] == 5)
         await p.do("close")
         await p.until(lambda: p.clock["recording"] is None)
-        found = dd.open_record(root / "selection-001")
-        assert found.sizes["time"] == 6 and about(found)["complete"]
+        record = dd.open_record(root / "selection-001")
+        assert record.sizes["time"] == 6 and about(record)["complete"]
 
     with studio(root) as address:
         play(address, scene)

@@ -93,23 +93,23 @@ def test_pages_show_moments_of_their_own(root: Path) -> None:
         await p.runs()
         await p.do("watch", stream=1, element=p.element("u"), port="activation")
         await stepped(p, 10)
-        async with page(addresses[0]) as other:
-            await other.runs()
-            await other.do("watch", stream=1, element=p.element("u"), port="activation")
-            await other.until(lambda: shown(other) == 10)
+        async with page(addresses[0]) as visitor:
+            await visitor.runs()
+            await visitor.do("watch", stream=1, element=p.element("u"), port="activation")
+            await visitor.until(lambda: shown(visitor) == 10)
             await p.do("seek", time=4)
             await p.until(lambda: shown(p) == 4)
-            await other.do("list_folder")
-            assert shown(other) == 10 and timeline(other)["time"] is None
-            await other.do("seek", time=7)
-            await other.until(lambda: shown(other) == 7)
+            await visitor.do("list_folder")
+            assert shown(visitor) == 10 and timeline(visitor)["time"] is None
+            await visitor.do("seek", time=7)
+            await visitor.until(lambda: shown(visitor) == 7)
             await p.do("list_folder")
             assert shown(p) == 4
-            await other.do("step", n=5)
-            await other.until(lambda: shown(other) == 15)
+            await visitor.do("step", n=5)
+            await visitor.until(lambda: shown(visitor) == 15)
             await p.until(lambda: p.clock["tick"] == 15)
             assert shown(p) == 4 and timeline(p)["last"] == 15
-            await other.do("reset")
+            await visitor.do("reset")
             await p.until(lambda: timeline(p) and timeline(p)["time"] is None and shown(p) == 0)
 
     with studio(root, root / "selection.json") as address:
@@ -149,13 +149,13 @@ def test_a_malformed_moment_is_refused(root: Path, message: dict[str, Any]) -> N
 # -------------------------------------------------------------------------------------------------- records
 
 
-def recorded(root: Path, **how: Any) -> Any:
+def recorded(root: Path, **options: Any) -> Any:
     """Write a record of an example as `deodar run` does, and return it."""
     model = dd.load(root / "selection.json")
     chosen: dict[str, Any] = {"duration": 60, "record": ["u.activation", "left.output"], "every": 2}
-    data = dd.simulate(model, **chosen | how)
-    folder.write(data, model.document, root / "selection-001", "zarr")
-    return data
+    record = dd.simulate(model, **chosen | options)
+    folder.write(record, model.document, root / "selection-001", "zarr")
+    return record
 
 
 def record_view(p: Page) -> dict[str, Any]:
@@ -168,7 +168,7 @@ async def shows(p: Page) -> None:
 
 @pytest.mark.parametrize("name", ["selection-001", "selection-001/record.zarr"])
 def test_a_record_opens_with_its_document_and_every_frame(root: Path, name: str) -> None:
-    data = recorded(root)
+    record = recorded(root)
 
     async def scene(p: Page) -> None:
         await shows(p)
@@ -189,20 +189,20 @@ def test_a_record_opens_with_its_document_and_every_frame(root: Path, name: str)
         for time in (0, 31, 60, 12):
             await p.do("seek", time=time)
             await p.until(lambda time=time: timeline(p)["time"] == time // 2 * 2 == shown(p))
-            expected = data["u.activation"].sel(time=time // 2 * 2).values
+            expected = record["u.activation"].sel(time=time // 2 * 2).values
             np.testing.assert_allclose(p.frames[1][1], expected, rtol=1e-6)
         await p.do("seek_frames", frames=-3)
         await p.until(lambda: shown(p) == 6)
         await p.do("trace", stream=3, element=p.element("u"), port="activation", reduce="max")
         await p.until(lambda: len(p.samples.get(3, [])) == 31)
-        course = data["u.activation"].max("x").values
+        course = record["u.activation"].max("x").values
         np.testing.assert_allclose([v for _, v in p.samples[3]], course, rtol=1e-6)
         assert [t for t, _ in p.samples[3]] == list(range(0, 61, 2))
         await p.do("rows", stream=4, element=p.element("u"), port="activation")
         await p.until(lambda: p.rows[4] is not None and len(p.rows[4]) == 31)
         rows = p.rows[4]
         assert rows is not None and rows[:, 0].tolist() == list(range(0, 61, 2))
-        np.testing.assert_allclose(rows[:, 1:], data["u.activation"], rtol=1e-6)
+        np.testing.assert_allclose(rows[:, 1:], record["u.activation"], rtol=1e-6)
 
     with studio(root, root / name) as address:
         play(address, scene)
@@ -232,7 +232,7 @@ def test_a_record_neither_runs_nor_changes_and_its_model_can_be_run(root: Path) 
 
 
 def test_each_page_chooses_a_trial_and_a_point_of_a_sweep(root: Path) -> None:
-    data = recorded(root, trials=3, sweep={"left.amplitude": [2, 6]})
+    record = recorded(root, trials=3, sweep={"left.amplitude": [2, 6]})
 
     async def scene(p: Page) -> None:
         await shows(p)
@@ -253,9 +253,9 @@ def test_each_page_chooses_a_trial_and_a_point_of_a_sweep(root: Path) -> None:
             await other.do("seek", time=60)
             await other.until(lambda: shown(other) == 60)
             for one, where in ((p, {"trial": 2, names[0]: 1}), (other, {"trial": 0, names[0]: 0})):
-                expected = data["u.activation"].isel(where).sel(time=60).values
+                expected = record["u.activation"].isel(where).sel(time=60).values
                 np.testing.assert_allclose(one.frames[1][1], expected, rtol=1e-6)
-        course = data["u.activation"].isel({"trial": 2, names[0]: 1}).max("x").values
+        course = record["u.activation"].isel({"trial": 2, names[0]: 1}).max("x").values
         await p.until(lambda: np.allclose([v for _, v in p.samples[2]][-31:], course, rtol=1e-6))
         assert (await p.ask("choose_copy", dimension="noise", index=0))["problems"]
 
@@ -269,11 +269,11 @@ def test_a_record_that_is_damaged_or_not_one_is_refused_with_one_error(root: Pat
     (root / "empty").mkdir()
     (root / "broken.zarr").mkdir()
     (root / "broken.zarr" / "zarr.json").write_text("{")
-    data = dd.load_record(root / "selection-001")
-    made = json.loads(data.attrs["deodar"])
-    made["document"]["deodar"] = 99
-    dd.save_record(data.assign_attrs(deodar=json.dumps(made)), root / "newer.zarr")
-    dd.save_record(data.assign_attrs(deodar="{"), root / "torn.zarr")
+    record = dd.load_record(root / "selection-001")
+    document = json.loads(record.attrs["deodar"])
+    document["document"]["deodar"] = 99
+    dd.save_record(record.assign_attrs(deodar=json.dumps(document)), root / "newer.zarr")
+    dd.save_record(record.assign_attrs(deodar="{"), root / "torn.zarr")
 
     async def scene(p: Page) -> None:
         for name, what in (
@@ -357,14 +357,14 @@ def test_another_document_ends_the_repetition_of_a_record(
 
 
 def test_a_record_that_grows_is_followed_to_its_end(root: Path) -> None:
-    data = recorded(root)
-    made = json.loads(data.attrs["deodar"])
-    empty = data.isel(time=slice(0, 0)).assign_attrs(deodar=json.dumps({**made, "complete": False}))
+    record = recorded(root)
+    document = json.loads(record.attrs["deodar"])
+    empty = record.isel(time=slice(0, 0)).assign_attrs(deodar=json.dumps({**document, "complete": False}))
     path = root / "growing.zarr"
     growing = GrowingRecord(path, empty)
 
     def add(first: int, last: int) -> None:
-        part = data.isel(time=slice(first, last))
+        part = record.isel(time=slice(first, last))
         arrays = {str(name): v.values for name, v in part.data_vars.items()}
         growing.put("time", part["time"].values, arrays)
         growing.commit()
@@ -381,7 +381,7 @@ def test_a_record_that_grows_is_followed_to_its_end(root: Path) -> None:
         await p.until(lambda: shown(p) == 8)
         add(5, 20)
         await p.until(lambda: timeline(p)["last"] == 38 == shown(p))
-        np.testing.assert_array_equal(p.frames[1][1], data["u.activation"].values[19])
+        np.testing.assert_array_equal(p.frames[1][1], record["u.activation"].values[19])
         await p.do("seek", time=20)
         await p.until(lambda: shown(p) == 20)
         add(20, 31)
@@ -397,10 +397,10 @@ def test_a_record_that_grows_is_followed_to_its_end(root: Path) -> None:
 def test_a_record_whose_writer_was_killed_is_incomplete(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(writer_lock, "CERTAIN_SECONDS", 0.1)
     monkeypatch.setattr(hub, "FOLLOW_SECONDS", 0.1)
-    data = recorded(root)
+    record = recorded(root)
     path = root / "growing.zarr"
-    growing = GrowingRecord(path, data.isel(time=slice(0, 0)))
-    part = data.isel(time=slice(0, 5))
+    growing = GrowingRecord(path, record.isel(time=slice(0, 0)))
+    part = record.isel(time=slice(0, 5))
     growing.put("time", part["time"].values, {str(name): v.values for name, v in part.data_vars.items()})
     growing.commit()
 
@@ -417,11 +417,11 @@ def test_a_record_whose_writer_was_killed_is_incomplete(root: Path, monkeypatch:
 
 
 def test_a_record_with_a_damaged_part_opens_up_to_there_and_says_so(root: Path) -> None:
-    data = recorded(root)
+    record = recorded(root)
     path = root / "growing.zarr"
-    growing = GrowingRecord(path, data.isel(time=slice(0, 0)))
+    growing = GrowingRecord(path, record.isel(time=slice(0, 0)))
     for first in (0, 10, 20):
-        part = data.isel(time=slice(first, first + 10))
+        part = record.isel(time=slice(first, first + 10))
         arrays = {str(name): v.values for name, v in part.data_vars.items()}
         growing.put("time", part["time"].values, arrays)
         growing.commit()
@@ -442,10 +442,10 @@ def test_a_record_with_a_damaged_part_opens_up_to_there_and_says_so(root: Path) 
 
 
 def test_a_record_without_the_chunks_of_its_samples_says_so(root: Path) -> None:
-    data = recorded(root)
+    record = recorded(root)
     path = root / "growing.zarr"
-    growing = GrowingRecord(path, data.isel(time=slice(0, 0)))
-    growing.put("time", data["time"].values, {str(name): v.values for name, v in data.data_vars.items()})
+    growing = GrowingRecord(path, record.isel(time=slice(0, 0)))
+    growing.put("time", record["time"].values, {str(name): v.values for name, v in record.data_vars.items()})
     growing.close(True)
     shutil.rmtree(path / "u.activation" / "c")
 
@@ -482,13 +482,13 @@ def test_records_are_listed_beside_folders_and_documents(root: Path) -> None:
 
 
 def test_two_records_are_compared_and_shown_at_one_moment(root: Path) -> None:
-    data = recorded(root)
-    other = data.copy(deep=True)
+    record = recorded(root)
+    other = record.copy(deep=True)
     other["u.activation"].values[20, 30] += 1
     other["u.activation"].values[25:] = np.nan
     dd.save_record(other, root / "other.zarr")
-    dd.save_record(data, root / "same.zarr")
-    dd.save_record(data.isel(time=slice(10))[["u.activation"]], root / "short.zarr")
+    dd.save_record(record, root / "same.zarr")
+    dd.save_record(record.isel(time=slice(10))[["u.activation"]], root / "short.zarr")
 
     def said(p: Page, path: str) -> bool:
         known = p.said["comparison"]
@@ -501,7 +501,7 @@ def test_two_records_are_compared_and_shown_at_one_moment(root: Path) -> None:
         await p.until(lambda: said(p, "other.zarr"))
         found = p.said["comparison"]
         assert found["compared"] == 2 and not found["notes"] and not found["problems"]
-        first = data["u.activation"].values[20, 30]
+        first = record["u.activation"].values[20, 30]
         assert found["differences"] == [
             {
                 "element": p.element("u"),
@@ -554,9 +554,9 @@ def driven(folder: Path, *ports: str) -> Any:
         model.add(dd.Boost(f"go {name}", [], amplitude)) >> model.add(dd.Motor(name, [], name))
     model.add(dd.Sensor("pose", [dd.Axis("of", 0, 2, 3)], "pose"))
     how: dict[str, Any] = {"world": Arena(LAYOUT), "record": list(ports)}
-    data = dd.simulate(model, duration=3200, **how)
-    dd.save_record(data, folder / "drive.zarr")
-    return data
+    record = dd.simulate(model, duration=3200, **how)
+    dd.save_record(record, folder / "drive.zarr")
+    return record
 
 
 LAYOUT: dict[str, Any] = {
@@ -661,8 +661,8 @@ def test_a_run_that_cannot_continue_from_a_moment_states_why(
 def test_a_peak_of_one_sample_in_a_long_record_is_in_its_time_course(root: Path) -> None:
     model = dd.Model("pulse")
     pulse = model.add(dd.Boost("pulse", [], amplitude=1.0, windows=[dd.Window(12345.0, 12346.0)]))
-    data = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"])
-    folder.write(data, model.document, root / "pulse", "zarr")
+    record = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"])
+    folder.write(record, model.document, root / "pulse", "zarr")
 
     async def scene(p: Page) -> None:
         await shows(p)
@@ -680,8 +680,8 @@ def test_a_peak_of_one_sample_in_a_long_record_is_in_its_rows_over_time(root: Pa
     x = dd.Axis("x", 0, 9, 10)
     window = [dd.Window(12345.0, 12346.0)]
     pulse = model.add(dd.GaussianStimulus("pulse", [x], amplitude=9.0, center=3, sigma=0.5, windows=window))
-    data = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"])
-    folder.write(data, model.document, root / "pulse", "zarr")
+    record = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"])
+    folder.write(record, model.document, root / "pulse", "zarr")
 
     async def scene(p: Page) -> None:
         await shows(p)

@@ -380,15 +380,15 @@ def test_two_pages_show_the_same_run_which_continues_after_both_are_closed(root:
 
 def test_a_stalled_page_gets_no_more_frames_and_delays_no_other_page(root: Path) -> None:
     async def main(address: str) -> None:
-        async with page(address, draws=False) as stalled, page(address) as other:
-            await other.runs()
-            u = other.element("u")
-            await other.do("watch", stream=1, element=u, port="activation")
+        async with page(address, draws=False) as stalled, page(address) as visitor:
+            await visitor.runs()
+            u = visitor.element("u")
+            await visitor.do("watch", stream=1, element=u, port="activation")
             await stalled.send(type="watch", stream=1, element=u, port="activation")
-            await other.do("play")
+            await visitor.do("play")
             for k in range(100):
-                await other.do("set", element=u, parameter="tau", value=20 + k)
-            await other.until(lambda: other.clocks > 60)
+                await visitor.do("set", element=u, parameter="tau", value=20 + k)
+            await visitor.until(lambda: visitor.clocks > 60)
             assert stalled.clocks == 1, "it has not said that it took the first one in"
             await stalled.send(type="drawn", frame=stalled.clock["frame"])
             await stalled.until(lambda: stalled.clocks == 2)
@@ -438,9 +438,9 @@ def test_a_change_that_recompiles_is_shown_when_it_is_compiled(
 ) -> None:
     made = engine.port_reader
 
-    def slowly(*what: Any) -> Any:
+    def slowly(*arguments: Any) -> Any:
         time.sleep(0.3)
-        return made(*what)
+        return made(*arguments)
 
     monkeypatch.setattr(engine, "port_reader", slowly)
 
@@ -495,10 +495,10 @@ def test_an_oversized_message_ends_only_that_connection(root: Path) -> None:
 
 
 def test_a_file_with_problems_lists_all_of_them_until_a_valid_file_is_opened(root: Path) -> None:
-    data = json.loads((root / "selection.json").read_text())
-    data["elements"]["u"]["tau"] = -1
-    data["elements"]["left"]["kind"] = "GausStimulus"
-    (root / "bad.json").write_text(json.dumps(data))
+    document = json.loads((root / "selection.json").read_text())
+    document["elements"]["u"]["tau"] = -1
+    document["elements"]["left"]["kind"] = "GausStimulus"
+    (root / "bad.json").write_text(json.dumps(document))
 
     async def scene(p: Page) -> None:
         await p.until(lambda: "file_problems" in p.said and p.said["file_problems"]["problems"])
@@ -717,11 +717,11 @@ def test_the_state_folder_is_accessed_outside_of_the_event_loop(
     used: set[str] = set()
 
     def beside(name: str, real: Any) -> Any:
-        def call(*given: Any) -> Any:
+        def call(*arguments: Any) -> Any:
             with pytest.raises(RuntimeError):
                 asyncio.get_running_loop()
             used.add(name)
-            return real(*given)
+            return real(*arguments)
 
         return call
 

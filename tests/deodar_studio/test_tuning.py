@@ -30,14 +30,11 @@ def test_a_field_is_tuned_and_its_values_are_one_change(root: Path) -> None:
         await p.do("play")
         await p.do("tune_field", element=u, parameters=NAMES, requirements=WANTED)
         await p.until(lambda: tuning(p)["candidates"] > 0 and tuning(p)["tuning"])
-        found = await ended(p)
-        assert p.clock["running"] and not found["problems"] and not found["applied"]
-        assert [r["text"] for r in found["requirements"]] == [
-            "detects(at=4, within=0.5)",
-            "selects()",
-        ]
-        assert all(r["margin"] >= 0 for r in found["requirements"]) and found["tolerated"] > 0
-        assert [v["path"] for v in found["values"]] == [f"u.{name}" for name in NAMES]
+        end = await ended(p)
+        assert p.clock["running"] and not end["problems"] and not end["applied"]
+        assert [r["text"] for r in end["requirements"]] == ["detects(at=4, within=0.5)", "selects()"]
+        assert all(r["margin"] >= 0 for r in end["requirements"]) and end["tolerated"] > 0
+        assert [v["path"] for v in end["values"]] == [f"u.{name}" for name in NAMES]
 
         before = p.document["undo"]
         await p.do("apply_tuning")
@@ -45,7 +42,7 @@ def test_a_field_is_tuned_and_its_values_are_one_change(root: Path) -> None:
         assert p.document["undo"] == before + 1, "one change"
         await p.do("save", path="tuned.json")
         model = dd.load(root / "tuned.json")
-        assert [model.get(v["path"]) for v in found["values"]] == [v["value"] for v in found["values"]]
+        assert [model.get(v["path"]) for v in end["values"]] == [v["value"] for v in end["values"]]
         judge = regimes(model, "u")
         assert judge.detection is not None and abs(judge.detection - 4) < 0.5
         assert judge.selection is not None and judge.selection.selects
@@ -53,7 +50,7 @@ def test_a_field_is_tuned_and_its_values_are_one_change(root: Path) -> None:
         await p.do("undo")
         await p.until(lambda: not tuning(p)["applied"])
         await p.do("save", path="undone.json", replace=True)
-        assert dd.load(root / "undone.json").get("u.resting_level") == found["values"][0]["before"]
+        assert dd.load(root / "undone.json").get("u.resting_level") == end["values"][0]["before"]
 
     with studio(root, root / "selection.json") as address:
         play(address, scene)

@@ -24,18 +24,18 @@ Y = dd.Axis("y", 0, 1, samples=11)
 
 
 def model() -> dd.Model:
-    made = dd.Model("m")
-    u = made.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5), Custom(np.ones(3))]), group="g")
-    made.add(dd.GaussianStimulus("s", [X], center=30)) >> dd.Gain(2.0) >> u
-    made.add(dd.Field("v", [Y]), ticks=2)
-    made.add(Boost("b", []))
-    made.parameter("gain", 3.0)
-    made.link("g.u.tau", "gain")
-    return made
+    network = dd.Model("m")
+    u = network.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5), Custom(np.ones(3))]), group="g")
+    network.add(dd.GaussianStimulus("s", [X], center=30)) >> dd.Gain(2.0) >> u
+    network.add(dd.Field("v", [Y]), ticks=2)
+    network.add(Boost("b", []))
+    network.parameter("gain", 3.0)
+    network.link("g.u.tau", "gain")
+    return network
 
 
-def shown(made: dd.Model) -> Any:
-    return view.document(made.document, "m.json", False, 0, 0)
+def shown(network: dd.Model) -> Any:
+    return view.document(network.document, "m.json", False, 0, 0)
 
 
 def test_the_view_contains_elements_with_values_ports_and_axes() -> None:
@@ -57,23 +57,23 @@ def test_the_view_contains_elements_with_values_ports_and_axes() -> None:
 
 
 def test_the_view_states_the_sign_that_an_element_gives_to_its_connections() -> None:
-    made = dd.Model("signs")
-    made.add(dd.GaussianStimulus("low", [X], center=3, sigma=1, amplitude=-2))
-    made.add(dd.Gain(-1.0, name="minus"))
-    made.add(dd.Gain(2.0, name="plus"))
-    made.add(dd.TransientDetector("change", [X]))
-    effects = {e.path: e.effect for e in shown(made).elements}
+    network = dd.Model("signs")
+    network.add(dd.GaussianStimulus("low", [X], center=3, sigma=1, amplitude=-2))
+    network.add(dd.Gain(-1.0, name="minus"))
+    network.add(dd.Gain(2.0, name="plus"))
+    network.add(dd.TransientDetector("change", [X]))
+    effects = {e.path: e.effect for e in shown(network).elements}
     assert effects == {"low": "-", "minus": "-", "plus": "+", "change": "+"}
 
 
 def test_the_view_contains_document_parameters_and_connections_by_id() -> None:
-    made = model()
-    seen = shown(made)
+    network = model()
+    seen = shown(network)
     assert [(k.name, k.value, [(x.element, x.parameter) for x in k.links]) for k in seen.parameters] == [
-        ("gain", 3, [(made["g.u"].id, "tau")])
+        ("gain", 3, [(network["g.u"].id, "tau")])
     ]
     assert {(c.source, c.target) for c in seen.connections} == {
-        (c.source, c.target) for c in made.document.connections
+        (c.source, c.target) for c in network.document.connections
     }
 
 
@@ -81,26 +81,26 @@ def test_problems_are_listed_with_their_elements() -> None:
     doc = model().document
     by_path = {e.path: e.id for e in doc.entries}
     wrong = [Problem("g.u.tau", "one"), Problem("s (script.py:3)", "two"), Problem("nowhere", "three")]
-    found = view.problems(wrong, doc, paths=())
-    assert [p.element for p in found] == [by_path["g.u"], by_path["s"], ""]
-    found = view.problems([Problem("", "stopped")], doc, paths=("g.u.output", "v"))
-    assert [p.element for p in found] == [by_path["g.u"], by_path["v"]]
+    problems = view.problems(wrong, doc, paths=())
+    assert [p.element for p in problems] == [by_path["g.u"], by_path["s"], ""]
+    problems = view.problems([Problem("", "stopped")], doc, paths=("g.u.output", "v"))
+    assert [p.element for p in problems] == [by_path["g.u"], by_path["v"]]
 
 
 def test_the_view_of_a_document_with_problems_lists_them() -> None:
-    made = model()
-    made.connect("g.u", "v")
-    seen = shown(made)
+    network = model()
+    network.connect("g.u", "v")
+    seen = shown(network)
     assert seen.problems and len(seen.elements) == 5
 
 
 def test_a_warning_has_the_severity_warning() -> None:
-    made = dd.Model("m")
-    made.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> made.add(
+    network = dd.Model("m")
+    network.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> network.add(
         dd.Field("u", [X])
     )
-    (found,) = shown(made).problems
-    assert found.severity == "warning" and found.element == made["s"].id
+    (found,) = shown(network).problems
+    assert found.severity == "warning" and found.element == network["s"].id
 
 
 @pytest.mark.parametrize(
@@ -117,9 +117,9 @@ def test_a_warning_has_the_severity_warning() -> None:
     ],
 )
 def test_a_value_that_is_set_is_shown_unchanged(parameter: str, value: Any) -> None:
-    made = model()
-    made.unlink("g.u.tau")
-    doc, entry = made.document, made.document.by_id()[made["g.u"].id]
+    network = model()
+    network.unlink("g.u.tau")
+    doc, entry = network.document, network.document.by_id()[network["g.u"].id]
     new = plain_values.put(doc, [entry.id], parameter, value)
     seen = view.shown_value(new, entry.id, parameter)
     if isinstance(value, dict):

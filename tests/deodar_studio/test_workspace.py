@@ -162,13 +162,13 @@ def test_a_link_that_appears_while_a_document_is_opened_is_not_followed(
     assert content.load(space, place) == weighted(1).document
     opens, arrays = os.open, next((root / "sub").glob("m.*.npz"))
 
-    def exchange(path: Any, *given: Any, **named: Any) -> int:
+    def exchange(path: Any, *arguments: Any, **named: Any) -> int:
         name = {"folder": "sub", "document": "m.json", "arrays": arrays.name}[exchanged]
         target = root / "sub" if exchanged == "folder" else root / "sub" / name
         if path == name and not target.is_symlink():
             target.rename(tmp_path / "old")
             target.symlink_to(outside if exchanged == "folder" else outside / name)
-        return opens(path, *given, **named)
+        return opens(path, *arguments, **named)
 
     monkeypatch.setattr(os, "open", exchange)
     with pytest.raises(DeodarError, match=r"symbolic links|Not a directory"):

@@ -36,33 +36,33 @@ def file(tmp_path: Path) -> Path:
     return tmp_path / "driving.json"
 
 
-def scene(one: Page) -> dict[str, Any]:
-    return one.said["scene"]["scene"]
+def scene(p: Page) -> dict[str, Any]:
+    return p.said["scene"]["scene"]
 
 
-def box(one: Page, name: str) -> dict[str, Any]:
-    return next((b for b in scene(one)["boxes"] if b["name"] == name), {})
+def box(p: Page, name: str) -> dict[str, Any]:
+    return next((b for b in scene(p)["boxes"] if b["name"] == name), {})
 
 
-def path(one: Page) -> list[list[float]]:
+def path(p: Page) -> list[list[float]]:
     """Return all positions that the page received, as a page stores them."""
     out: list[list[float]] = []
-    for message in one.all:
+    for message in p.all:
         if message["type"] == "bodies":
             out = ([] if message["fresh"] else out) + message["path"]
     return out
 
 
-async def shown(one: Page) -> None:
-    await one.runs()
-    await one.until(lambda: one.said.get("scene", {}).get("scene"))
+async def shown(p: Page) -> None:
+    await p.runs()
+    await p.until(lambda: p.said.get("scene", {}).get("scene"))
 
 
 def test_the_page_receives_the_world_and_the_path_of_the_robot(file: Path) -> None:
-    async def story(one: Page) -> None:
-        await shown(one)
-        assert scene(one)["unit"] == "m" and scene(one)["border"] == [0, 0, 3, 2]
-        assert box(one, "crate") == {
+    async def story(p: Page) -> None:
+        await shown(p)
+        assert scene(p)["unit"] == "m" and scene(p)["border"] == [0, 0, 3, 2]
+        assert box(p, "crate") == {
             "name": "crate",
             "x": 0.8,
             "y": 1.5,
@@ -71,36 +71,36 @@ def test_the_page_receives_the_world_and_the_path_of_the_robot(file: Path) -> No
             "color": [0.7, 0.5, 0.3],
             "fixed": False,
         }
-        assert scene(one)["marks"] == [{"name": "goal", "x": 2.5, "y": 0.5, "fixed": False}]
-        assert one.said["scene"]["camera"], "an e-puck has one"
-        assert one.said["scene"]["can_place"] and one.said["scene"]["picture"] is None
-        assert "bodies" not in one.said, "it did not ask"
-        await one.do("watch_world", on=True)
-        await one.do("speed", factor=None)
-        await one.do("step", n=60)
-        await one.until(lambda: one.clock["tick"] == 60 and one.said["bodies"]["bodies"][0]["x"] > 0.5)
-        body = one.said["bodies"]["bodies"][0]
+        assert scene(p)["marks"] == [{"name": "goal", "x": 2.5, "y": 0.5, "fixed": False}]
+        assert p.said["scene"]["camera"], "an e-puck has one"
+        assert p.said["scene"]["can_place"] and p.said["scene"]["picture"] is None
+        assert "bodies" not in p.said, "it did not ask"
+        await p.do("watch_world", on=True)
+        await p.do("speed", factor=None)
+        await p.do("step", n=60)
+        await p.until(lambda: p.clock["tick"] == 60 and p.said["bodies"]["bodies"][0]["x"] > 0.5)
+        body = p.said["bodies"]["bodies"][0]
         assert body["name"] == "e-puck" and body["radius"] == pytest.approx(0.037)
-        gaps = [math.dist(a, b) for a, b in zip(path(one), path(one)[1:], strict=False)]
+        gaps = [math.dist(a, b) for a, b in zip(path(p), path(p)[1:], strict=False)]
         assert (
-            path(one)[0] == pytest.approx([0.2, 1.0])
+            path(p)[0] == pytest.approx([0.2, 1.0])
             and len(gaps) > 5
-            and math.dist(path(one)[-1], (body["x"], body["y"])) < 0.02
+            and math.dist(path(p)[-1], (body["x"], body["y"])) < 0.02
         )
-        scenes = [m for m in one.all if m["type"] == "scene" and m["scene"]]
+        scenes = [m for m in p.all if m["type"] == "scene" and m["scene"]]
         assert len(scenes) == 1, "a scene without motion is sent once"
-        async with page_of(one) as late:
+        async with page_of(p) as late:
             await late.do("watch_world", on=True)
-            await late.until(lambda: path(late) == path(one))
-        await one.do("reset")
-        await one.until(lambda: path(one) == [pytest.approx([0.2, 1.0])])
+            await late.until(lambda: path(late) == path(p))
+        await p.do("reset")
+        await p.until(lambda: path(p) == [pytest.approx([0.2, 1.0])])
 
     with studio(file.parent, file, world=Arena(LAYOUT)) as address:
         page_of.address = address  # type: ignore[attr-defined]
         play(address, story)
 
 
-def page_of(one: Page) -> Any:
+def page_of(p: Page) -> Any:
     """Connect a further page to the same studio."""
     return page(page_of.address)  # type: ignore[attr-defined]
 
@@ -108,27 +108,27 @@ def page_of(one: Page) -> Any:
 def test_an_object_moved_during_the_run_stops_the_robot(file: Path) -> None:
     arena = Arena(LAYOUT)
 
-    async def story(one: Page) -> None:
-        await shown(one)
-        await one.do("watch_world", on=True)
-        await one.do("speed", factor=8)
-        await one.do("play")
-        await one.do("move_object", name="crate", x=1.2, y=1.0)
-        await one.until(lambda: box(one, "crate")["x"] == 1.2)
-        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.06)
-        tick = one.clock["tick"]
-        await one.until(lambda: one.clock["tick"] > tick + 30)
-        assert one.said["bodies"]["bodies"][0]["x"] == pytest.approx(1.1 - 0.037, abs=2e-3), (
+    async def story(p: Page) -> None:
+        await shown(p)
+        await p.do("watch_world", on=True)
+        await p.do("speed", factor=8)
+        await p.do("play")
+        await p.do("move_object", name="crate", x=1.2, y=1.0)
+        await p.until(lambda: box(p, "crate")["x"] == 1.2)
+        await p.until(lambda: p.said["bodies"]["bodies"][0]["x"] > 1.06)
+        tick = p.clock["tick"]
+        await p.until(lambda: p.clock["tick"] > tick + 30)
+        assert p.said["bodies"]["bodies"][0]["x"] == pytest.approx(1.1 - 0.037, abs=2e-3), (
             "it is in front of the crate"
         )
-        await one.do("move_object", name="goal", x=2.0, y=0.4)
-        await one.until(lambda: scene(one)["marks"][0]["x"] == 2.0)
-        await one.do("remove_object", name="crate")
-        await one.until(lambda: not scene(one)["boxes"])
-        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.3)
-        await one.do("place_object", name="block", x=1.0, y=0.3, width=0.1, height=0.2, color=[0, 0, 1])
-        await one.until(lambda: box(one, "block").get("height") == 0.2)
-        assert box(one, "block")["color"] == [0, 0, 1]
+        await p.do("move_object", name="goal", x=2.0, y=0.4)
+        await p.until(lambda: scene(p)["marks"][0]["x"] == 2.0)
+        await p.do("remove_object", name="crate")
+        await p.until(lambda: not scene(p)["boxes"])
+        await p.until(lambda: p.said["bodies"]["bodies"][0]["x"] > 1.3)
+        await p.do("place_object", name="block", x=1.0, y=0.3, width=0.1, height=0.2, color=[0, 0, 1])
+        await p.until(lambda: box(p, "block").get("height") == 0.2)
+        assert box(p, "block")["color"] == [0, 0, 1]
 
     with studio(file.parent, file, world=arena) as address:
         play(address, story)
@@ -136,9 +136,9 @@ def test_an_object_moved_during_the_run_stops_the_robot(file: Path) -> None:
 
 
 def test_a_position_that_does_not_fit_is_refused_and_the_object_does_not_move(file: Path) -> None:
-    async def story(one: Page) -> None:
-        await shown(one)
-        for request, said in [
+    async def story(p: Page) -> None:
+        await shown(p)
+        for request, message in [
             ({"type": "move_object", "name": "crate", "x": 0.2, "y": 1.0}, "cover 'e-puck'"),
             ({"type": "move_object", "name": "crate", "x": 9, "y": 1.0}, "outside the border"),
             ({"type": "move_object", "name": "goal", "x": 0.8, "y": 1.5}, "inside 'crate'"),
@@ -150,9 +150,9 @@ def test_a_position_that_does_not_fit_is_refused_and_the_object_does_not_move(fi
                 "red, green and blue",
             ),
         ]:
-            (problem,) = (await one.ask(**request))["problems"]
-            assert said in problem["what"], problem
-        assert box(one, "crate")["x"] == 0.8
+            (problem,) = (await p.ask(**request))["problems"]
+            assert message in problem["what"], problem
+        assert box(p, "crate")["x"] == 0.8
 
     with studio(file.parent, file, world=Arena(LAYOUT)) as address:
         play(address, story)
@@ -163,17 +163,17 @@ def test_an_eye_shows_its_events_and_nothing_can_be_placed(file: Path) -> None:
     model.add(Boost("to the right", [], 1200.0)) >> model.add(Motor("pan", [], "pan"))
     dd.save(model, file.parent / "turning.json")
 
-    async def story(one: Page) -> None:
-        await shown(one)
-        assert one.said["scene"]["picture"] == {"name": "events", "columns": 128, "rows": 128}
-        assert not one.said["scene"]["can_place"]
-        await one.do("watch_world", on=True)
-        await one.until(lambda: "bodies" in one.said)
-        before = one.said["bodies"]["picture"]
+    async def story(p: Page) -> None:
+        await shown(p)
+        assert p.said["scene"]["picture"] == {"name": "events", "columns": 128, "rows": 128}
+        assert not p.said["scene"]["can_place"]
+        await p.do("watch_world", on=True)
+        await p.until(lambda: "bodies" in p.said)
+        before = p.said["bodies"]["picture"]
         assert len(base64.b64decode(before)) == 3 * 128 * 128
-        await one.do("step", n=4)
-        await one.until(lambda: one.said["bodies"]["picture"] != before)
-        (problem,) = (await one.ask("place_object", name="a", x=900, y=900, width=9, height=9))["problems"]
+        await p.do("step", n=4)
+        await p.until(lambda: p.said["bodies"]["picture"] != before)
+        (problem,) = (await p.ask("place_object", name="a", x=900, y=900, width=9, height=9))["problems"]
         assert "nothing can be placed in the world Eye" in problem["what"]
 
     with studio(file.parent, file.parent / "turning.json", world=dd.Eye()) as address:
@@ -181,10 +181,10 @@ def test_an_eye_shows_its_events_and_nothing_can_be_placed(file: Path) -> None:
 
 
 def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
-    async def story(one: Page) -> None:
-        await one.open("open_file", path="node.json")
-        await one.do("watch_world", on=True)
-        assert one.said["scene"] == {
+    async def story(p: Page) -> None:
+        await p.open("open_file", path="node.json")
+        await p.do("watch_world", on=True)
+        assert p.said["scene"] == {
             "type": "scene",
             "scene": None,
             "note": "",
@@ -193,7 +193,7 @@ def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
             "can_place": False,
             "picture": None,
         }
-        (problem,) = (await one.ask("move_object", name="crate", x=1, y=1))["problems"]
+        (problem,) = (await p.ask("move_object", name="crate", x=1, y=1))["problems"]
         assert "no world with a view from above" in problem["what"] and "--world" in problem["fix"]
 
     with studio(root) as address:
@@ -201,21 +201,21 @@ def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
 
 
 def test_the_past_of_the_world_is_shown_with_the_path_up_to_that_moment(file: Path) -> None:
-    async def story(one: Page) -> None:
-        await shown(one)
-        await one.do("watch_world", on=True)
+    async def story(p: Page) -> None:
+        await shown(p)
+        await p.do("watch_world", on=True)
         for tick in range(5, 61, 5):
-            await one.do("step", n=5)
-            await one.until(lambda tick=tick: one.clock["tick"] == tick and one.clock["timeline"])
-        await one.until(lambda: one.clock["timeline"]["last"] == 60 * 64)
-        there, length = one.said["bodies"]["bodies"][0]["x"], len(path(one))
-        await one.do("seek", time=20 * 64)
-        await one.until(lambda: one.clock["timeline"]["time"] == 20 * 64)
-        then = one.said["bodies"]["bodies"][0]["x"]
+            await p.do("step", n=5)
+            await p.until(lambda tick=tick: p.clock["tick"] == tick and p.clock["timeline"])
+        await p.until(lambda: p.clock["timeline"]["last"] == 60 * 64)
+        there, length = p.said["bodies"]["bodies"][0]["x"], len(path(p))
+        await p.do("seek", time=20 * 64)
+        await p.until(lambda: p.clock["timeline"]["time"] == 20 * 64)
+        then = p.said["bodies"]["bodies"][0]["x"]
         assert 0.2 < then < there - 0.1
-        assert 1 < len(path(one)) < length and path(one)[-1][0] == pytest.approx(then, abs=0.02)
-        await one.do("seek", time=None)
-        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] == there and len(path(one)) == length)
+        assert 1 < len(path(p)) < length and path(p)[-1][0] == pytest.approx(then, abs=0.02)
+        await p.do("seek", time=None)
+        await p.until(lambda: p.said["bodies"]["bodies"][0]["x"] == there and len(path(p)) == length)
 
     with studio(file.parent, file, world=Arena(LAYOUT)) as address:
         play(address, story)
@@ -262,33 +262,33 @@ def test_a_preview_shows_a_world_and_the_sensors_that_the_model_lacks(tmp_path: 
     record = dd.simulate(model, 120, world=dd.Picture(tmp_path / "blue.png"), record=["eye.output"])
     dd.save_record(record, tmp_path / "run.nc")
 
-    async def preview(one: Page, kind: str, path: str, **settings: Any) -> dict[str, Any]:
-        answer = await one.ask("preview_world", kind=kind, path=path, settings=settings)
+    async def preview(p: Page, kind: str, path: str, **settings: Any) -> dict[str, Any]:
+        answer = await p.ask("preview_world", kind=kind, path=path, settings=settings)
         assert answer["problems"] == [], answer
         return answer["preview"]
 
-    async def story(one: Page) -> None:
-        await one.runs()
-        before = one.clock["world"]
+    async def story(p: Page) -> None:
+        await p.runs()
+        before = p.clock["world"]
         for kind, path, color in [("Picture", "blue.png", 2), ("Video", "red.avi", 0)]:
-            found = await preview(one, kind, path)
+            found = await preview(p, kind, path)
             pixels = np.frombuffer(base64.b64decode(found["pixels"]), np.uint8)
             pixels = pixels.reshape(found["height"], found["width"], 3)
             assert found["sensors"] == ["picture"] and found["missing"] == [] and found["scene"] is None
             assert pixels[..., color].min() > 240 and np.delete(pixels, color, axis=2).max() < 15, kind
-        found = await preview(one, "Recording", "run.nc")
+        found = await preview(p, "Recording", "run.nc")
         assert found["sensors"] == ["picture"] and found["missing"] == [] and found["motors"] == []
-        found = await preview(one, "Arena", "z", unit="cm")
+        found = await preview(p, "Arena", "z", unit="cm")
         assert found["scene"]["unit"] == "cm" and found["missing"] == ["picture"]
-        for kind, path, said in [
+        for kind, path, message in [
             ("Video", "nothing.avi", "no such video"),
             ("Video", "../red.avi", "outside"),
             ("Recording", "blue.png", "blue.png"),
             ("Nothing", "blue.png", "Nothing"),
         ]:
-            (problem,) = (await one.ask("preview_world", kind=kind, path=path, settings={}))["problems"]
-            assert said in f"{problem['where']} {problem['what']}", problem
-        assert one.clock["world"] == before, "a preview does not change the world"
+            (problem,) = (await p.ask("preview_world", kind=kind, path=path, settings={}))["problems"]
+            assert message in f"{problem['where']} {problem['what']}", problem
+        assert p.clock["world"] == before, "a preview does not change the world"
 
     with studio(tmp_path, tmp_path / "seeing.json") as address:
         play(address, story)
@@ -298,22 +298,22 @@ def test_the_page_shows_the_link_with_a_robot_in_another_process_and_a_pause_sto
     served = ServedWorld(Arena(LAYOUT), "epuck", "live")
     world = dd.Zenoh(at=served.endpoint, patience=5.0)
 
-    async def another_link(one: Page) -> None:
-        sent = one.said["robot_link"]
-        await one.until(lambda: one.said["robot_link"] != sent)
+    async def another_link(p: Page) -> None:
+        sent = p.said["robot_link"]
+        await p.until(lambda: p.said["robot_link"] != sent)
 
-    async def story(one: Page) -> None:
-        await one.runs()
-        await one.until(lambda: one.said.get("robot_link", {}).get("robot") == "epuck")
-        await one.do("play")
-        await one.until(lambda: one.said["robot_link"]["round_trip"] > 0)
-        assert one.said["robot_link"]["lost"] == 0 and 0 <= one.said["robot_link"]["age"] < 5000
-        await one.until(lambda: served.server.counts["accepted"] > 10)
-        await one.do("pause")
-        await one.until(lambda: not one.clock["running"])
-        await another_link(one)  # commands that were under way have arrived
+    async def story(p: Page) -> None:
+        await p.runs()
+        await p.until(lambda: p.said.get("robot_link", {}).get("robot") == "epuck")
+        await p.do("play")
+        await p.until(lambda: p.said["robot_link"]["round_trip"] > 0)
+        assert p.said["robot_link"]["lost"] == 0 and 0 <= p.said["robot_link"]["age"] < 5000
+        await p.until(lambda: served.server.counts["accepted"] > 10)
+        await p.do("pause")
+        await p.until(lambda: not p.clock["running"])
+        await another_link(p)  # commands that were under way have arrived
         accepted = served.server.counts["accepted"]
-        await another_link(one)
+        await another_link(p)
         assert served.server.counts["accepted"] == accepted, "no command comes while the run is paused"
 
     try:
@@ -325,10 +325,10 @@ def test_the_page_shows_the_link_with_a_robot_in_another_process_and_a_pause_sto
 
 
 def test_a_world_in_the_same_process_has_no_link(file: Path) -> None:
-    async def story(one: Page) -> None:
-        await shown(one)
-        await one.do("step", n=5)
-        assert "robot_link" not in one.said
+    async def story(p: Page) -> None:
+        await shown(p)
+        await p.do("step", n=5)
+        assert "robot_link" not in p.said
 
     with studio(file.parent, file, world=Arena(LAYOUT)) as address:
         play(address, story)

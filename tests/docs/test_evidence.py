@@ -130,8 +130,8 @@ def test_a_reproduction_is_stored_and_a_changed_row_is_noticed(folder: Path, tmp
     report = taken.report()
     file = tmp_path / "results.json"
     file.write_text(taken.results(report))
-    again = evidence.read("spa", tmp_path / "evidence" / "spa")
-    assert same(file, again.results(again.report()))
+    reading = evidence.read("spa", tmp_path / "evidence" / "spa")
+    assert same(file, reading.results(reading.report()))
     known = {"spa": evidence.numbers(taken, report)}
     page = (
         "<!-- numbers of spa -->It reaches <!-- evidence spa success:z/planner/low -->?<!-- end --> goals"
@@ -143,10 +143,10 @@ def test_a_reproduction_is_stored_and_a_changed_row_is_noticed(folder: Path, tmp
     )
     assert evidence.loose(whole.replace("goals", "goals, 3 of them late")) != []
     for key in ("z/planner/low/000", "z/planner/low/002"):
-        again.rows[key]["success"] = False
-    other = again.report()
-    assert not same(file, again.results(other))
-    assert "-->94 of 96<!--" in evidence.filled(whole, {"spa": evidence.numbers(again, other)})
+        reading.rows[key]["success"] = False
+    other = reading.report()
+    assert not same(file, reading.results(other))
+    assert "-->94 of 96<!--" in evidence.filled(whole, {"spa": evidence.numbers(reading, other)})
     with pytest.raises(SystemExit, match="nothing that is called speed"):
         evidence.filled("<!-- evidence spa speed -->3<!-- end -->", known)
 
@@ -175,8 +175,8 @@ def test_conditions_that_a_new_folder_lacks_are_kept_if_their_settings_are_the_p
     gone = next(iter(conditions & old["about"]["runs"].keys()))
     old["about"]["runs"][gone] = 1
     kept.write_bytes(lzma.compress("\n".join([json.dumps(old), *text[1:]]).encode() + b"\n"))
-    again = evidence.take(folder, into)
-    assert {key.rpartition("/")[0] for key in first.rows.keys() - again.rows.keys()} == {gone}
+    taken = evidence.take(folder, into)
+    assert {key.rpartition("/")[0] for key in first.rows.keys() - taken.rows.keys()} == {gone}
 
 
 def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) -> None:
@@ -198,9 +198,10 @@ def test_a_quick_reproduction_is_stored_as_quick(folder: Path, tmp_path: Path) -
     (folder / "runs.jsonl").write_text("".join(json.dumps(line) + "\n" for line in [first, *rows]))
     taken = evidence.take(folder, tmp_path / "evidence")
     assert taken.quick and len(taken.rows) == taken.about["of"] < 2000
-    known = evidence.numbers(taken, taken.report())
+    numbers = evidence.numbers(taken, taken.report())
     assert (
-        known["command"] == "`deodar reproduce spa --quick`" and known["success:z/planner/low"] == "20 of 20"
+        numbers["command"] == "`deodar reproduce spa --quick`"
+        and numbers["success:z/planner/low"] == "20 of 20"
     )
     assert json.loads(taken.results(taken.report()))["settings"]["quick"] is True
 
@@ -214,8 +215,8 @@ def test_a_condition_that_is_not_complete_is_left_out(
     file.write_text("".join(line + "\n" for line in lines[:-2]))
     taken = evidence.take(folder, tmp_path / "evidence")
     assert last in capsys.readouterr().err
-    known = evidence.numbers(taken, taken.report())
-    assert known["missing"] == last and known[f"success:{last}"] == evidence.papers.NOT_RUN
+    numbers = evidence.numbers(taken, taken.report())
+    assert numbers["missing"] == last and numbers[f"success:{last}"] == evidence.papers.NOT_RUN
     assert {row["condition"] for row in taken.rows.values()} == {
         json.loads(line)["condition"] for line in lines[1:-1]
     } - {last}

@@ -26,9 +26,9 @@ def run(name: str, record: list[str], trials: int | None = None) -> xarray.Datas
     model = dd.load(EXAMPLES / f"{name}.json")
     stated = re.search(r"(\d+) ms\.$", model.document.notes)
     assert stated, "the notes end with how long to run it"
-    data = dd.simulate(model, float(stated[1]), record=record, every=10, trials=trials)
-    assert all(np.isfinite(v.values).all() for v in data.data_vars.values())
-    return data
+    recording = dd.simulate(model, float(stated[1]), record=record, every=10, trials=trials)
+    assert all(np.isfinite(v.values).all() for v in recording.data_vars.values())
+    return recording
 
 
 def places(u: xarray.DataArray, t: float, trial: int | None = None) -> list[float]:
@@ -65,16 +65,16 @@ def test_detection_forms_one_peak_that_ends_with_its_input() -> None:
 
 def test_selection_leaves_one_of_two_peaks() -> None:
     u = run("selection", ["u.activation"], trials=100)["u.activation"]
-    found = [places(u, 600, k) for k in range(100)]
-    assert all(len(p) == 1 for p in found)
-    left = sum(p[0] < 50 for p in found)
+    peak_places = [places(u, 600, k) for k in range(100)]
+    assert all(len(p) == 1 for p in peak_places)
+    left = sum(p[0] < 50 for p in peak_places)
     assert 30 <= left <= 70, left
 
 
 def test_working_memory_keeps_its_peak_without_input() -> None:
-    data = run("working_memory", ["u.activation", "cue.output"])
-    assert float(data["cue.output"].sel(time=310).max()) == 0
-    assert places(data["u.activation"], 1500) == pytest.approx([35], abs=5)
+    record = run("working_memory", ["u.activation", "cue.output"])
+    assert float(record["cue.output"].sel(time=310).max()) == 0
+    assert places(record["u.activation"], 1500) == pytest.approx([35], abs=5)
 
 
 def test_forgetting_erases_the_peak() -> None:
@@ -92,12 +92,12 @@ def test_boost_creates_a_peak_at_the_stronger_preshape() -> None:
 
 
 def test_projection_forms_peaks_at_the_crossing_of_ridges() -> None:
-    data = run("projection", [f"{name}.activation" for name in ("colour", "scene", "where")])
+    record = run("projection", [f"{name}.activation" for name in ("colour", "scene", "where")])
     for name, place in (("colour", (120,)), ("scene", (36, 120)), ("where", (36,))):
-        u = data[f"{name}.activation"]
+        u = record[f"{name}.activation"]
         assert not peaks(u.sel(time=290)), name
-        found = peaks(u.sel(time=900))
-        assert len(found) == 1 and found[0].position == pytest.approx(place, abs=2), (name, found)
+        present = peaks(u.sel(time=900))
+        assert len(present) == 1 and present[0].position == pytest.approx(place, abs=2), (name, present)
 
 
 def test_node_switches_on_and_off() -> None:
@@ -108,9 +108,9 @@ def test_node_switches_on_and_off() -> None:
 
 def test_correlated_noise_creates_single_peaks_at_all_positions() -> None:
     u = run("correlated_noise", ["u.activation"], trials=100)["u.activation"]
-    found = [places(u, 400, k) for k in range(100)]
-    with_peak = [p[0] for p in found if p]
-    assert max(map(len, found)) == 1 and 30 <= len(with_peak) <= 70
+    peak_places = [places(u, 400, k) for k in range(100)]
+    with_peak = [p[0] for p in peak_places if p]
+    assert max(map(len, peak_places)) == 1 and 30 <= len(with_peak) <= 70
     assert np.histogram(with_peak, bins=4, range=(0, 100))[0].min() >= 3, "all over the field"
 
 
@@ -122,8 +122,8 @@ def test_timed_stimuli_create_peaks_in_their_windows() -> None:
 
 def test_groups_become_active_one_after_the_other() -> None:
     names = ("search", "approach", "grasp", "lift")
-    data = run("groups", [f"{name}.intention.activation" for name in names])
-    on = np.array([data[f"{name}.intention.activation"].values > 0 for name in names])
+    record = run("groups", [f"{name}.intention.activation" for name in names])
+    on = np.array([record[f"{name}.intention.activation"].values > 0 for name in names])
     for k, t in enumerate((480, 1080, 1680, 2280)):
         assert on[:, t // 10].tolist() == [i == k for i in range(4)], t
     assert not on[:, 0].any() and not on[:, -1].any()
@@ -135,14 +135,14 @@ def test_groups_become_active_one_after_the_other() -> None:
 
 
 def test_motor_attractor_turns_to_the_peak_and_stays_without_one() -> None:
-    data = run("motor_attractor", ["target.activation", "turn.output"])
-    turn = data["turn.output"]
+    record = run("motor_attractor", ["target.activation", "turn.output"])
+    turn = record["turn.output"]
     assert float(turn.sel(time=900)) == pytest.approx(150, abs=2)
     still = turn.sel(time=slice(1000, 1290)).values
-    assert np.ptp(still) < 0.5 and places(data["target.activation"], 1200) == []
-    way = turn.sel(time=slice(1300, 2000)).values
-    assert way[-1] == pytest.approx(-120, abs=2)
-    assert (np.abs(way) > 115).all(), "over 180 deg, never near 0"
+    assert np.ptp(still) < 0.5 and places(record["target.activation"], 1200) == []
+    values = turn.sel(time=slice(1300, 2000)).values
+    assert values[-1] == pytest.approx(-120, abs=2)
+    assert (np.abs(values) > 115).all(), "over 180 deg, never near 0"
 
 
 def test_saliency_selects_the_cued_colour() -> None:
@@ -151,9 +151,9 @@ def test_saliency_selects_the_cued_colour() -> None:
     coffee = next(s for s in photographs() if s.name == "coffee")
     record = ["perceptual.activation", "spatial.activation", "pan.output", "tilt.output"]
     end = dd.simulate(model, 3500, record=record, every=3500, world=coffee.picture).isel(time=-1)
-    found = peaks(end["spatial.activation"])
-    assert len(found) == 1 and len([p for p in peaks(end["perceptual.activation"]) if p.size > 600]) == 1
-    assert (float(end["pan.output"]), float(end["tilt.output"])) == pytest.approx(found[0].position, abs=2)
+    choices = peaks(end["spatial.activation"])
+    assert len(choices) == 1 and len([p for p in peaks(end["perceptual.activation"]) if p.size > 600]) == 1
+    assert (float(end["pan.output"]), float(end["tilt.output"])) == pytest.approx(choices[0].position, abs=2)
 
 
 # ------------------------------------------------------------------------------------------------ the scripts
@@ -168,7 +168,7 @@ def test_reaction_time_grows_with_distance_and_falls_with_a_preshape() -> None:
     example = module(EXAMPLES / "reaction_time.py")
     data = example.experiment(24).run()
     alone, expected = (example.reactions(data, preshape) for preshape in (0.0, 1.0))
-    medians = [[t for t, _ in found["time"]] for found in (alone, expected)]
+    medians = [[t for t, _ in rows["time"]] for rows in (alone, expected)]
     assert medians[0][0] < 0.5 * medians[0][3] and all(
         soon < late for soon, late in zip(medians[1], medians[0], strict=True)
     )
@@ -193,9 +193,9 @@ def test_the_symmetric_model_of_reaction_times_chooses_either_side_equally_often
 
 
 def test_live_session_remembers_and_follows_an_injected_input() -> None:
-    found = module(EXAMPLES / "live_session.py").main()
-    assert found["remembered"] == found["restored"] == pytest.approx([35], abs=1)
-    assert found["pulled along"] == pytest.approx([44], abs=1)
+    positions = module(EXAMPLES / "live_session.py").main()
+    assert positions["remembered"] == positions["restored"] == pytest.approx([35], abs=1)
+    assert positions["pulled along"] == pytest.approx([44], abs=1)
 
 
 def test_own_function_drives_the_field_periodically() -> None:
@@ -213,17 +213,17 @@ def test_no_example_is_without_a_test() -> None:
 
 
 def test_plan_spreads_from_the_goal_and_reaches_it() -> None:
-    data = dd.simulate(
+    record = dd.simulate(
         dd.load(EXAMPLES / "plan.json"),
         1200,
         record=["left.motivation.activation", "left.strongest.output", "gone.activation"],
         every=5,
     )
-    u, x = data["left.motivation.activation"], data["x"].values
+    u, x = record["left.motivation.activation"], record["x"].values
     fronts = [x[u.sel(time=t).values > 0].max() for t in (30, 60, 90, 120)]
     assert all(15 < b - a < 28 for a, b in itertools.pairwise(fronts))
-    assert float(data["left.strongest.output"].sel(time=slice(105, 200)).min()) > 0.5
-    gone = data["gone.activation"]
+    assert float(record["left.strongest.output"].sel(time=slice(105, 200)).min()) > 0.5
+    gone = record["gone.activation"]
     assert (
         abs(float(gone.sel(time=60))) < 3
         and abs(float(gone.sel(time=440)) + 60) < 7
@@ -233,10 +233,10 @@ def test_plan_spreads_from_the_goal_and_reaches_it() -> None:
 
 def test_spa_spreads_its_wave_from_the_goal() -> None:
     """In the first steps, in the arena of the notes, the wave spreads from the goal."""
-    data = dd.simulate(
+    record = dd.simulate(
         dd.load(EXAMPLES / "spa.json"), 60, record=["north.motivation.activation"], every=20, world=Arena("z")
     )
-    areas = [(u > 0).sum() for u in data["north.motivation.activation"].values]
+    areas = [(u > 0).sum() for u in record["north.motivation.activation"].values]
     assert areas[0] == 0 < areas[1] < areas[2] < areas[3]
 
 
@@ -304,25 +304,25 @@ def test_looking_turns_somewhere_and_learns_nothing_from_a_miss() -> None:
     model = dd.load(EXAMPLES / "looking.json")
     fields = ["visual intention", "motor intention"]
     record = [*(f"{name}.output" for name in fields), "pose", "satisfied.activation", "map.weights"]
-    data = dd.simulate(model, 1500, record=record, every=10, world=eye, seed=6)
-    done = int((data["satisfied.activation"] > 0).argmax("time"))
+    recording = dd.simulate(model, 1500, record=record, every=10, world=eye, seed=6)
+    done = int((recording["satisfied.activation"] > 0).argmax("time"))
     assert done > 0
     for name in fields:
-        highest = data[f"{name}.output"].values.max(axis=(1, 2))
+        highest = recording[f"{name}.output"].values.max(axis=(1, 2))
         assert highest[:done].max() > 0.9 and highest[done + 8] < 0.1
-    pose = data["pose.output"].values
+    pose = recording["pose.output"].values
     assert np.abs(pose[done] - pose[0]).max() > 20
-    assert np.array_equal(data["map.weights"].values[0], data["map.weights"].values[done])
+    assert np.array_equal(recording["map.weights"].values[0], recording["map.weights"].values[done])
 
 
 def test_behaviours_obey_their_constraints() -> None:
     names = ("find", "reach", "avoid", "look left", "look right")
-    data = run(
+    record = run(
         "behaviours",
         [f"{name}.intention.activation" for name in names] + ["reach.satisfaction.activation"],
         trials=20,
     )
-    on = {name: data[f"{name}.intention.activation"] > 0 for name in names}
+    on = {name: record[f"{name}.intention.activation"] > 0 for name in names}
 
     def during(name: str, start: float, stop: float) -> np.ndarray:
         return on[name].sel(time=slice(start, stop)).values
@@ -336,7 +336,7 @@ def test_behaviours_obey_their_constraints() -> None:
     )
     assert (
         not during("reach", 1700, 2400).any()
-        and (data["reach.satisfaction.activation"].sel(time=2000).values > 0).all()
+        and (record["reach.satisfaction.activation"].sel(time=2000).values > 0).all()
     )
     assert (
         not (on["look left"] & on["look right"]).any()
@@ -348,21 +348,21 @@ def test_behaviours_obey_their_constraints() -> None:
 
 
 def test_serial_order_produces_the_sequence() -> None:
-    data = run("serial_order", ["action.activation", *(f"item {k}.node.activation" for k in range(1, 5))])
+    record = run("serial_order", ["action.activation", *(f"item {k}.node.activation" for k in range(1, 5))])
     steps = [
-        np.argmax(data[f"item {k}.node.activation"].sel(time=slice(5300, None)).values > 0) * 10 + 5300
+        np.argmax(record[f"item {k}.node.activation"].sel(time=slice(5300, None)).values > 0) * 10 + 5300
         for k in range(1, 5)
     ]
     assert steps[0] > 5300 and all(a < b for a, b in itertools.pairwise(steps))
-    assert [places(data["action.activation"], t + 20.0)[0] for t in steps] == pytest.approx(
+    assert [places(record["action.activation"], t + 20.0)[0] for t in steps] == pytest.approx(
         [30, 6, 30, 54], abs=3
     )
-    assert not any(places(data["action.activation"], t) for t in (5300, 11200))
+    assert not any(places(record["action.activation"], t) for t in (5300, 11200))
 
 
 def test_binding_selects_the_cued_object() -> None:
-    data = run("binding", [f"{name}.activation" for name in ("bound", "space", "feature")])
-    for t, found in (
+    record = run("binding", [f"{name}.activation" for name in ("bound", "space", "feature")])
+    for t, bound in (
         (190, None),
         (590, (50, 120)),
         (790, (50, 120)),
@@ -371,34 +371,34 @@ def test_binding_selects_the_cued_object() -> None:
         (1800, None),
     ):
         for name, place in (("space", 0), ("feature", 1)):
-            expected = [] if found is None else [found[place]]
-            assert places(data[f"{name}.activation"], t) == pytest.approx(expected, abs=3), (name, t)
-        assert len(peaks(data["bound.activation"].sel(time=t))) == (0 if found is None else 1)
+            expected = [] if bound is None else [bound[place]]
+            assert places(record[f"{name}.activation"], t) == pytest.approx(expected, abs=3), (name, t)
+        assert len(peaks(record["bound.activation"].sel(time=t))) == (0 if bound is None else 1)
 
 
 def test_remapping_gives_positions_relative_to_the_body() -> None:
-    data = run(
+    record = run(
         "remapping",
         [f"{form}.{name}.activation" for form in ("diagonal", "steered") for name in ("retina", "body")],
     )
     for form in ("diagonal", "steered"):
-        retina, body = (data[f"{form}.{name}.activation"] for name in ("retina", "body"))
+        retina, body = (record[f"{form}.{name}.activation"] for name in ("retina", "body"))
         for t, there in ((390, [12]), (790, [-3]), (990, [22]), (1400, [-15, 22])):
             assert places(retina, t) == pytest.approx(there, abs=0.5)
             assert places(body, t) == pytest.approx([12] if t < 1000 else [-25, 12], abs=0.5), (form, t)
 
 
 def test_change_detection_reports_the_changed_item() -> None:
-    data = run(
+    record = run(
         "change_detection",
         ["contrast.activation", "memory.activation", "different.activation", "same.activation"],
     )
     assert (
-        places(data["memory.activation"], 1690) == pytest.approx([40, 130, 250], abs=3)
-        and places(data["contrast.activation"], 1690) == []
+        places(record["memory.activation"], 1690) == pytest.approx([40, 130, 250], abs=3)
+        and places(record["contrast.activation"], 1690) == []
     )
-    assert places(data["contrast.activation"], 1760) == pytest.approx([180], abs=3)
-    assert float(data["different.activation"].sel(time=2290)) > 0 > float(data["same.activation"].max())
+    assert places(record["contrast.activation"], 1760) == pytest.approx([180], abs=3)
+    assert float(record["different.activation"].sel(time=2290)) > 0 > float(record["same.activation"].max())
     model = dd.load(EXAMPLES / "change_detection.json")
     model.set("test 2.center", 130)
     end = dd.simulate(model, 2290, record=["different.activation", "same.activation"], every=2290).isel(
@@ -408,14 +408,14 @@ def test_change_detection_reports_the_changed_item() -> None:
 
 
 def test_sequences_are_produced_in_every_seed(capsys: pytest.CaptureFixture[str]) -> None:
-    found = module(EXAMPLES / "sequences.py").main(2, range(10, 11))
-    assert found == {10: (2, 20, 20)} and "2 of 2 seeds" in capsys.readouterr().out
+    successes = module(EXAMPLES / "sequences.py").main(2, range(10, 11))
+    assert successes == {10: (2, 20, 20)} and "2 of 2 seeds" in capsys.readouterr().out
 
 
 def test_learned_kernel_finds_the_free_samples() -> None:
-    wanted, weights, errors = module(EXAMPLES / "learned_kernel.py").learn(samples=101, most=400)
+    expected, weights, errors = module(EXAMPLES / "learned_kernel.py").learn(samples=101, most=400)
     assert errors[-1] < 1e-3 * errors[0]
-    assert np.abs(weights - wanted).max() < 0.1 * np.abs(wanted).max()
+    assert np.abs(weights - expected).max() < 0.1 * np.abs(expected).max()
 
 
 def test_trained_vision_puts_the_peak_at_the_cross() -> None:
@@ -425,6 +425,6 @@ def test_trained_vision_puts_the_peak_at_the_cross() -> None:
 
 def test_fitted_time_course_finds_the_parameters() -> None:
     script = module(EXAMPLES / "fitted_time_course.py")
-    found, _ = script.fit(script.measured(trials=20))
+    fitted, _ = script.fit(script.measured(trials=20))
     for path, value in script.TRUE.items():
-        assert found[path] == pytest.approx(value, rel=0.03)
+        assert fitted[path] == pytest.approx(value, rel=0.03)

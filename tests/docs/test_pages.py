@@ -75,10 +75,10 @@ def test_the_pictures_of_architectures_are_those_that_their_page_draws(
     assert len(vectors) >= 3
     for path in vectors:
         shown, drawn = ((place / path.name).read_text("utf-8") for place in (DOCS / "pictures", tmp_path))
-        again = f"{path.name} changed: python docs/build.py --pages drawing"
-        assert number.sub("#", shown) == number.sub("#", drawn), again
+        changed = f"{path.name} changed: python docs/build.py --pages drawing"
+        assert number.sub("#", shown) == number.sub("#", drawn), changed
         positions = [[float(n) for n in number.findall(text)] for text in (shown, drawn)]
-        assert positions[0] == pytest.approx(positions[1], abs=0.02), again
+        assert positions[0] == pytest.approx(positions[1], abs=0.02), changed
 
 
 def _broken(page: Path) -> Iterator[str]:

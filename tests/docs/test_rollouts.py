@@ -20,7 +20,7 @@ EVERY, SEED = 4, 3
 INSIDE: Mapping[str, Callable[[], World]] = {
     "color_search": lambda: Arena(
         "search", unit="mm", vehicle="khepera", physics=dd.ArenaPhysics(period=20, camera_every=4)
-    ),
+    )
 }
 """Worlds that are computed inside the step."""
 

@@ -86,8 +86,8 @@ def texts() -> list[Path]:
         if listed.returncode == 0
         else list(ROOT.rglob("*"))
     )
-    kept = [p for p in names if p.is_file() and p.suffix in TEXT and not _left_out(p)]
-    return sorted(kept)
+    paths = [p for p in names if p.is_file() and p.suffix in TEXT and not _left_out(p)]
+    return sorted(paths)
 
 
 def _left_out(path: Path) -> bool:

@@ -42,8 +42,8 @@ def test_every_kind_and_every_command_has_a_heading() -> None:
 
 def test_every_public_name_is_in_the_reference() -> None:
     text = "\n".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs/reference").glob("*.md"))
-    found = re.findall(r"^## dd\.(\w+)$|^`dd\.(\w+)`$|^\| `dd\.(\w+)` \|", text, re.MULTILINE)
-    named = {name for names in found for name in names}
+    matches = re.findall(r"^## dd\.(\w+)$|^`dd\.(\w+)`$|^\| `dd\.(\w+)` \|", text, re.MULTILINE)
+    named = {name for names in matches for name in names}
     public = {n for n in deodar.__all__ if not isinstance(getattr(deodar, n), type(re))}
     assert not public - named, f"name it in docs/reference.py: {public - named}"
 

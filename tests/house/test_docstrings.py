@@ -55,11 +55,11 @@ def fields(cls: type[Any]) -> list[str]:
 def test_parameters_are_named_in_field_order() -> None:
     wrong: list[str] = []
     for name, cls in KINDS.items():
-        found = read(cls)
-        listed = found.entries("Parameters")
+        reading = read(cls)
+        listed = reading.entries("Parameters")
         if list(listed) != fields(cls) or not all(listed.values()):
             wrong.append(f"{name}: {list(listed)}, declared {fields(cls)}")
-        if not fields(cls) and found.sections.get("Parameters") != "none.":
+        if not fields(cls) and reading.sections.get("Parameters") != "none.":
             wrong.append(f"{name}: write `Parameters: none.`")
     assert not wrong, wrong
 
@@ -71,9 +71,9 @@ def test_every_port_is_named_with_its_axes() -> None:
         axes = {port: element.input_axes(port, ()) or () for port in element.ports()}
         listed = read(cls).entries("Ports")
         # a parameter of the function element names its inputs
-        wanted = {*element.outputs(axes), *(() if "ports_in" in fields(cls) else element.ports())}
-        wrong += [f"{name}.{port}: has no line" for port in wanted - set(listed)]
-        wrong += [f"{name}.{port}: is no port" for port in set(listed) - wanted]
+        expected = {*element.outputs(axes), *(() if "ports_in" in fields(cls) else element.ports())}
+        wrong += [f"{name}.{port}: has no line" for port in expected - set(listed)]
+        wrong += [f"{name}.{port}: is no port" for port in set(listed) - expected]
         wrong += [
             f"{name}.{port}: say over which axes"
             for port, says in listed.items()

@@ -96,8 +96,8 @@ def test_every_package_has_a_level_and_every_level_exists() -> None:
 
 def test_the_root_package_imports_no_other_package_at_import() -> None:
     top = tree(ENGINE / "__init__.py")
-    found = [n for n in top.body if isinstance(n, (ast.Import, ast.ImportFrom))]
-    assert not [n for n in found if isinstance(n, ast.ImportFrom) and (n.module or "").startswith("deodar")]
+    names = [n for n in top.body if isinstance(n, (ast.Import, ast.ImportFrom))]
+    assert not [n for n in names if isinstance(n, ast.ImportFrom) and (n.module or "").startswith("deodar")]
 
 
 def test_one_place_asks_for_programs() -> None:

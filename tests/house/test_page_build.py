@@ -156,11 +156,11 @@ def test_an_unknown_command_prints_the_valid_ones(
 
 
 def test_libraries_are_pinned() -> None:
-    about = json.loads((STUDIO / "package.json").read_text(encoding="utf-8"))
+    document = json.loads((STUDIO / "package.json").read_text(encoding="utf-8"))
     loose = {
         name: v
         for group in ("dependencies", "devDependencies")
-        for name, v in about[group].items()
+        for name, v in document[group].items()
         if not re.fullmatch(r"\d+\.\d+\.\d+", v)
     }
     assert not loose

@@ -33,8 +33,8 @@ def _loaded(code: str, packages: list[str] = HEAVY) -> set[str]:
 def test_every_name_resolves_and_has_a_docstring() -> None:
     """`help` shows the name that a script has, but for aliases of types."""
     public = {name: getattr(deodar, name) for name in deodar.__all__}
-    shown = {name: getattr(found, "__name__", name).rpartition(".")[2] for name, found in public.items()}
-    assert not [name for name, found in public.items() if not found.__doc__ or name not in dir(deodar)]
+    shown = {name: getattr(member, "__name__", name).rpartition(".")[2] for name, member in public.items()}
+    assert not [name for name, member in public.items() if not member.__doc__ or name not in dir(deodar)]
     assert not {name: other for name, other in shown.items() if other not in (name, "tuple", "dict")}
 
 
@@ -82,8 +82,8 @@ def test_every_function_of_measuring_and_drawing_is_a_public_name(package: str) 
 
 @pytest.mark.parametrize("package", ["analysis", "architectures", "figures"])
 def test_a_function_wins_over_the_file_of_its_name(package: str) -> None:
-    found = getattr(deodar, package)
-    assert all(not isinstance(getattr(found, name), type(sys)) for name in found.__all__)
+    member = getattr(deodar, package)
+    assert all(not isinstance(getattr(member, name), type(sys)) for name in member.__all__)
 
 
 def test_a_star_import_gives_the_public_names() -> None:
@@ -117,8 +117,8 @@ def test_calls_that_count_ticks_have_no_argument_every(call: Callable[..., objec
 
 
 def _public_calls() -> Iterator[Callable[..., object]]:
-    for found in (getattr(deodar, name) for name in deodar.__all__):
-        for call in (found, *(vars(found).values() if isinstance(found, type) else ())):
+    for member in (getattr(deodar, name) for name in deodar.__all__):
+        for call in (member, *(vars(member).values() if isinstance(member, type) else ())):
             if inspect.isfunction(call) or isinstance(call, type):
                 yield call
 

@@ -29,8 +29,8 @@ def _documents() -> list[Path]:
     found = []
     for path in texts():
         if path.suffix == ".json" and path != schema.SHIPPED and "old_files" not in path.parts:
-            data = json.loads(path.read_text(encoding="utf-8"))
-            if isinstance(data, dict) and "deodar" in data and "elements" in data:
+            document = json.loads(path.read_text(encoding="utf-8"))
+            if isinstance(document, dict) and "deodar" in document and "elements" in document:
                 found.append(path)
     return found
 
@@ -56,8 +56,8 @@ def test_saved_documents_are_valid() -> None:
     for name, cls in elements.items():
         model = Model("one")
         model.add(cls.example())
-        data = json.loads(model.to_json())
-        wrong += [f"{name}: {error.message}" for error in VALIDATOR.iter_errors(data)]
+        document = json.loads(model.to_json())
+        wrong += [f"{name}: {error.message}" for error in VALIDATOR.iter_errors(document)]
     assert len(elements) > 50 and not wrong, wrong
 
 
@@ -74,11 +74,11 @@ def test_the_schema_refuses_what_load_refuses() -> None:
         lambda d: d["elements"]["example"].update(tau=0),
         lambda d: d["axes"]["x"].update(samples=2.5),
     ):
-        data = json.loads(model.to_json())
-        change(data)
-        assert list(VALIDATOR.iter_errors(data))
+        document = json.loads(model.to_json())
+        change(document)
+        assert list(VALIDATOR.iter_errors(document))
         with pytest.raises(document_files.DeodarError):
-            document_files.from_data(data, {})
+            document_files.from_data(document, {})
 
 
 def test_committed_documents_are_valid_and_have_no_problems() -> None:

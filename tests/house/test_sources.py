@@ -24,10 +24,7 @@ STATE = {
         "deodar_studio.requests.handlers",
         "HANDLERS",
     ): "the handlers of messages, filled by `handles` in this file",
-    (
-        "worlds._capture",
-        "_silenced",
-    ): "the log of OpenCV has one level for the process",
+    ("worlds._capture", "_silenced"): "the log of OpenCV has one level for the process",
 }
 MUTABLE_CALLS = {
     "dict",

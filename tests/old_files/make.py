@@ -104,9 +104,9 @@ def main(version: str, folder: Path) -> None:
     model = choice(int(version))
     dd.save(model, folder / "choice.json")
     if version == "1":
-        data = json.loads((folder / "choice.json").read_text())
-        del data["elements"]["place"]["axis"]
-        (folder / "choice.json").write_text(json.dumps(data, indent=2) + "\n")
+        document = json.loads((folder / "choice.json").read_text())
+        del document["elements"]["place"]["axis"]
+        (folder / "choice.json").write_text(json.dumps(document, indent=2) + "\n")
     model = dd.load(folder / "choice.json")
     dd.save(model, folder / "choice.deodar")
     record = dd.simulate(

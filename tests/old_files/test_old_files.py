@@ -57,9 +57,9 @@ def begun_here(old: Path, folder: Path) -> Path:
     """Copy the folder of an experiment, as if it had begun on this machine with these libraries."""
     shutil.copytree(old, folder)
     first, *others = (folder / "trials.jsonl").read_text().split("\n")
-    about = json.loads(first)
-    about["about"]["made_by"] = made_by(find())
-    (folder / "trials.jsonl").write_text("\n".join([json.dumps(about), *others]))
+    content = json.loads(first)
+    content["about"]["made_by"] = made_by(find())
+    (folder / "trials.jsonl").write_text("\n".join([json.dumps(content), *others]))
     return folder
 
 
@@ -116,13 +116,9 @@ def test_a_record_is_run_and_drawn_by_the_commands(
     assert main(["run", str(OLD / "record.nc"), "--out", str(tmp_path / "again.nc")]) in (0, 1)
     assert main(["plot", str(OLD / "record.nc"), "--out", str(tmp_path / "record.png")]) == 0
     assert (tmp_path / "again.nc").exists() and (tmp_path / "record.png").stat().st_size > 1000
-    again, old = dd.load_record(tmp_path / "again.nc"), dd.load_record(OLD / "record.nc")
-    np.testing.assert_allclose(again["u.activation"], old["u.activation"], atol=1e-4)
-    np.testing.assert_allclose(
-        again["n.activation"],
-        old["n.activation"],
-        atol=1e-4,
-    )
+    record, old = dd.load_record(tmp_path / "again.nc"), dd.load_record(OLD / "record.nc")
+    np.testing.assert_allclose(record["u.activation"], old["u.activation"], atol=1e-4)
+    np.testing.assert_allclose(record["n.activation"], old["n.activation"], atol=1e-4)
 
 
 # ------------------------------------------------------------------------------------------------ experiments
@@ -157,16 +153,16 @@ def test_a_folder_that_was_stopped_is_resumed(old: Path, stopped: Path) -> None:
 def test_an_experiment_of_version_2_is_read_and_resumed(tmp_path: Path) -> None:
     """Version 3 calls the object of an action `object`; before, it was called `thing`."""
     old = OLD.with_name("experiment_2")
-    data = json.loads((old / "experiment.json").read_text())
-    assert data["experiment"] == 2 and [action["thing"] for action in data["actions"]] == ["box"] * 3
+    content = json.loads((old / "experiment.json").read_text())
+    assert content["experiment"] == 2 and [action["thing"] for action in content["actions"]] == ["box"] * 3
     experiment = dd.Experiment.load(old / "experiment.json")
     assert experiment.check() == [] and [action.object for action in experiment.plan.actions] == ["box"] * 3
     folder = begun_here(old / "stopped", tmp_path / "stopped")
     assert dd.load_results(folder).sizes["trial"] == 1
     rows = (folder / "trials.jsonl").read_text().split("\n")[:2]
-    data = experiment.run(folder)
-    assert data.sizes["trial"] == 2 and (folder / "trials.jsonl").read_text().split("\n")[:2] == rows
-    assert data["touched"].values.tolist() == [35, 35]
+    content = experiment.run(folder)
+    assert content.sizes["trial"] == 2 and (folder / "trials.jsonl").read_text().split("\n")[:2] == rows
+    assert content["touched"].values.tolist() == [35, 35]
 
 
 def test_a_folder_of_another_model_is_still_refused(stopped: Path) -> None:
@@ -190,5 +186,5 @@ def test_a_folder_whose_document_was_changed_is_still_refused(stopped: Path) -> 
 
 
 def test_the_table_of_a_folder_is_read() -> None:
-    data = dd.load_results(OLD / "whole")
-    assert data.sizes["trial"] == 8 and dd.load_record(OLD / "whole" / "trials.nc").identical(data)
+    table = dd.load_results(OLD / "whole")
+    assert table.sizes["trial"] == 8 and dd.load_record(OLD / "whole" / "trials.nc").identical(table)

@@ -49,10 +49,10 @@ def shift(y, axes, amount):
 def project(y, source, p):
     """Contract, resample, reorder, expand: axes by their names after renaming."""
     names = [dict(p.rename).get(a.name, a.name) for a in source]
-    wanted = {a.name: a for a in p.axes}
+    expected = {a.name: a for a in p.axes}
     axes = list(source)
     for d in range(len(names) - 1, -1, -1):
-        if names[d] not in wanted:
+        if names[d] not in expected:
             step = grid(axes[d])[1]
             reductions = {
                 "integral": lambda v, d, h=step: h * v.sum(d),
@@ -64,8 +64,8 @@ def project(y, source, p):
             y = reductions[p.reduce](y, d)
             del names[d], axes[d]
     for d, name in enumerate(names):
-        if wanted[name].samples != axes[d].samples:
-            y = interpolated(y, axes[d], grid(wanted[name])[0], d, p.interpolation)
+        if expected[name].samples != axes[d].samples:
+            y = interpolated(y, axes[d], grid(expected[name])[0], d, p.interpolation)
     out = np.zeros(tuple(a.samples for a in p.axes))
     for place in np.ndindex(*out.shape):
         by_name = dict(zip((a.name for a in p.axes), place, strict=True))

@@ -37,10 +37,7 @@ BROKEN = [
         "later",
         KIND.format(name="Odd"),
         "Odd",
-        (
-            "numpy",
-            "deodar>=7",
-        ),
+        ("numpy", "deodar>=7"),
         "is made for deodar >=7, and this is " + dd.__version__,
     ),
     (
@@ -241,12 +238,12 @@ def test_an_entry_that_is_not_a_measure_or_figure_is_a_line_of_doctor(
 
 def test_a_broken_measure_is_an_error_only_of_experiments_that_name_it(install: Install) -> None:
     install("odd", {"odd": MEASURE.format(name="Odd") + RAISES}, {"deodar.measures": {"Odd": "odd:Odd"}})
-    data = {"experiment": 3, "name": "e", "model": "m.json", "limit": 1.0, "measures": {"u": {"of": "u"}}}
-    assert [m.name for m in dd.Experiment.from_data(data).plan.measures] == ["u"]
+    settings = {"experiment": 3, "name": "e", "model": "m.json", "limit": 1.0, "measures": {"u": {"of": "u"}}}
+    assert [m.name for m in dd.Experiment.from_data(settings).plan.measures] == ["u"]
     assert "Odd" not in str(dd.Experiment.schema())
-    data["measures"] = {"u": {"kind": "Odd", "of": "u"}}
+    settings["measures"] = {"u": {"kind": "Odd", "of": "u"}}
     with pytest.raises(dd.errors.DocumentError) as caught:
-        dd.Experiment.from_data(data)
+        dd.Experiment.from_data(settings)
     assert str(caught.value) == (
         "measures.u.kind: 'Odd' cannot be used: the package odd 0.1.0 raises RuntimeError when it is"
         " imported: no licence. Type: deodar doctor"
@@ -260,9 +257,9 @@ def test_a_broken_figure_is_an_error_only_of_plots_that_name_it(
     model = dd.Model("m")
     model.add(dd.Boost("b"))
     dd.save_record(dd.simulate(model, 3, record=["b.output"]), tmp_path / "r.zarr")
-    given = ["plot", str(tmp_path / "r.zarr"), "--out", str(tmp_path / "r.svg")]
-    assert main(given) == 0
-    assert main([*given, "--force", "--kind", "odd"]) == 1
+    arguments = ["plot", str(tmp_path / "r.zarr"), "--out", str(tmp_path / "r.svg")]
+    assert main(arguments) == 0
+    assert main([*arguments, "--force", "--kind", "odd"]) == 1
     assert "'odd' cannot be used: the package odd 0.1.0 raises RuntimeError" in capsys.readouterr().err
 
 

@@ -70,8 +70,8 @@ def test_a_missing_package_is_the_first_problem_and_a_line_of_doctor(
     assert first.fix == "If you trust it, type: pip install deodar-detector==1.2"
     assert second.where == f"{path}: d"
     assert main(["doctor", str(path), "example:selection"]) == 0
-    found = [line for line in capsys.readouterr().out.splitlines() if line.startswith("document")]
-    assert found == [
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("document")]
+    assert lines == [
         f"document   {path}: PROBLEM: {first.what}. {first.fix}",
         "document   example:selection: opens",
     ]

@@ -118,16 +118,16 @@ def test_an_experiment_with_the_kind_the_world_and_the_measure_runs(
     assert main(["experiment", str(experiment), "--out", str(tmp_path / "out"), "--no-progress"]) == 0, (
         capsys.readouterr().err
     )
-    results = dd.load_results(tmp_path / "out")
+    table = dd.load_results(tmp_path / "out")
     trial = run_alone(
         dd.load(tmp_path / "model.json"), 30, watch=["field"], world=registry.kind("Lamp")(10), dt=1
     )
     u = trial.values["field"]
-    for name, look in (("first", int(results["lit"][0])), ("width", 30)):
-        assert results[name].values.tolist() == [0.5 * (u[look] > 5).sum()]
-    assert results["first"] != results["width"] and results["width"] > 0
-    assert np.isnan(results["none"].values).all()
-    np.testing.assert_allclose(results["highest"].values, [u[30].max()])
+    for name, look in (("first", int(table["lit"][0])), ("width", 30)):
+        assert table[name].values.tolist() == [0.5 * (u[look] > 5).sum()]
+    assert table["first"] != table["width"] and table["width"] > 0
+    assert np.isnan(table["none"].values).all()
+    np.testing.assert_allclose(table["highest"].values, [u[30].max()])
 
 
 def test_an_experiment_with_a_measure_of_a_package_is_written_and_batched(
@@ -206,8 +206,8 @@ def test_the_command_of_the_package_runs(capsys: pytest.CaptureFixture[str]) -> 
 def test_doctor_lists_what_the_package_adds(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor"]) == 0
     page = capsys.readouterr().out.splitlines()
-    found = [line for line in page if line.startswith("plug-in")]
-    assert found == [
+    lines = [line for line in page if line.startswith("plug-in")]
+    assert lines == [
         f"plug-in    deodar-change 0.1.0: {what}"
         for what in (
             "kinds Change",

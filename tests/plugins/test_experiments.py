@@ -75,8 +75,8 @@ def test_a_missing_package_of_a_measure_is_the_first_problem_and_a_line_of_docto
     assert first.fix == "If you trust it, type: pip install deodar-spread==1.2"
     assert second.where == f"{path}: measures.u.kind"
     assert main(["doctor", str(path)]) == 0
-    found = [line for line in capsys.readouterr().out.splitlines() if line.startswith("document")]
-    assert found == [f"document   {path}: PROBLEM: {first.what}. {first.fix}"]
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("document")]
+    assert lines == [f"document   {path}: PROBLEM: {first.what}. {first.fix}"]
 
 
 def test_doctor_examines_the_model_of_an_experiment(
@@ -123,9 +123,9 @@ def test_a_folder_whose_rows_name_no_package_is_resumed(install: Install, tmp_pa
     experiment.run(out)
     assert json.loads((out / EXPERIMENT).read_text())["packages"] == {"Spread": "deodar-spread 1.2"}
     first, *rows = (out / ROWS).read_text().splitlines()
-    about = codec.parse(first)
-    del about["about"]["packages"]
-    (out / ROWS).write_text("\n".join([codec.line(about), *rows]) + "\n")
+    document = codec.parse(first)
+    del document["about"]["packages"]
+    (out / ROWS).write_text("\n".join([codec.line(document), *rows]) + "\n")
     assert experiment.run(out).sizes["trial"] == 1
 
 

@@ -81,8 +81,8 @@ def test_an_invalid_plot_is_a_line_of_doctor_and_not_sent_to_the_page(
     _install(install, text, name)
     assert plots.views() == [] and plots.file(name) is None
     assert main(["doctor"]) == 0
-    found = [line for line in capsys.readouterr().out.splitlines() if line.startswith("plug-in")]
-    assert found == [f"plug-in    odd 0.1.0: PROBLEM: {name} {problem}"]
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("plug-in")]
+    assert lines == [f"plug-in    odd 0.1.0: PROBLEM: {name} {problem}"]
 
 
 def test_an_object_that_is_not_a_module_is_refused_as_a_plot(install: Install) -> None:

@@ -58,8 +58,8 @@ def test_imports_are_found_at_the_top_in_functions_and_for_types(tmp_path: Path)
         "from typing import TYPE_CHECKING\nfrom deodar.model import edit\nif TYPE_CHECKING:\n    from"
         " deodar.session.run import Run\ndef f():\n    import deodar.cli.check\n"
     )
-    found = [(line, name) for line, name in packages.imports(bad) if name.startswith("deodar")]
-    assert sorted(found) == [(2, "deodar.model.edit"), (4, "deodar.session.run"), (6, "deodar.cli.check")]
+    names = [(line, name) for line, name in packages.imports(bad) if name.startswith("deodar")]
+    assert sorted(names) == [(2, "deodar.model.edit"), (4, "deodar.session.run"), (6, "deodar.cli.check")]
 
 
 def test_names_of_packages_are_found_in_code_and_not_in_docstrings() -> None:
@@ -73,7 +73,7 @@ def test_a_module_name_has_one_meaning_inside_a_package() -> None:
 
 
 @pytest.mark.parametrize(
-    "found",
+    "names",
     [
         ["deodar/compiler/axes", "deodar/numerics/axes"],
         ["deodar/batch", "deodar/compiler/batch"],
@@ -82,14 +82,14 @@ def test_a_module_name_has_one_meaning_inside_a_package() -> None:
         ["deodar/worlds/arena/camera", "deodar/worlds/camera"],
         ["deodar_interop/exporters/cosivina/layout", "deodar_interop/importers/cedar/layout"],
     ],
-    ids=lambda found: found[0],
+    ids=lambda names: names[0],
 )
-def test_two_unrelated_modules_of_one_name_are_found(found: list[str]) -> None:
-    assert packages.ambiguous({"name": found}) == {"name": found}
+def test_two_unrelated_modules_of_one_name_are_found(names: list[str]) -> None:
+    assert packages.ambiguous({"name": names}) == {"name": names}
 
 
 @pytest.mark.parametrize(
-    "found",
+    "names",
     [
         ["deodar/numerics/axes"],
         ["deodar/cli/plan", "deodar/compiler/plan", "deodar/figures/plan"],
@@ -98,10 +98,10 @@ def test_two_unrelated_modules_of_one_name_are_found(found: list[str]) -> None:
         ["deodar_interop/exporters/cosivina/classes/fields", "deodar_interop/importers/cedar/classes/fields"],
         ["deodar_papers/commands/demo", "deodar_papers/looking/demo", "deodar_papers/spa/demo"],
     ],
-    ids=lambda found: found[0],
+    ids=lambda names: names[0],
 )
-def test_siblings_of_one_role_and_modules_of_one_subject_share_a_name(found: list[str]) -> None:
-    assert packages.ambiguous({"name": found}) == {}
+def test_siblings_of_one_role_and_modules_of_one_subject_share_a_name(names: list[str]) -> None:
+    assert packages.ambiguous({"name": names}) == {}
 
 
 def test_places_count_folders_and_leave_out_the_file_that_a_folder_is_named_after() -> None:
@@ -113,17 +113,17 @@ def test_places_count_folders_and_leave_out_the_file_that_a_folder_is_named_afte
 
 def test_every_role_and_every_subject_is_that_of_some_module() -> None:
     places = [
-        p for package in packages.packages() for found in packages.places(package).values() for p in found
+        p for package in packages.packages() for names in packages.places(package).values() for p in names
     ]
     patterns = [*(p for patterns in packages.ROLES.values() for p in patterns), *packages.SUBJECTS]
     assert [p for p in patterns if not any(packages.matches(place, p) for place in places)] == []
 
 
 def test_every_role_is_that_of_modules_of_one_name() -> None:
-    shared = [found for package in packages.packages() for found in packages.places(package).values()]
+    shared = [names for package in packages.packages() for names in packages.places(package).values()]
     for role, patterns in packages.ROLES.items():
         having = [
-            [p for p in found if any(packages.matches(p, form) for form in patterns)] for found in shared
+            [p for p in names if any(packages.matches(p, form) for form in patterns)] for names in shared
         ]
         assert max(map(len, having)) > 1, role
 
@@ -131,7 +131,7 @@ def test_every_role_is_that_of_modules_of_one_name() -> None:
 def test_the_exit_status_is_1_if_a_name_has_several_meanings(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = ["deodar/batch", "deodar/compiler/batch"]
-    monkeypatch.setattr(packages, "places", lambda package: {"batch": found} if package == "deodar" else {})
+    names = ["deodar/batch", "deodar/compiler/batch"]
+    monkeypatch.setattr(packages, "places", lambda package: {"batch": names} if package == "deodar" else {})
     assert packages.main([]) == 1
     assert "1 module names with several meanings\n  batch: deodar/batch, deodar/c" in capsys.readouterr().out

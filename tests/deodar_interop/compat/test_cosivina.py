@@ -135,13 +135,13 @@ def same(sim, plain):
     """Return the largest difference in all components of all elements."""
     far = 0.0
     for label in sim.elementLabels:
-        for name, wanted in plain.out[label].items():
+        for name, expected in plain.out[label].items():
             if name == "h" or not sim.getElement(label).isComponent(name):
                 continue
             found = sim.getComponent(label, name)
             # the plain simulator keeps a number where a size expands it
-            assert wanted.shape in (found.shape, (1, 1))
-            far = max(far, float(abs(found - wanted).max()))
+            assert expected.shape in (found.shape, (1, 1))
+            far = max(far, float(abs(found - expected).max()))
     return far
 
 
@@ -178,12 +178,12 @@ def test_published_settings_run_from_their_file(path):
     sim = Simulator(file=path)
     sim.run(20, True)
     compared = 0
-    for (label, step), wanted in reference.items():
+    for (label, step), expected in reference.items():
         if step == "20":
             assert (
                 abs(
                     sim.getComponent(label, "activation")
-                    - wanted.reshape(sim.getElementParameter(label, "size"))
+                    - expected.reshape(sim.getElementParameter(label, "size"))
                 ).max()
                 < 1e-9
             )

@@ -19,7 +19,7 @@ SAMPLE = next(p for p in SAMPLES if "OneLayer" in p.stem)
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -32,17 +32,17 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     ],
 )
 def test_both_forms_write_the_file_and_show_the_report(
-    here: Path, arguments: list[str], capsys: pytest.CaptureFixture[str]
+    workspace: Path, arguments: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["export", *arguments]) == 0
-    shown = capsys.readouterr().out
-    assert "NeuralField" in shown and "0 dropped" in shown and "Written: a.json" in shown
+    printed = capsys.readouterr().out
+    assert "NeuralField" in printed and "0 dropped" in printed and "Written: a.json" in printed
     assert dd.load("a.json")["u"].element.tau == dd.load("example:selection")["u"].element.tau
     assert main(["export", *arguments]) == 1 and "exists already" in capsys.readouterr().err
     assert main(["export", *arguments, "--force"]) == 0
 
 
-def test_a_file_of_cosivina_is_the_same_after_import_and_export(here: Path) -> None:
+def test_a_file_of_cosivina_is_the_same_after_import_and_export(workspace: Path) -> None:
     assert main(["import", str(SAMPLE), "-o", "model.json"]) == 0
     assert main(["export", "model.json", "--to", "cosivina", "-o", "back.json"]) == 0
     one, two = (json.loads(Path(p).read_text())["simulator"] for p in (SAMPLE, "back.json"))
@@ -51,28 +51,28 @@ def test_a_file_of_cosivina_is_the_same_after_import_and_export(here: Path) -> N
     assert all(np.array_equal(before[name], after[name]) for name in before.data_vars)
 
 
-def test_without_out_the_name_is_that_of_the_model(here: Path) -> None:
+def test_without_out_the_name_is_that_of_the_model(workspace: Path) -> None:
     assert main(["export", "example:selection", "--to", "cosivina"]) == 0
-    assert [p.name for p in here.iterdir()] == ["selection-export-001.json"]
+    assert [p.name for p in workspace.iterdir()] == ["selection-export-001.json"]
 
 
 def test_strict_writes_nothing_where_something_is_lost(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["export", "cosivina", "example:working_memory", "-o", "a.json", "--strict"]) == 1
     assert "Nothing was written" in capsys.readouterr().out and not Path("a.json").exists()
     assert main(["export", "cosivina", "example:selection", "-o", "a.json", "--strict"]) == 0
 
 
-def test_json_holds_every_line_of_the_report(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_holds_every_line_of_the_report(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["export", "cosivina", "example:working_memory", "-o", "a.json", "--json"]) == 0
-    data = json.loads(capsys.readouterr().out)
-    assert data["out"] == "a.json" and data["tool"] == "cosivina" and data["counts"]["dropped"] == 1
-    assert {line["part"] for line in data["lines"]} == {"element", "parameter", "connection", "file"}
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["out"] == "a.json" and answer["tool"] == "cosivina" and answer["counts"]["dropped"] == 1
+    assert {line["part"] for line in answer["lines"]} == {"element", "parameter", "connection", "file"}
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (["example:selection", "u", "--to", "cosivina"], "writes a whole model, not u"),
         (["example:selection", "--to", "cosivina", "--trial", "1"], "--trial is about a record"),
@@ -81,35 +81,35 @@ def test_json_holds_every_line_of_the_report(here: Path, capsys: pytest.CaptureF
     ],
 )
 def test_options_that_do_not_fit_are_refused(
-    here: Path, arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+    workspace: Path, arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     files.save_record(record(), "run.zarr")
     with pytest.raises(SystemExit) as stop:
         main(["export", *arguments])
-    assert stop.value.code == 2 and said in capsys.readouterr().err
+    assert stop.value.code == 2 and message in capsys.readouterr().err
 
 
-def test_a_record_named_like_a_tool_is_a_record(here: Path) -> None:
+def test_a_record_named_like_a_tool_is_a_record(workspace: Path) -> None:
     files.save_record(record(), "run.nc")
     Path("run.nc").rename("cosivina")
     with pytest.raises(SystemExit):
         main(["export", "cosivina", "u", "--to", "cosivina"])
 
 
-def test_a_record_is_written_for_matlab(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_record_is_written_for_matlab(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     files.save_record(record(trials=2), "run.zarr")
     assert main(["export", "run.zarr", "u", "--out", "a.mat"]) == 0
     assert "Wrote u.activation to a.mat" in capsys.readouterr().out
     assert main(["export", "run.zarr", "u", "--to", "mat", "--trial", "1"]) == 0
-    wanted = record(trials=2)["u.activation"]
-    for name, part in (("a.mat", wanted), ("run-export-001.mat", wanted.sel(trial=1))):
+    expected = record(trials=2)["u.activation"]
+    for name, part in (("a.mat", expected), ("run-export-001.mat", expected.sel(trial=1))):
         assert np.array_equal(scipy.io.loadmat(name)["u_activation"].squeeze(), part.values)
 
 
 @pytest.mark.parametrize(
     ("arguments", "written"), [([], "run-export-001"), (["--out", "recording"], "recording")]
 )
-def test_a_record_is_written_as_cedar_writes_it(here: Path, arguments: list[str], written: str) -> None:
+def test_a_record_is_written_as_cedar_writes_it(workspace: Path, arguments: list[str], written: str) -> None:
     files.save_record(record(trials=2), "run.zarr")
     selected = ["u", "n.activation", "--trial", "1", "--time-range", "5", "15"]
     assert main(["export", "run.zarr", *selected, "--to", "cedar", *arguments]) == 0

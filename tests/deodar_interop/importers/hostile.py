@@ -42,19 +42,19 @@ def tried(
 
 def broken(source: str, rng: random.Random, count: int) -> Iterator[bytes | str]:
     """Yield files with errors: every fourth in its bytes, the others in their content."""
-    data = json.loads(source)
+    document = json.loads(source)
     for k in range(count):
         if k % 4 == 0:
             yield mutations.scrambled(source.encode(), rng)
         else:
-            yield json.dumps(mutations.mutated(data, rng, rng.randint(1, 12)))
+            yield json.dumps(mutations.mutated(document, rng, rng.randint(1, 12)))
 
 
 def run_without_problems(read: Callable[[str], Imported | None], source: str, seed: int, count: int) -> int:
     """Return how many of some mutations of a file have no problems and run."""
-    rng, data, ran = random.Random(seed), json.loads(source), 0
+    rng, document, ran = random.Random(seed), json.loads(source), 0
     for _ in range(count):
-        done = read(json.dumps(mutations.mutated(data, rng, 4)))
+        done = read(json.dumps(mutations.mutated(document, rng, 4)))
         if done is not None and not problems(done.model.document):
             try:
                 dd.simulate(done.model, done.model.document.step * 2, every=done.model.document.step * 2)

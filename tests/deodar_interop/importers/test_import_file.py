@@ -17,12 +17,12 @@ FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
 def test_a_document_is_written_and_the_report_shown(tmp_path, capsys):
     out = tmp_path / "model.json"
     assert main(["import", str(SAMPLE), "-o", str(out)]) == 0
-    shown = capsys.readouterr().out
+    printed = capsys.readouterr().out
     assert (
-        "field u" in shown
-        and "LateralInteractions1D" in shown
-        and "0 dropped" in shown
-        and "Written:" in shown
+        "field u" in printed
+        and "LateralInteractions1D" in printed
+        and "0 dropped" in printed
+        and "Written:" in printed
     )
     made, report = dd.load(out).document, dd.read(SAMPLE).report
     assert stored_report.without_report(made) == dd.load(SAMPLE).document
@@ -41,11 +41,11 @@ def test_import_without_out_writes_no_file(tmp_path, capsys, monkeypatch):
 
 def test_json_contains_every_line_of_the_report(capsys):
     assert main(["import", str(SAMPLE), "--json"]) == 0
-    data = json.loads(capsys.readouterr().out)
-    assert data["tool"] == "cosivina" and data["counts"]["dropped"] == 0 and not data["problems"]
-    assert {"where", "part", "what", "verdict", "why"} == set(data["lines"][0])
-    assert sum(data["counts"].values()) == len(data["lines"])
-    found = {line["where"]: line["element"] for line in data["lines"] if line["part"] == "element"}
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["tool"] == "cosivina" and answer["counts"]["dropped"] == 0 and not answer["problems"]
+    assert {"where", "part", "what", "verdict", "why"} == set(answer["lines"][0])
+    assert sum(answer["counts"].values()) == len(answer["lines"])
+    found = {line["where"]: line["element"] for line in answer["lines"] if line["part"] == "element"}
     assert found["field u"] == dd.load(SAMPLE)["field u"].id
 
 

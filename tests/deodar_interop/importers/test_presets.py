@@ -75,8 +75,8 @@ def test_linked_values_are_not_changed(tmp_path):
 
 def test_documents_of_deodar_are_presets_too(tmp_path):
     model = dd.load(written(tmp_path, parts()))
-    other = dd.load(written(tmp_path, parts(h=-3), name="b.json"))
-    dd.save(other, tmp_path / "own.json")
+    loaded = dd.load(written(tmp_path, parts(h=-3), name="b.json"))
+    dd.save(loaded, tmp_path / "own.json")
     assert apply_preset(model, tmp_path / "own.json").tool == "deodar" and model.get("u.resting_level") == -3
 
 
@@ -106,7 +106,7 @@ def one_field(**kernel):
 
 
 @pytest.mark.parametrize(
-    ("here", "there", "said"),
+    ("here", "there", "message"),
     [
         (None, "reflect", True),
         ("zero", "periodic", True),
@@ -114,13 +114,13 @@ def one_field(**kernel):
         ("zero", ["zero"], False),
     ],
 )
-def test_values_outside_the_range_are_unchanged_and_differences_are_listed(here, there, said):
+def test_values_outside_the_range_are_unchanged_and_differences_are_listed(here, there, message):
     model = one_field(amplitude=1.0, boundary=here)
     doc, lines = applied(model.document, one_field(amplitude=2.0, boundary=there).document)
     (u,) = doc.entries
     (kernel,) = u.element.kernel
     assert kernel.amplitude == 2.0 and kernel.boundary == model["u"].element.kernel[0].boundary
-    expected = [("kernel.0.boundary", "dropped")] if said else []
+    expected = [("kernel.0.boundary", "dropped")] if message else []
     assert sorted((line.what, line.verdict) for line in lines) == [
         ("kernel.0.amplitude", "carried"),
         *expected,

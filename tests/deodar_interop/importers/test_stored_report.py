@@ -43,16 +43,16 @@ def test_a_saved_document_contains_every_line_of_the_report(sample: Path, tmp_pa
     done = dd.read(sample)
     doc = stored_report.with_report(done.model.document, done.report)
     document_files.save(doc, tmp_path / "model.json")
-    found = stored_report.report_of(document_files.load(tmp_path / "model.json"))
-    assert found is not None
-    assert (found.tool, found.file, list(found.bugs)) == (
+    report = stored_report.report_of(document_files.load(tmp_path / "model.json"))
+    assert report is not None
+    assert (report.tool, report.file, list(report.bugs)) == (
         done.report.tool,
         sample.name,
         list(done.report.bugs),
     )
     before = stored_report.located(done.report, done.model.document)
-    assert sorted(found.lines, key=repr) == sorted(before.lines, key=repr)
-    assert found.summary() == done.report.summary()
+    assert sorted(report.lines, key=repr) == sorted(before.lines, key=repr)
+    assert report.summary() == done.report.summary()
 
 
 @pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.name)
@@ -65,10 +65,10 @@ def test_every_element_line_has_the_id_of_its_element(sample: Path) -> None:
 
 
 def test_names_and_reasons_of_any_text_are_kept() -> None:
-    found = stored_report.report_of(stored_report.with_report(document(), REPORT))
-    assert found is not None
+    report = stored_report.report_of(stored_report.with_report(document(), REPORT))
+    assert report is not None
     ident = document().entries[0].id
-    assert [(line.where, line.element, line.what, line.why) for line in found.lines] == [
+    assert [(line.where, line.element, line.what, line.why) for line in report.lines] == [
         ("", "", "step", "20 ms"),
         ("a", ident, "Field of two  words", "Field"),
         ("a", ident, "tau: 5, why", ""),
@@ -81,8 +81,8 @@ def test_names_and_reasons_of_any_text_are_kept() -> None:
 def test_a_renamed_element_keeps_its_lines() -> None:
     doc = stored_report.with_report(document(), REPORT)
     [entry] = doc.entries
-    found = stored_report.report_of(building.rename(doc, entry.id, "b"))
-    assert found is not None and found.lines[1].element == entry.id
+    report = stored_report.report_of(building.rename(doc, entry.id, "b"))
+    assert report is not None and report.lines[1].element == entry.id
 
 
 def grouped() -> Document:
@@ -98,10 +98,10 @@ def test_a_line_of_a_group_has_its_names_and_the_id_of_its_first_element() -> No
     u, v = doc.by_names()["g", "h", "u"].id, doc.by_names()["g", "v"].id
     labels = ("g", "g.h", "g.v", "empty", "g.w", "")
     lines = [Line(label, "connection", "x", "dropped") for label in labels]
-    kept = stored_report.with_report(doc, ImportReport("cedar", "memory.json", lines))
-    found = stored_report.report_of(kept)
-    assert found is not None
-    assert [(line.where, line.element, line.group) for line in found.lines] == [
+    annotated = stored_report.with_report(doc, ImportReport("cedar", "memory.json", lines))
+    report = stored_report.report_of(annotated)
+    assert report is not None
+    assert [(line.where, line.element, line.group) for line in report.lines] == [
         ("g", u, ("g",)),
         ("g.h", u, ("g", "h")),
         ("g.v", v, ()),
@@ -109,7 +109,7 @@ def test_a_line_of_a_group_has_its_names_and_the_id_of_its_first_element() -> No
         ("g.w", "", ()),
         ("", "", ()),
     ]
-    data = [line.data() for line in found.lines]
+    data = [line.data() for line in report.lines]
     assert [line.get("group") for line in data] == [["g"], ["g", "h"], None, ["empty"], None, None]
     assert [line.get("element") for line in data] == [u, u, v, None, None, None]
 
@@ -137,9 +137,9 @@ def test_a_group_of_cedar_with_a_broken_connection_has_its_line() -> None:
 
 def test_the_report_leaves_the_rest_of_the_layout_as_it_is() -> None:
     doc = edit.arrange(document(), {"boxes": {"a": {"x": 1, "y": 2}}})
-    kept = stored_report.with_report(doc, REPORT)
-    assert {key: value for key, value in kept.layout.items() if key != stored_report.KEY} == doc.layout
-    assert stored_report.without_report(kept) == doc
+    annotated = stored_report.with_report(doc, REPORT)
+    assert {key: value for key, value in annotated.layout.items() if key != stored_report.KEY} == doc.layout
+    assert stored_report.without_report(annotated) == doc
     assert stored_report.without_report(doc) is doc
 
 

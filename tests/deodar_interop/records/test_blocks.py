@@ -34,25 +34,25 @@ def test_slabs_cover_an_array_in_its_order(shape: tuple[int, ...], most: int) ->
 def test_a_large_record_is_the_same_netcdf_file_in_blocks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    data = record(trials=2, sweep={"s.amplitude": [4.0, 8.0]})
-    files.save_record(data, tmp_path / "run.zarr")
-    data = dd.load_record(tmp_path / "run.zarr")
-    files.save_record(data, tmp_path / "whole.nc")
+    recording = record(trials=2, sweep={"s.amplitude": [4.0, 8.0]})
+    files.save_record(recording, tmp_path / "run.zarr")
+    recording = dd.load_record(tmp_path / "run.zarr")
+    files.save_record(recording, tmp_path / "whole.nc")
     monkeypatch.setattr(portable, "LARGE", 0)
     monkeypatch.setattr(portable, "BLOCK", 7)
     monkeypatch.setattr(files.netcdf, "BLOCK", 5)
-    files.save_record(data, tmp_path / "blocks.nc")
+    files.save_record(recording, tmp_path / "blocks.nc")
     assert (tmp_path / "blocks.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
     files.save_record(dd.open_record(tmp_path / "run.zarr"), tmp_path / "opened.nc")
-    assert files.load_record(tmp_path / "opened.nc").identical(data)
+    assert files.load_record(tmp_path / "opened.nc").identical(recording)
 
 
 def test_a_large_record_is_the_same_zarr_record_in_blocks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("deodar.recording.growing.LONGEST_CHUNK", 2)
-    data = record(trials=2, sweep={"s.amplitude": [4.0, 8.0]})
-    files.save_record(data, tmp_path / "whole.zarr")
+    recording = record(trials=2, sweep={"s.amplitude": [4.0, 8.0]})
+    files.save_record(recording, tmp_path / "whole.zarr")
     monkeypatch.setattr(portable, "LARGE", 0)
     monkeypatch.setattr(portable, "BLOCK", 7)
     sizes, select = list[int](), LazyArray._selected
@@ -67,20 +67,20 @@ def test_a_large_record_is_the_same_zarr_record_in_blocks(
         watched.setattr(LazyArray, "_selected", noted)
         files.save_record(opened, tmp_path / "blocks.zarr")
     assert 0 < max(sizes) <= 7
-    assert files.load_record(tmp_path / "blocks.zarr").identical(data)
+    assert files.load_record(tmp_path / "blocks.zarr").identical(recording)
     with xarray.open_zarr(tmp_path / "blocks.zarr", chunks=None) as plain:
-        assert plain["u.activation"].values.tobytes() == data["u.activation"].values.tobytes()
+        assert plain["u.activation"].values.tobytes() == recording["u.activation"].values.tobytes()
 
 
 def test_other_programs_read_the_netcdf_file(tmp_path: Path) -> None:
-    data = record(trials=2).assign_coords(late=("trial", [0.5, 1.5], {"units": "ms"}))
-    files.save_record(data, tmp_path / "run.nc")
-    with scipy.io.netcdf_file(tmp_path / "run.nc", mmap=False) as found:
-        u = found.variables["u.activation"]
+    recording = record(trials=2).assign_coords(late=("trial", [0.5, 1.5], {"units": "ms"}))
+    files.save_record(recording, tmp_path / "run.nc")
+    with scipy.io.netcdf_file(tmp_path / "run.nc", mmap=False) as arrays:
+        u = arrays.variables["u.activation"]
         assert u.dimensions == ("trial", "time", "x") and u.data.dtype == ">f4"
-        assert np.array_equal(u.data, data["u.activation"].values)
-        assert u.long_name == b"activation of u" and found.variables["x"].units == b"deg"
-        assert found.variables["x"].lower == 0.0 and found.variables["x"].periodic == 0
+        assert np.array_equal(u.data, recording["u.activation"].values)
+        assert u.long_name == b"activation of u" and arrays.variables["x"].units == b"deg"
+        assert arrays.variables["x"].lower == 0.0 and arrays.variables["x"].periodic == 0
     with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as decoded:
         assert "late" in decoded.coords and decoded["late"].attrs["units"] == "ms"
 
@@ -112,49 +112,49 @@ def test_the_files_of_cedar_hold_a_time_and_a_matrix_in_each_row(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cedar, "BLOCK", 25)
-    data = record()
-    cedar.save(data, tmp_path / "recording")
-    odd = next(str(name) for name in data.data_vars if "odd" in str(name))
+    recording = record()
+    cedar.save(recording, tmp_path / "recording")
+    odd = next(str(name) for name in recording.data_vars if "odd" in str(name))
     for name, file, shape in (
         ("n.activation", "n.activation.csv", (1, 1)),
         ("u.activation", "u.activation.csv", (11, 1)),
         (odd, "_odd_name_._u_-_u_π_.output.csv", (11, 6)),
     ):
-        found = read(tmp_path / "recording" / file)
-        assert found[0] == shape and np.allclose(found[1], data["time"].values / 1000, rtol=1e-12)
-        assert np.array_equal(found[2].reshape(data[name].shape), data[name].values)
+        reading = read(tmp_path / "recording" / file)
+        assert reading[0] == shape and np.allclose(reading[1], recording["time"].values / 1000, rtol=1e-12)
+        assert np.array_equal(reading[2].reshape(recording[name].shape), recording[name].values)
     assert len(list((tmp_path / "recording").iterdir())) == 3
     with pytest.raises(OutputExists):
-        cedar.save(data, tmp_path / "recording")
+        cedar.save(recording, tmp_path / "recording")
 
 
 def test_the_files_of_cedar_have_a_folder_for_each_trial_and_point(tmp_path: Path) -> None:
-    data = record(trials=[3, 5], sweep={"s.amplitude": [4.0, 8.0]})[["n.activation"]]
-    cedar.save(data, tmp_path / "all")
+    recording = record(trials=[3, 5], sweep={"s.amplitude": [4.0, 8.0]})[["n.activation"]]
+    cedar.save(recording, tmp_path / "all")
     for amplitude, trial in itertools.product((4, 8), (3, 5)):
         place = tmp_path / "all" / f"s.amplitude={amplitude}" / f"Trial_{trial}" / "n.activation.csv"
-        one = data["n.activation"].sel({"s.amplitude": amplitude, "trial": trial})
+        one = recording["n.activation"].sel({"s.amplitude": amplitude, "trial": trial})
         assert np.array_equal(read(place)[2].ravel(), one.values)
 
 
 def test_cedar_needs_times_in_seconds(tmp_path: Path) -> None:
-    data = record()[["n.activation"]]
+    recording = record()[["n.activation"]]
     with pytest.raises(RecordError, match=r"n\.activation: has no times"):
-        cedar.save(data.isel(time=0), tmp_path / "none")
-    data["time"].attrs["units"] = "abstract"
+        cedar.save(recording.isel(time=0), tmp_path / "none")
+    recording["time"].attrs["units"] = "abstract"
     with pytest.raises(RecordError, match="abstract times"):
-        cedar.save(data, tmp_path / "none")
-    data["time"].attrs["units"] = "1 = 64 ms"
-    cedar.save(data.astype(np.float64), tmp_path / "double")
+        cedar.save(recording, tmp_path / "none")
+    recording["time"].attrs["units"] = "1 = 64 ms"
+    cedar.save(recording.astype(np.float64), tmp_path / "double")
     lines = (tmp_path / "double" / "n.activation.csv").read_text().splitlines()
     assert lines[0] == "Mat,CV_64F,1,1" and lines[2].startswith("0.32 s,")
     assert not (tmp_path / "none").exists()
 
 
 def test_an_opened_record_has_the_order_and_the_coordinates_of_a_loaded_one(tmp_path: Path) -> None:
-    data = record(trials=2).assign_coords({"too late (π)": ("trial", [0.5, 1.5])})
+    recording = record(trials=2).assign_coords({"too late (π)": ("trial", [0.5, 1.5])})
     for name in ("run.zarr", "run.nc"):
-        files.save_record(data, tmp_path / name)
+        files.save_record(recording, tmp_path / name)
         opened = dd.open_record(tmp_path / name)
-        assert list(opened.data_vars) == list(data.data_vars) and opened.identical(data)
-        assert set(opened.coords) == set(data.coords)
+        assert list(opened.data_vars) == list(recording.data_vars) and opened.identical(recording)
+        assert set(opened.coords) == set(recording.coords)

@@ -15,13 +15,13 @@ def test_a_folder_of_cedar_opens_with_times_in_ms_and_the_first_index_fastest(tm
     (tmp_path / "node_output.csv").write_text("Mat,CV_32F,1,1\n0.02 s,0.5\n0.04 s,0.25\n")
     (tmp_path / "Trial_1").mkdir()
     (tmp_path / "Trial_1" / "v.csv").write_text("Mat,CV_32F,3,1\n1e-1 s,1,2,3\n")
-    data = dd.load_cedar(tmp_path)
-    assert list(data.data_vars) == ["Trial_1/v", "node_output", "u_activation"]
-    assert data["u_activation"].values[0].tolist() == [[1, 3, 5], [2, 4, 6]]
-    assert data["u_activation"].sizes["x of u_activation"] == 2
-    assert data["node_output"].dims == data["u_activation"].dims[:1]
-    assert data["node_output"][data["node_output"].dims[0]].values.tolist() == [20, 40]
-    assert data["Trial_1/v"][data["Trial_1/v"].dims[0]].values.tolist() == [100]
+    record = dd.load_cedar(tmp_path)
+    assert list(record.data_vars) == ["Trial_1/v", "node_output", "u_activation"]
+    assert record["u_activation"].values[0].tolist() == [[1, 3, 5], [2, 4, 6]]
+    assert record["u_activation"].sizes["x of u_activation"] == 2
+    assert record["node_output"].dims == record["u_activation"].dims[:1]
+    assert record["node_output"][record["node_output"].dims[0]].values.tolist() == [20, 40]
+    assert record["Trial_1/v"][record["Trial_1/v"].dims[0]].values.tolist() == [100]
 
 
 def test_what_deodar_writes_for_cedar_is_read_again(tmp_path):
@@ -30,13 +30,13 @@ def test_what_deodar_writes_for_cedar_is_read_again(tmp_path):
     model.add(dd.GaussianStimulus("s", [x, y], center=[1, 2], sigma=1, amplitude=5)) >> model.add(
         dd.Field("u", [x, y], tau=50, noise=0.1)
     )
-    data = dd.simulate(model, 40, dt=10, record=["u.activation"], every=10, seed=3)
-    cedar.save(data, tmp_path / "out")
-    again = dd.load_cedar(tmp_path / "out")
+    recording = dd.simulate(model, 40, dt=10, record=["u.activation"], every=10, seed=3)
+    cedar.save(recording, tmp_path / "out")
+    record = dd.load_cedar(tmp_path / "out")
     np.testing.assert_array_equal(
-        again["u.activation"].values.astype(np.float32), data["u.activation"].values
+        record["u.activation"].values.astype(np.float32), recording["u.activation"].values
     )
-    np.testing.assert_allclose(again["time"].values, data["time"].values)
+    np.testing.assert_allclose(record["time"].values, recording["time"].values)
 
 
 def test_a_recording_that_was_cut_off_keeps_its_whole_lines(tmp_path):

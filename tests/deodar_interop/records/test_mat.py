@@ -17,25 +17,25 @@ LONG = "a very long name " * 6
 
 
 def test_a_record_is_written_with_its_coordinates_and_a_table_of_contents(tmp_path: Path) -> None:
-    data = record(trials=2)
-    mat.save(data, tmp_path / "a.mat")
-    found = scipy.io.loadmat(tmp_path / "a.mat", simplify_cells=True)
-    rows = {path: (name, list(np.atleast_1d(dims))) for name, path, dims, _ in found["contents"]}
-    for path, variable in data.variables.items():
+    recording = record(trials=2)
+    mat.save(recording, tmp_path / "a.mat")
+    arrays = scipy.io.loadmat(tmp_path / "a.mat", simplify_cells=True)
+    rows = {path: (name, list(np.atleast_1d(dims))) for name, path, dims, _ in arrays["contents"]}
+    for path, variable in recording.variables.items():
         name, dims = rows[str(path)]
         assert dims == list(variable.dims)
         if variable.dtype.kind in "biuf":
-            assert np.array_equal(np.squeeze(found[name]), np.squeeze(variable.values))
-    units = {path: unit for _, path, _, unit in found["contents"]}
-    assert units["time"] == data["time"].attrs["units"]
+            assert np.array_equal(np.squeeze(arrays[name]), np.squeeze(variable.values))
+    units = {path: unit for _, path, _, unit in arrays["contents"]}
+    assert units["time"] == recording["time"].attrs["units"]
 
 
 def test_names_that_matlab_does_not_allow_are_replaced_and_stay_different(tmp_path: Path) -> None:
     first, second = (record()["u.activation"].rename(name) for name in (f"{LONG}1", f"{LONG}2"))
     data = first.to_dataset().merge(second.to_dataset()).rename({f"{LONG}1": "1 u -> u"})
     mat.save(data, tmp_path / "a.mat")
-    found = scipy.io.loadmat(tmp_path / "a.mat")
-    names = [str(row[0][0]) for row in found["contents"]]
+    arrays = scipy.io.loadmat(tmp_path / "a.mat")
+    names = [str(row[0][0]) for row in arrays["contents"]]
     assert len(set(names)) == len(names) and all(name.isidentifier() and len(name) <= 63 for name in names)
     assert {"v_1_u____u"} <= set(names)
 
@@ -67,8 +67,8 @@ def test_weights_of_a_file_are_those_of_the_model(tmp_path: Path) -> None:
     m = dd.Model("m")
     p = m.add(dd.Pattern("p", [x], dd.load_mat(tmp_path / "a.mat", "pattern")))
     p >> m.add(dd.Weights(dd.load_mat(tmp_path / "a.mat", "weights").T, [y], name="w"))
-    found = dd.simulate(m, 1, every=1, record=["w.output"], precision="float64")["w.output"].values[0]
-    assert np.allclose(found, pattern @ matrix, rtol=0, atol=1e-12)
+    values = dd.simulate(m, 1, every=1, record=["w.output"], precision="float64")["w.output"].values[0]
+    assert np.allclose(values, pattern @ matrix, rtol=0, atol=1e-12)
 
 
 def test_an_array_that_is_not_there_is_an_error_with_the_names_that_are(tmp_path: Path) -> None:

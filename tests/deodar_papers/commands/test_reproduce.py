@@ -67,10 +67,10 @@ def test_reproduce_runs_a_paper_and_prints_its_claims(toy, capsys, tmp_path):
         "table.md",
         "nothing.png",
     }
-    found = json.loads((tmp_path / "toy-001" / "results.json").read_text())
+    report = json.loads((tmp_path / "toy-001" / "results.json").read_text())
     assert (
-        found["settings"] == {"paper": "toy", "quick": False, "runs": 6, "of": 6}
-        and found["claims"][0]["holds"] is True
+        report["settings"] == {"paper": "toy", "quick": False, "runs": 6, "of": 6}
+        and report["claims"][0]["holds"] is True
     )
     call()
     assert (tmp_path / "toy-002").is_dir()
@@ -86,8 +86,8 @@ def test_after_a_stop_the_same_call_resumes_with_the_same_rows(toy, capsys, tmp_
     call("--out", "whole")
     toy.stops = 4
     assert call("--out", "part") == 1
-    told = capsys.readouterr().err
-    assert "4 runs are kept. Resume with: deodar reproduce toy --out part" in told
+    message = capsys.readouterr().err
+    assert "4 runs are kept. Resume with: deodar reproduce toy --out part" in message
     assert not (tmp_path / "part" / "results.json").exists()
     toy.stops, toy.ran = None, []
     assert call("--out", "part") == 0 and toy.ran == [4, 5]
@@ -105,8 +105,8 @@ def test_a_progress_bar_shows_the_number_of_runs(toy, capsys, monkeypatch):
     monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
     assert cli.main(["reproduce", "toy", "--out", "here"]) == 0
-    shown = capsys.readouterr().err
-    assert "of 6 runs" in shown and "left" in shown
+    message = capsys.readouterr().err
+    assert "of 6 runs" in message and "left" in message
 
 
 def test_a_quick_folder_is_not_resumed_by_the_whole_reproduction(toy, capsys):
@@ -160,12 +160,12 @@ def test_a_report_on_a_full_disk_is_written_to_the_user_data_folder(toy, monkeyp
     monkeypatch.setattr(output, "sync", refuse)
     monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: data)
     assert call() == 1
-    told = capsys.readouterr()
+    printed = capsys.readouterr()
     (second,) = (data / "results").iterdir()
     assert {p.name for p in second.iterdir()} == {"runs.jsonl", "results.json", "table.md", "nothing.png"}
     assert (second / "runs.jsonl").read_bytes() == (full / "runs.jsonl").read_bytes()
-    assert str(second.relative_to(tmp_path)) in told.out
-    assert "No space left on device" in told.err and "deodar reproduce toy --out toy-001" in told.err
+    assert str(second.relative_to(tmp_path)) in printed.out
+    assert "No space left on device" in printed.err and "deodar reproduce toy --out toy-001" in printed.err
     monkeypatch.setattr(output, "sync", sync)
     toy.ran = []
     assert call("--out", "toy-001") == 0 and toy.ran == [] and (full / "results.json").is_file()
@@ -182,11 +182,11 @@ def test_a_full_disk_ends_the_reproduction_and_earlier_runs_are_kept(toy, monkey
 
     monkeypatch.setattr("deodar.model.output.os.fsync", full)
     assert call("--out", "part") == 1
-    told = capsys.readouterr().err
+    message = capsys.readouterr().err
     assert (
-        "No space left on device" in told
-        and "3 runs are kept" in told
-        and "Resume with: deodar reproduce toy --out part" in told
+        "No space left on device" in message
+        and "3 runs are kept" in message
+        and "Resume with: deodar reproduce toy --out part" in message
     )
     room.extend([None] * 99)
     toy.ran = []

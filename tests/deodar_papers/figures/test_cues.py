@@ -61,13 +61,17 @@ def test_every_cell_of_the_colour_space_is_centred_on_its_sample(drawn: Figure) 
 def test_the_spatial_peak_is_a_dotted_line_for_each_motor_variable(drawn: Figure) -> None:
     for row, peaks in ((1, [PEAK]), (2, [])):
         lines = panels(drawn)[row, 3].get_lines()
-        dotted = [(float(one.get_ydata()[0]), one.get_color()) for one in lines if one.get_linestyle() == ":"]
+        dotted = [
+            (float(line.get_ydata()[0]), line.get_color()) for line in lines if line.get_linestyle() == ":"
+        ]
         assert dotted == [(value, color) for p in peaks for value, color in zip(p, COLORS, strict=False)]
-        thickness = {one.get_linestyle(): one.get_linewidth() for one in lines if one.get_linestyle() in "-:"}
+        thickness = {
+            line.get_linestyle(): line.get_linewidth() for line in lines if line.get_linestyle() in "-:"
+        }
         assert thickness.get(":", 0.0) < thickness["-"], "a reference line is thinner than a curve"
-        ends = {str(one.get_label()): float(one.get_ydata()[-1]) for one in lines}
+        ends = {str(line.get_label()): float(line.get_ydata()[-1]) for line in lines}
         assert ends["pan (x)"] == 31.0 and ends["tilt (y)"] == 52.0
-        assert [one for one in lines if list(one.get_xdata()) == [CUE_AT / 1000] * 2]
+        assert [line for line in lines if list(line.get_xdata()) == [CUE_AT / 1000] * 2]
 
 
 def test_the_selected_place_is_a_circle_in_the_picture(drawn: Figure) -> None:

@@ -46,8 +46,8 @@ def test_onsets_are_upward_crossings() -> None:
 
 
 def test_a_summary_counts_a_missing_gaze_as_a_miss() -> None:
-    found = gazes.summary(np.array([1.0, np.nan, 11.0, 30.0]))
-    assert found == {"tests": 4, "near": 2, "close": 1, "no gaze": 1, "median": 20.5}
+    summary = gazes.summary(np.array([1.0, np.nan, 11.0, 30.0]))
+    assert summary == {"tests": 4, "near": 2, "close": 1, "no gaze": 1, "median": 20.5}
 
 
 def test_the_design_has_other_seeds_than_tuning() -> None:
@@ -115,11 +115,11 @@ def test_rows_of_a_run_have_the_keys_of_their_job(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(trials, "TESTS", 6)
     monkeypatch.setattr(gazes, "SLICE", 2000)
     [job] = trials.jobs(True)
-    found = job.run()
-    assert tuple(row["key"] for row in found) == job.keys
-    json.dumps(found)
-    assert len(found[0]["errors"]) == 6 and np.shape(found[-1]["map"]["pan"]) == (25, 32)
-    assert np.shape(found[-1]["course"]["end"]) == (400, 6)
+    record = job.run()
+    assert tuple(row["key"] for row in record) == job.keys
+    json.dumps(record)
+    assert len(record[0]["errors"]) == 6 and np.shape(record[-1]["map"]["pan"]) == (25, 32)
+    assert np.shape(record[-1]["course"]["end"]) == (400, 6)
 
 
 def test_the_demonstration_writes_a_figure_and_a_model_that_runs(

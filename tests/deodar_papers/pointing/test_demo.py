@@ -28,9 +28,9 @@ def test_an_object_that_is_not_there_and_words_that_are_no_cue(
     monkeypatch.chdir(tmp_path)
     remaining = [d for d in narrative.discs() if d.name != "red 2"]
     monkeypatch.setattr(narrative, "discs", lambda: remaining)
-    result = narrative.run([("red", "right")])
-    claim = narrative.claims(result)[-1]
+    record = narrative.run([("red", "right")])
+    claim = narrative.claims(record)[-1]
     assert claim.name == "red right: no such object, no peak" and claim.holds
-    assert narrative.sentence(result) == "red right: no peak."
+    assert narrative.sentence(record) == "red right: no peak."
     wrong = typed("demo pointing --ask 'purple left'")
     assert wrong.status != 0 and "--ask 'green left'" in wrong.words

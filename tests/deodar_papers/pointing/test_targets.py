@@ -65,13 +65,13 @@ def rows() -> dict[str, dict[str, Any]]:
     return out
 
 
-def failing(found: dict[str, dict[str, Any]]) -> list[str]:
-    return [c.name for c in claims(found, False) if c.kind == "required" and c.holds is False]
+def failing(by_key: dict[str, dict[str, Any]]) -> list[str]:
+    return [c.name for c in claims(by_key, False) if c.kind == "required" and c.holds is False]
 
 
 def test_rows_without_fault_hold_and_no_rows_decide_nothing():
-    found = [c for c in claims(rows(), False) if c.kind == "required"]
-    assert found and all(c.holds for c in found) and all(c.interval for c in found)
+    by_key = [c for c in claims(rows(), False) if c.kind == "required"]
+    assert by_key and all(c.holds for c in by_key) and all(c.interval for c in by_key)
     assert all(c.holds is None and c.value is None for c in claims({}, False))
 
 
@@ -103,10 +103,10 @@ FAULTS = [
 
 @pytest.mark.parametrize(("key", "fault", "count", "name"), FAULTS)
 def test_a_fault_in_a_few_rows_fails_its_claim(key: str, fault: dict[str, Any], count: int, name: str):
-    found = rows()
+    by_key = rows()
     for k in range(count):
-        found[key.format(k)] |= fault
-    assert [c for c in failing(found) if c.startswith(name)]
+        by_key[key.format(k)] |= fault
+    assert [c for c in failing(by_key) if c.startswith(name)]
 
 
 @pytest.mark.parametrize("name", [name for name in EVENTS if name != "movement"])
@@ -120,9 +120,9 @@ def test_an_event_that_is_missing_or_out_of_order_is_noticed(name: str):
 
 
 def test_the_table_of_changed_parameters_begins_with_the_largest_effect():
-    found = rows()
-    found["cue.tau +20 %/0 red left"] |= {"ordered": False}
-    lines = targets.sensitivity_table(found).splitlines()
+    by_key = rows()
+    by_key["cue.tau +20 %/0 red left"] |= {"ordered": False}
+    lines = targets.sensitivity_table(by_key).splitlines()
     assert lines[2] == "| `cue.tau` | 1 of 1 | 1 of 1 | 1 of 1 | 0 of 1 |"
     assert len(lines) == 2 + len(changes()) / 2
     assert targets.sensitivity_table({}) == targets.NOT_RUN

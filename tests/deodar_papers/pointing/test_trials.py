@@ -29,10 +29,10 @@ def test_the_design_has_the_printed_counts_and_other_seeds_than_tuning():
 
 
 def test_a_scene_is_silent_or_selects_and_reaches_in_order():
-    found = trials.whole_scene("scene", 0, TUNING + 1)
-    assert [r["key"] for r in found[:2]] == ["scene/0 camera", "scene/0 red"]
-    assert all(r["peaks"] == 0 for r in found[:5])
-    pairs = {r["key"].partition(" ")[2]: r for r in found[5:]}
+    rows = trials.whole_scene("scene", 0, TUNING + 1)
+    assert [r["key"] for r in rows[:2]] == ["scene/0 camera", "scene/0 red"]
+    assert all(r["peaks"] == 0 for r in rows[:5])
+    pairs = {r["key"].partition(" ")[2]: r for r in rows[5:]}
     assert set(pairs) == {"red left", "red right", "green left", "green right"}
     matched = [r for r in pairs.values() if r["matches"] == 1]
     assert len(matched) >= 2 and all(targets.cycled(r) and targets.inside(r) for r in matched)
@@ -72,7 +72,7 @@ def test_every_live_parameter_is_changed_in_both_directions():
 
 def test_a_photograph_has_a_peak_inside_the_object_for_its_colour_and_side_alone():
     assert [scene.name for scene, _, _ in photographs.chosen()] == ["coffee", "astronaut", "fig"]
-    found = photographs.watch("coffee", "right", 5)
-    assert [r["match"] for r in found] == [False, True, False, False]
-    assert [r["inside"] for r in found] == [False, True, False, False]
-    assert all((r["highest"] > 0) == r["match"] for r in found)
+    pairs = photographs.watch("coffee", "right", 5)
+    assert [r["match"] for r in pairs] == [False, True, False, False]
+    assert [r["inside"] for r in pairs] == [False, True, False, False]
+    assert all((r["highest"] > 0) == r["match"] for r in pairs)

@@ -39,24 +39,24 @@ def test_claims_hold_for_another_seed_and_fail_for_a_wrong_mark() -> None:
     chelsea = next(s for s in photographs() if s.name == "chelsea")
     wrong = Cue(5.0, "red", "present", "the eye", (((0, 0), (100, 0), (100, 100), (0, 100)),))
     scene = scenes.CueScene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
-    result = run_scene(scene, seed=11)
-    marks = [c.holds for c in targets.claims(result)]
+    searched = run_scene(scene, seed=11)
+    marks = [c.holds for c in targets.claims(searched)]
     assert marks == [True, True, True, True, True, False, True, False, False]
-    assert "1 of 2 cued colours" in sentence([result])
+    assert "1 of 2 cued colours" in sentence([searched])
 
 
 def test_a_photograph_of_the_user_is_searched(tmp_path: Path) -> None:
     scene = np.full((60, 90, 3), 120, np.uint8)
     scene[20:40, 60:80] = [20, 30, 230]
     Image.fromarray(scene).save(tmp_path / "mine.png")
-    result = run_scene(own(tmp_path / "mine.png", [240.0, 0.0]))
-    blue, red = result.outcomes
+    searched = run_scene(own(tmp_path / "mine.png", [240.0, 0.0]))
+    blue, red = searched.outcomes
     assert len(blue.places) == 1 and 60 <= blue.places[0][0] <= 80 and 20 <= blue.places[0][1] <= 40
     assert not red.places and abs(blue.motor[0] - blue.places[0][0]) < 3
     (peak,), x_and_y = blue.spatial, scene_axes()[:2]
-    assert result.scene.picture.to_pixels(x_and_y, *peak) == pytest.approx(blue.places[0], abs=3)
+    assert searched.scene.picture.to_pixels(x_and_y, *peak) == pytest.approx(blue.places[0], abs=3)
     assert not red.spatial
-    assert all(c.holds is None for c in targets.claims(result)[1:])
+    assert all(c.holds is None for c in targets.claims(searched)[1:])
 
 
 @pytest.mark.parametrize("way", ["film", "camera"])

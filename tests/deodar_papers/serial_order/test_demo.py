@@ -26,7 +26,7 @@ SEARCH = 2000.0
 """Duration of each search of the made trials, ms."""
 
 
-def made(taught: str, recalled: str, found: str, blocks: str = "RGBYV") -> narrative.SearchRun:
+def made(taught: str, recalled: str, satisfying: str, blocks: str = "RGBYV") -> narrative.SearchRun:
     """Return the events of a trial without noise: one node after another is active for `SEARCH`, has the
     recalled colours in the action field, and is switched off by a block of the colours in `found`.
     """
@@ -41,7 +41,7 @@ def made(taught: str, recalled: str, found: str, blocks: str = "RGBYV") -> narra
     v["strongest peak.output"], v["touching.output"] = np.zeros(count), np.zeros(count)
     v[narrative.PROJECTION], v[narrative.POSE] = np.zeros((count, 80)), np.zeros((count, 3))
     v[narrative.MEANINGS] = np.zeros((count, 180))
-    for k, (remembered, got) in enumerate(zip(recalled, found, strict=False), 1):
+    for k, (remembered, got) in enumerate(zip(recalled, satisfying, strict=False), 1):
         on, off = BEGINS + SEARCH * (k - 1) + 500.0, BEGINS + SEARCH * k
         active = (times >= on) & (times < off)
         v[f"item {k}.node.activation"][active] = 5.0
@@ -51,9 +51,9 @@ def made(taught: str, recalled: str, found: str, blocks: str = "RGBYV") -> narra
         satisfied = (times >= off - COARSE) & (times < off + 60.0)
         v["strongest satisfaction.output"][satisfied] = 1.0
         v["hue of satisfaction.output"][satisfied] = hue_of(got)
-    rest = times >= BEGINS + SEARCH * len(found) + 100.0
-    v[f"item {len(found) + 1}.node.activation"][rest] = 5.0
-    for remembered in recalled[len(found) :][:1]:
+    rest = times >= BEGINS + SEARCH * len(satisfying) + 100.0
+    v[f"item {len(satisfying) + 1}.node.activation"][rest] = 5.0
+    for remembered in recalled[len(satisfying) :][:1]:
         v["hue of action.output"][rest] = hue_of(remembered)
     return narrative.read(TaughtRun(taught, lesson, end, arena), Trial(times, v, {}, "over"), BEGINS)
 
@@ -69,28 +69,29 @@ def test_claims_and_times_follow_from_the_trial() -> None:
 
 
 @pytest.mark.parametrize(
-    ("recalled", "found", "false"), [("RYB", "RGB", 0), ("RGB", "RBG", 1), ("RGB", "RG", 1), ("RG", "", 1)]
+    ("recalled", "satisfying", "false"),
+    [("RYB", "RGB", 0), ("RGB", "RBG", 1), ("RGB", "RG", 1), ("RG", "", 1)],
 )
 def test_another_order_or_an_unfinished_sequence_fails_a_required_claim(
-    recalled: str, found: str, false: int
+    recalled: str, satisfying: str, false: int
 ) -> None:
-    run = made("RGB", recalled, found)
+    run = made("RGB", recalled, satisfying)
     claim = narrative.claims(run)[false]
     assert claim.kind == "required" and claim.holds is False
-    if len(found) < 3:
-        assert f"{3 - len(found)} not found in" in narrative.sentence(run)
+    if len(satisfying) < 3:
+        assert f"{3 - len(satisfying)} not found in" in narrative.sentence(run)
 
 
 @pytest.mark.parametrize(
-    ("recalled", "found", "blocks", "why"),
+    ("recalled", "satisfying", "blocks", "why"),
     [
         ("RGB", "RG", "RGB", "1 not found in 7.0 s: still looking for B (item 3 of 3)."),
         ("R", "R", "RGB", "2 not found in 7.0 s: item 2 of 3 has learned no colour."),
         ("RGB", "RG", "RG", "still looking for B (item 3 of 3), of which the arena has no block."),
     ],
 )
-def test_a_run_that_ends_early_says_why(recalled: str, found: str, blocks: str, why: str) -> None:
-    assert narrative.sentence(made("RGB", recalled, found, blocks)).endswith(why)
+def test_a_run_that_ends_early_says_why(recalled: str, satisfying: str, blocks: str, why: str) -> None:
+    assert narrative.sentence(made("RGB", recalled, satisfying, blocks)).endswith(why)
 
 
 @pytest.mark.parametrize(
@@ -106,26 +107,26 @@ def test_a_wrong_sequence_is_refused_before_the_run(
 ) -> None:
     out = tmp_path / "out"
     assert main(["demo", "serial-order", "--sequence", sequence, "--out", str(out), "--no-progress"]) == 1
-    said = capsys.readouterr().err
-    assert "--sequence: " in said and what in said and fix in said
+    message = capsys.readouterr().err
+    assert "--sequence: " in message and what in message and fix in message
     assert not out.exists()
 
 
 @pytest.fixture(scope="module")
-def shown(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+def demonstration(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """Return the folder of a demonstration with two colours, and what the command printed."""
-    out, said = tmp_path_factory.mktemp("demo") / "order", io.StringIO()
-    with contextlib.redirect_stdout(said):
+    out, printed = tmp_path_factory.mktemp("demo") / "order", io.StringIO()
+    with contextlib.redirect_stdout(printed):
         assert main(["demo", "serial-order", "--sequence", "gr", "--out", str(out), "--no-progress"]) == 0
-    return out, said.getvalue()
+    return out, printed.getvalue()
 
 
-def test_the_command_teaches_and_produces_a_sequence(shown: tuple[Path, str]) -> None:
-    out, said = shown
-    assert "Taught GR; found G after" in said.splitlines()[-1]
-    found = json.loads((out / "results.json").read_text())
-    assert found["settings"]["sequence"] == "GR"
-    assert [c["value"] for c in found["claims"][:2]] == ["GR", "GR"]
+def test_the_command_teaches_and_produces_a_sequence(demonstration: tuple[Path, str]) -> None:
+    out, printed = demonstration
+    assert "Taught GR; found G after" in printed.splitlines()[-1]
+    report = json.loads((out / "results.json").read_text())
+    assert report["settings"]["sequence"] == "GR"
+    assert [c["value"] for c in report["claims"][:2]] == ["GR", "GR"]
     with Image.open(out / "serial-order.png") as picture:
         assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 100
     with Image.open(out / "serial-order.gif") as film:
@@ -137,10 +138,10 @@ def test_the_command_teaches_and_produces_a_sequence(shown: tuple[Path, str]) ->
     assert learning.max() > 0
 
 
-def test_the_record_of_the_command_can_be_plotted(shown: tuple[Path, str], tmp_path: Path) -> None:
+def test_the_record_of_the_command_can_be_plotted(demonstration: tuple[Path, str], tmp_path: Path) -> None:
     for path in ("item 1.node.activation", "action.activation", "pose.output"):
         picture = tmp_path / f"{path}.png"
-        assert main(["plot", str(shown[0] / "serial-order.zarr"), path, "--out", str(picture)]) == 0
+        assert main(["plot", str(demonstration[0] / "serial-order.zarr"), path, "--out", str(picture)]) == 0
         with Image.open(picture) as drawn:
             assert min(drawn.size) > 300 and len(set(drawn.convert("L").tobytes())) > 20
 

@@ -16,19 +16,19 @@ from deodar_papers.serial_order.arenas import random_arena
 @pytest.mark.parametrize("quick", [True, False])
 def test_every_run_belongs_to_one_job_whose_sequences_have_one_length(quick: bool) -> None:
     keys = [key for job in papers.PAPERS["serial-order"].jobs(quick) for key in job.keys]
-    known = conditions.conditions(quick)
-    assert sorted(keys) == sorted(c.key(k) for c in known.values() for k in range(c.count))
-    for c in known.values():
+    designs = conditions.conditions(quick)
+    assert sorted(keys) == sorted(c.key(k) for c in designs.values() for k in range(c.count))
+    for c in designs.values():
         for batch in trials.batches(c):
             assert len({len(c.sequence(k)) for k in batch}) == 1 and len(batch) <= trials.BATCH
 
 
 def test_the_runs_are_as_many_as_the_claims_need() -> None:
-    known = conditions.conditions(False)
-    assert known["learning"].count + known["clutter"].count >= 300
-    assert known["arena"].count >= 100 and known["removed"].count >= 50
-    assert known["duplicates"].count >= 50 and known["duplicates"].duplicates == 3
-    assert {known["arena"].sequence(k) for k in range(120)} >= {*colours.PAPER, *colours.random_sequences()}
+    designs = conditions.conditions(False)
+    assert designs["learning"].count + designs["clutter"].count >= 300
+    assert designs["arena"].count >= 100 and designs["removed"].count >= 50
+    assert designs["duplicates"].count >= 50 and designs["duplicates"].duplicates == 3
+    assert {designs["arena"].sequence(k) for k in range(120)} >= {*colours.PAPER, *colours.random_sequences()}
 
 
 @pytest.mark.parametrize("k", range(20))

@@ -27,10 +27,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_an_experiment_can_be_run_and_teaches_the_sequence_of_its_condition(folder: Path, name: str) -> None:
     experiment, c = dd.Experiment.load(folder / f"{name}.json"), conditions(False)[name]
     assert experiment.check() == [] and experiment.trials == 50
-    shown = [a for a in experiment.plan.actions if isinstance(a, Place) and a.object == experiments.SHOWN]
+    actions = [a for a in experiment.plan.actions if isinstance(a, Place) and a.object == experiments.SHOWN]
     removed = [a for a in experiment.plan.actions if isinstance(a, Remove)]
     taught = len("".join(c.pair(0))) if name.startswith("cued") else len(c.sequence(0))
-    assert (len(shown), len(removed)) == (2 * taught, taught)
+    assert (len(actions), len(removed)) == (2 * taught, taught)
     [begins] = [a.at for a in experiment.plan.actions if isinstance(a, Set) and a.path == "mode"]
     assert float(begins) > max(float(a.at) for a in removed)  # type: ignore[arg-type]
     assert sum(isinstance(a, Move) for a in experiment.plan.actions) == (name == "carried")

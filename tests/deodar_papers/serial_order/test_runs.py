@@ -15,15 +15,7 @@ from deodar_papers.serial_order import conditions, trials
 from deodar_papers.serial_order.arenas import Block, SearchArena
 from deodar_papers.serial_order.colours import hue_of
 from deodar_papers.serial_order.reasons import reason
-from deodar_papers.serial_order.runs import (
-    ABSENT,
-    FAR,
-    Settings,
-    TaughtRun,
-    found,
-    read_weights,
-    run_many,
-)
+from deodar_papers.serial_order.runs import ABSENT, FAR, Settings, TaughtRun, found, read_weights, run_many
 from deodar_papers.serial_order.targets import in_order, ordered
 from deodar_papers.serial_order.teaching import lesson
 

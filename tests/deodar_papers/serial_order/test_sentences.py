@@ -27,35 +27,35 @@ def rows() -> RowsOfConditions:
 
 
 def test_numbers_follow_from_the_rows() -> None:
-    found = {c.name.partition(": ")[2]: (c.value, c.n) for c in sentences.claims(rows())}
-    assert found["action off, then satisfaction off: share of transitions"] == (0.5, 2)
-    assert found["the cascade is one transient: median duration, ms"] == (96.0, 2)
-    assert found["a block is found when it looms large: median distance, mm"] == (100.0, 2)
-    assert found["the time of a search varies: longest over shortest action"] == (4.0, 2)
-    assert found["around the shown action: largest deviation, samples of hue"] == (2.0, 2)
+    numbers = {c.name.partition(": ")[2]: (c.value, c.n) for c in sentences.claims(rows())}
+    assert numbers["action off, then satisfaction off: share of transitions"] == (0.5, 2)
+    assert numbers["the cascade is one transient: median duration, ms"] == (96.0, 2)
+    assert numbers["a block is found when it looms large: median distance, mm"] == (100.0, 2)
+    assert numbers["the time of a search varies: longest over shortest action"] == (4.0, 2)
+    assert numbers["around the shown action: largest deviation, samples of hue"] == (2.0, 2)
 
 
 def test_numbers_of_the_model_follow_from_its_parameters() -> None:
-    found = {c.name: c.value for c in sentences.claims(rows())}
-    assert found["B: h_d, printed -5"] == -0.5
-    assert not any("tau, ms" in name for name in found)  # as printed
-    assert found["4.1: a node has an off state below 0 and an on state above 0: both states"] == [-0.5, 6.7]
+    numbers = {c.name: c.value for c in sentences.claims(rows())}
+    assert numbers["B: h_d, printed -5"] == -0.5
+    assert not any("tau, ms" in name for name in numbers)  # as printed
+    assert numbers["4.1: a node has an off state below 0 and an on state above 0: both states"] == [-0.5, 6.7]
 
 
 def test_sentences_of_the_fields_follow_from_the_parameters() -> None:
-    found: dict[str, Any] = {
+    numbers: dict[str, Any] = {
         c.name.partition(": ")[2].partition(":")[0]: c.value for c in sentences.from_parameters()
     }
     assert (
-        found["the action field alone leaves the field of the condition of satisfaction below threshold"]
+        numbers["the action field alone leaves the field of the condition of satisfaction below threshold"]
         == -0.8
     )
-    assert found["both together lift it above threshold"] == 0.2
+    assert numbers["both together lift it above threshold"] == 0.2
     # 0.9 exp(-k^2 / 18) - 0.5 sums to 0.4, 0.75, 0.97, 1.02, 0.89 over widths of 1 to 5
-    assert found["its peak is self-stabilized"] == pytest.approx(0.2170, abs=1e-3)
-    alone, largest = found["learning, one of several objects is selected"]
+    assert numbers["its peak is self-stabilized"] == pytest.approx(0.2170, abs=1e-3)
+    alone, largest = numbers["learning, one of several objects is selected"]
     assert alone == 200 and largest > alone
-    assert found["attraction scales with the size of the peak"] == 2.0
+    assert numbers["attraction scales with the size of the peak"] == 2.0
 
 
 def test_numbers_of_runs_and_of_parameters_are_in_tables_of_their_own() -> None:

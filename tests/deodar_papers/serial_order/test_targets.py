@@ -50,15 +50,15 @@ def rows(condition: str = "", **fault: Any) -> RowsOfConditions:
     return out
 
 
-def required(found: RowsOfConditions) -> dict[str, Claim]:
+def required(by_condition: RowsOfConditions) -> dict[str, Claim]:
     """Return the required claims by name."""
-    return {c.name: c for c in targets.claims(found, False) if c.kind == "required"}
+    return {c.name: c for c in targets.claims(by_condition, False) if c.kind == "required"}
 
 
 def test_every_required_claim_holds_for_good_rows() -> None:
-    found = required(rows())
-    assert {name: c.holds for name, c in found.items()} == dict.fromkeys(found, True)
-    assert next(c.n for name, c in found.items() if name == TRANSITIONS) == 40, "two transitions of each run"
+    claims = required(rows())
+    assert {name: c.holds for name, c in claims.items()} == dict.fromkeys(claims, True)
+    assert next(c.n for name, c in claims.items() if name == TRANSITIONS) == 40, "two transitions of each run"
 
 
 @pytest.mark.parametrize(
@@ -84,28 +84,28 @@ def test_every_required_claim_holds_for_good_rows() -> None:
 def test_one_faulty_row_fails_its_claims_alone(
     condition: str, fault: dict[str, Any], fails: list[str]
 ) -> None:
-    found = required(rows(condition, **fault))
-    failed = [name for name, c in found.items() if not c.holds]
+    claims = required(rows(condition, **fault))
+    failed = [name for name, c in claims.items() if not c.holds]
     assert len(failed) == len(fails)
     assert all(any(name.startswith(start) for name in failed) for start in fails)
 
 
 def test_more_than_five_in_a_hundred_unfinished_productions_fail() -> None:
-    found = rows()
-    for row in found["arena"][:2]:
+    by_condition = rows()
+    for row in by_condition["arena"][:2]:
         row |= {"outcome": "unfinished", "produced": "R"}
-    assert [name for name, c in required(found).items() if c.holds is False] == [COMPLETE]
+    assert [name for name, c in required(by_condition).items() if c.holds is False] == [COMPLETE]
 
 
 def test_a_block_that_is_found_in_an_old_picture_is_no_test_of_waiting() -> None:
-    found = rows("removed", actions=[2.0, 0.1])
-    assert next(c for name, c in required(found).items() if name.startswith(AWAY)).n == 19
+    by_condition = rows("removed", actions=[2.0, 0.1])
+    assert next(c for name, c in required(by_condition).items() if name.startswith(AWAY)).n == 19
 
 
 def test_a_vehicle_that_has_found_its_block_before_is_not_carried_elsewhere() -> None:
-    found = rows("carried", actions=[2.0, 0.4], outcome="unfinished")
+    by_condition = rows("carried", actions=[2.0, 0.4], outcome="unfinished")
     name = "production complete although the vehicle is carried elsewhere while it searches"
-    claim = next(c for c in targets.claims(found, False) if c.name == name)
+    claim = next(c for c in targets.claims(by_condition, False) if c.name == name)
     assert (claim.value, claim.n) == (1.0, 19)
 
 
@@ -116,7 +116,7 @@ def test_a_second_visit_follows_after_the_block_left_the_middle_of_the_picture()
 
 
 def test_the_tables_count_outcomes_and_transitions() -> None:
-    found = rows("arena", outcome="unfinished", produced="R", found=[2.0])
-    [line] = [line for line in tables.conditions(found).splitlines() if line.startswith("| arena |")]
+    by_condition = rows("arena", outcome="unfinished", produced="R", found=[2.0])
+    [line] = [line for line in tables.conditions(by_condition).splitlines() if line.startswith("| arena |")]
     assert line.startswith("| arena | 20 | 19 | 1 | 0 | 70.0 | 70.0 |")
-    assert "| in the order of section 4.4 | 40 of 40 |" in tables.transitions(found)
+    assert "| in the order of section 4.4 | 40 of 40 |" in tables.transitions(by_condition)

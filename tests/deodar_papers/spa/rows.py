@@ -8,9 +8,9 @@ PATH = [[-45.0, 55 + 0.36 * k] for k in range(110)] + [[-50 - 0.15 * k, 95.0] fo
 """North, then west through the passage beside the partial obstacle."""
 
 
-def row(c, trial, **other):
+def row(c, trial, **options):
     """Return a row of a run that goes straight to its goal."""
-    made = {
+    fields = {
         "key": c.key(trial),
         "condition": c.name,
         "trial": trial,
@@ -28,7 +28,7 @@ def row(c, trial, **other):
         "path": PATH,
     }
     if c.method == "planner":
-        made |= {
+        fields |= {
             "plan": 150 + 60 * (trial % 3),
             "moved": 225,
             "opposed": 0.002,
@@ -36,14 +36,14 @@ def row(c, trial, **other):
             "shortest": 100.0 + 20 * (trial % 3),
         }
     if not c.many_starts:
-        made |= {"route": "north", "wave": 150, "plan": 212, "west_ends": 500, "east_begins": 550}
+        fields |= {"route": "north", "wave": 150, "plan": 212, "west_ends": 500, "east_begins": 550}
     if c.obstacle:
         onset, duration = (int(v) for v in cases.windows(c.obstacle)[trial])
-        made |= {"onset": onset, "duration": duration, "on_robot": trial == 3, "still": 0}
-        made["route"] = expected(c.obstacle, onset, duration)
-        if made["route"] == "switch":
-            made |= {"still": 150, "arrival": 1230}
-    return made | other
+        fields |= {"onset": onset, "duration": duration, "on_robot": trial == 3, "still": 0}
+        fields["route"] = expected(c.obstacle, onset, duration)
+        if fields["route"] == "switch":
+            fields |= {"still": 150, "arrival": 1230}
+    return fields | options
 
 
 def expected(obstacle, onset, duration):

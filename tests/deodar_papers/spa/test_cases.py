@@ -127,10 +127,10 @@ def test_the_design_contains_the_planner_with_other_settings():
 
 
 def test_settings_of_a_condition_change_the_world_and_the_model():
-    found = cases.conditions(False)
-    assert cases.world(found["large/reflection-0.8-planner/low"]).physics.reflection == 0.8
-    assert cases.world(found["z/planner/low"]).physics.reflection == 0.6
-    assert cases.world(found["z/sticking-planner/high"]).physics.contact == "stick"
+    designs = cases.conditions(False)
+    assert cases.world(designs["large/reflection-0.8-planner/low"]).physics.reflection == 0.8
+    assert cases.world(designs["z/planner/low"]).physics.reflection == 0.6
+    assert cases.world(designs["z/sticking-planner/high"]).physics.contact == "stick"
     strengths = {}
     for name in ("z/factor-1.0-planner/high", "z/planner/high", "z/planner/low"):
         model = trials._bench(name, False)[1]

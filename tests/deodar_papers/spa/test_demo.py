@@ -25,14 +25,17 @@ def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
     behaviours none.
     """
     time, x, y = np.arange(len(pose)) * float(narrative.EVERY), np.arange(-104.0, -4), np.arange(5.0, 105)
-    data: dict[str, object] = {"pose.output": (("time", "pose"), pose)}
+    settings: dict[str, object] = {"pose.output": (("time", "pose"), pose)}
     for name in DIRECTIONS:
-        data[f"{name}.strongest.output"] = (("time",), intention if name == "north" else np.zeros(len(pose)))
-        data[f"{name}.motivation.activation"] = (
+        settings[f"{name}.strongest.output"] = (
+            ("time",),
+            intention if name == "north" else np.zeros(len(pose)),
+        )
+        settings[f"{name}.motivation.activation"] = (
             ("time", "x", "y"),
             np.full((len(pose), 100, 100), -5.0, np.float32),
         )
-    return xarray.Dataset(data, {"time": time, "x": x, "y": y})
+    return xarray.Dataset(settings, {"time": time, "x": x, "y": y})
 
 
 def way(*corners: tuple[float, float], each: int) -> np.ndarray:
@@ -52,12 +55,12 @@ def test_claims_follow_from_the_record() -> None:
     )
     pose = np.concatenate([way(start, start, each=110), way(start, north, back, south, goal, each=100)])
     intention = (np.arange(len(pose)) >= 105).astype(float)
-    found = narrative.read(record(pose, intention), maze("z"))
-    assert (found.planned, found.left) == (210, pytest.approx(236, abs=4))
-    assert found.north is not None and found.south is not None and found.arrived is not None
-    assert found.left < found.north < found.south < found.arrived
-    assert [c.holds for c in narrative.claims(found) if c.kind == "required"] == [True] * 3
-    assert {c.name.partition(":")[0] for c in narrative.claims(found) if c.inferred} == {
+    reading = narrative.read(record(pose, intention), maze("z"))
+    assert (reading.planned, reading.left) == (210, pytest.approx(236, abs=4))
+    assert reading.north is not None and reading.south is not None and reading.arrived is not None
+    assert reading.left < reading.north < reading.south < reading.arrived
+    assert [c.holds for c in narrative.claims(reading) if c.kind == "required"] == [True] * 3
+    assert {c.name.partition(":")[0] for c in narrative.claims(reading) if c.inferred} == {
         "the plan is complete",
         INFERRED_WAVE,
     }
@@ -83,8 +86,8 @@ def test_the_figure_names_its_times_and_those_that_did_not_occur(published: bool
     arena = maze("z")
     if published:
         arena.place("obstacle", *OBSTACLES["full"], windows=(narrative.COMES * STEP_MS, 1e9))
-    found = dc.replace(narrative.read(record(pose, intention), arena), published=published)
-    drawn = found.figure()
+    copied = dc.replace(narrative.read(record(pose, intention), arena), published=published)
+    drawn = copied.figure()
     titles = [place.get_suptitle() for half in drawn.subfigs for place in half.subfigs]
     assert [title for title in titles if title] == ["plan complete, step 210", second]
     obstacle = [text for text in drawn.subfigs[0].subfigs[0].axes[0].texts if "from" in text.get_text()]
@@ -98,14 +101,14 @@ def test_the_figure_names_its_times_and_those_that_did_not_occur(published: bool
 def test_a_frame_of_the_video_shows_robot_goal_and_step_at_their_positions() -> None:
     """The robot stands, and its motivation does not change: two frames differ in the printed step alone."""
     robot = (-45.0, 55.0)
-    found = narrative.read(record(way(robot, robot, each=30), np.zeros(31)), maze("z"))
-    first, later = (np.asarray(animation._frame(found, k).convert("RGB"), int) for k in (0, 30))
+    reading = narrative.read(record(way(robot, robot, each=30), np.zeros(31)), maze("z"))
+    first, later = (np.asarray(animation._frame(reading, k).convert("RGB"), int) for k in (0, 30))
     height, width, _ = first.shape
     assert (height, width) == (100 * animation.SCALE,) * 2
     rows, columns = np.nonzero(np.abs(first - later).sum(axis=-1) > 60)
     assert len(rows) and rows.max() < 20 and columns.min() >= width - 80
     dark = first.max(axis=-1) < 45
-    for (x, y), reach in ((found.goal, 14), (robot, 26)):
+    for (x, y), reach in ((reading.goal, 14), (robot, 26)):
         column, row = (x + 104 + 0.5) * animation.SCALE, (104 + 0.5 - y) * animation.SCALE
         down, across = np.nonzero(dark)
         near = (abs(down - row) < reach) & (abs(across - column) < reach)
@@ -122,7 +125,7 @@ def test_the_command_writes_the_printed_files(
     assert main(["demo", "spa", "--out", str(out), "--no-progress"]) == 1, (
         "in 300 steps it does not arrive, which is a required claim"
     )
-    said = capsys.readouterr().out
+    printed = capsys.readouterr().out
     claims = json.loads((out / "results.json").read_text())["claims"]
     plan = next(c for c in claims if c["name"].startswith("the plan is complete"))
     assert (
@@ -132,7 +135,7 @@ def test_the_command_writes_the_printed_files(
         and plan["kind"] == "reported"
     )
     assert [c["holds"] for c in claims if "arrives within" in c["name"]] == [False]
-    assert "never at the goal" in said.splitlines()[-1]
+    assert "never at the goal" in printed.splitlines()[-1]
     with Image.open(out / "spa.gif") as film:
         assert film.n_frames == 31 and film.size == (400, 400)
         frame = np.asarray(film.convert("RGB"))
@@ -186,8 +189,8 @@ def test_a_maze_of_the_user_is_planned_and_driven(
         "spa.png",
         "spa.zarr",
     ]
-    found = json.loads((out / "results.json").read_text())
-    assert found["settings"]["maze"]["goal"] == [[48, 34]] and "obstacle_at" not in found["settings"]
-    arrived = next(c for c in found["claims"] if c["name"].startswith("it arrives"))
+    report = json.loads((out / "results.json").read_text())
+    assert report["settings"]["maze"]["goal"] == [[48, 34]] and "obstacle_at" not in report["settings"]
+    arrived = next(c for c in report["claims"] if c["name"].startswith("it arrives"))
     assert arrived["kind"] == "reported" and arrived["holds"] is True
     assert "at the goal at step" in capsys.readouterr().out

@@ -19,28 +19,28 @@ def required(change, quick=False):
     return {c.name: c for c in claims(Runs(all_rows(quick, change), quick))}
 
 
-def only(found, words):
+def only(judged, words):
     """Return the claims whose names contain all of these words."""
-    out = [c for name, c in found.items() if all(w in name for w in words)]
+    out = [c for name, c in judged.items() if all(w in name for w in words)]
     assert out
     return out
 
 
-def said(change, quick=False):
+def claims_after(change, quick=False):
     """Return all claims of the report, by name."""
     runs = Runs(all_rows(quick, change), quick)
     return {c.name: c for part in (targets, sentences, unstated_settings) for c in part.claims(runs)}
 
 
 def test_all_required_claims_hold_for_rows_as_in_the_paper():
-    found = {name: c for name, c in required(lambda c, k: {}).items() if c.kind == "required"}
-    assert len(found) == 18
-    assert {c.holds for c in found.values()} == {True} and not failed(list(found.values()))
-    assert all(c.n >= 20 and c.source for c in found.values())
+    judged = {name: c for name, c in required(lambda c, k: {}).items() if c.kind == "required"}
+    assert len(judged) == 18
+    assert {c.holds for c in judged.values()} == {True} and not failed(list(judged.values()))
+    assert all(c.n >= 20 and c.source for c in judged.values())
 
 
 def test_claims_with_inferred_settings_are_marked_and_not_required():
-    inferred = {name: c for name, c in said(lambda c, k: {}).items() if c.inferred}
+    inferred = {name: c for name, c in claims_after(lambda c, k: {}).items() if c.inferred}
     assert all(c.kind == "reported" and c.assumes for c in inferred.values())
     for words in (
         "the plan is complete",
@@ -50,12 +50,12 @@ def test_claims_with_inferred_settings_are_marked_and_not_required():
     ):
         assert any(words in name for name in inferred), words
     # every sentence infers events at the second location
-    assert all(c.inferred for name, c in said(lambda c, k: {}).items() if "second location" in name)
-    assert all(c.assumes for name, c in said(lambda c, k: {}).items() if name.startswith("case 3"))
+    assert all(c.inferred for name, c in claims_after(lambda c, k: {}).items() if "second location" in name)
+    assert all(c.assumes for name, c in claims_after(lambda c, k: {}).items() if name.startswith("case 3"))
 
 
 def test_every_claim_states_the_origin_of_its_target():
-    for c in said(lambda c, k: {}).values():
+    for c in claims_after(lambda c, k: {}).values():
         # the figures of the paper were not available
         assert c.origin in ("printed", "ours", "none"), c.name
         assert (c.origin == "none") == (c.target == "none"), c.name
@@ -239,9 +239,9 @@ FAILS = [
     ("change", "name"), [case[1:] for case in FAILS], ids=[f"{what}: {name[:40]}" for what, _, name in FAILS]
 )
 def test_each_sentence_fails_for_rows_that_contradict_it(change, name):
-    found = [c for c in said(change).values() if c.name.startswith(name)]
-    assert found and any(c.holds is False for c in found), [
-        (c.name, c.value, c.interval, c.holds) for c in found
+    judged = [c for c in claims_after(change).values() if c.name.startswith(name)]
+    assert judged and any(c.holds is False for c in judged), [
+        (c.name, c.value, c.interval, c.holds) for c in judged
     ]
 
 
@@ -249,7 +249,7 @@ def test_every_sentence_with_a_target_has_a_contradicting_case():
     names = tuple(name for _, _, name in FAILS)
     rest = [
         c.name
-        for c in said(lambda c, k: {}).values()
+        for c in claims_after(lambda c, k: {}).values()
         if c.kind == "reported" and c.origin != "none" and not c.name.startswith(names)
     ]
     alike = ("Z-maze", "large maze")  # the same claim for another maze, level of noise or setting
@@ -262,8 +262,8 @@ def test_every_sentence_with_a_target_has_a_contradicting_case():
 
 def test_rows_as_in_the_paper_contradict_only_sentences_on_failures_and_walls():
     """In the constructed rows no run fails, and all clearances and velocities are equal."""
-    found = said(lambda c, k: {})
-    refuted = {name for name, c in found.items() if c.holds is False}
+    judged = claims_after(lambda c, k: {})
+    refuted = {name for name, c in judged.items() if c.holds is False}
     assert {name.partition(",")[0][:24] for name in refuted} == {
         "5.2: it then goes east",
         "6.2: the south route kee",
@@ -272,13 +272,14 @@ def test_rows_as_in_the_paper_contradict_only_sentences_on_failures_and_walls():
         "6.4: on a few occasions ",
         "7: in the large maze the",
     }
-    (latest,) = only(found, ["5.1: 3000 steps"])
+    (latest,) = only(judged, ["5.1: 3000 steps"])
     assert (latest.value, latest.holds) == (660, True)
-    (speed,) = only(found, ["speed of the wave, cm a step"])
+    (speed,) = only(judged, ["speed of the wave, cm a step"])
     # Lo is 100, 120 or 140 cm, and the plan is complete at step 150, 210 or 270
     assert (speed.value, speed.n, speed.holds) == (pytest.approx(1 / 3, abs=1e-4), 392, None)
     (late,) = only(
-        said(lambda c, k: {"success": k != 5} if c.name == "large/planner/low" else {}), ["3000 steps"]
+        claims_after(lambda c, k: {"success": k != 5} if c.name == "large/planner/low" else {}),
+        ["3000 steps"],
     )
     assert (late.value, late.holds) == (3000, False)
 
@@ -310,7 +311,7 @@ DURATIONS = [99, 100, 101, 102, 199, 200, 201, 202, 500, 501]
 
 def test_a_claim_counts_the_runs_whose_obstacle_has_the_onset_and_duration_that_it_states():
     windows = {k: (ONSETS[k % 15], DURATIONS[k // 15 % 10]) for k in range(240)}
-    found = said(
+    judged = claims_after(
         lambda c, k: (
             dict(zip(("onset", "duration"), windows[k], strict=True))
             if c.obstacle in ("full", "partial")
@@ -324,12 +325,12 @@ def test_a_claim_counts_the_runs_whose_obstacle_has_the_onset_and_duration_that_
             for k, (begins, lasts) in windows.items()
             if k != 3 and onset[0] <= begins <= onset[1] and duration[0] <= lasts <= duration[1]
         ]
-        for claim in only(found, [words]):
+        for claim in only(judged, [words]):
             assert claim.n == len(inside) * len(obstacles) > 0, words
 
 
 def test_a_large_p_leaves_equality_undecided():
-    rows = said(lambda c, k: {})
+    rows = claims_after(lambda c, k: {})
     for c in rows.values():
         if "ANOVA, p)" in c.name:
             assert c.holds is None and (c.value is None or c.value > 0.05), c.name
@@ -372,16 +373,16 @@ def test_a_large_p_leaves_equality_undecided():
     ],
 )
 def test_a_required_claim_fails_for_rows_that_contradict_it(change, words):
-    found = required(change)
-    for claim in only(found, words):
+    judged = required(change)
+    for claim in only(judged, words):
         assert claim.holds is False
-    assert 1 <= len(failed(list(found.values()))) <= 3
+    assert 1 <= len(failed(list(judged.values()))) <= 3
 
 
 def test_few_runs_leave_claims_undecided():
-    found = required(lambda c, k: {"success": k % 12 > 0} if c.name == "z/planner/high" else {}, quick=True)
-    assert not failed(list(found.values()))
-    assert {c.holds for c in only(found, ["case 3, full", "before t = 130"])} <= {None, True}
+    judged = required(lambda c, k: {"success": k % 12 > 0} if c.name == "z/planner/high" else {}, quick=True)
+    assert not failed(list(judged.values()))
+    assert {c.holds for c in only(judged, ["case 3, full", "before t = 130"])} <= {None, True}
     wrong = required(lambda c, k: {"success": k % 2 > 0} if c.name == "z/planner/high" else {}, quick=True)
     assert [c.name for c in failed(list(wrong.values()))] == [
         "Z-maze, high noise: the planner reaches the goal"

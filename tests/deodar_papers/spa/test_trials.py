@@ -51,9 +51,9 @@ def test_a_run_of_the_planner_gives_a_row(monkeypatch):
 
 
 def test_behaviours_are_listed_in_the_order_of_their_intentions():
-    there = np.zeros((300, 4))
-    there[10:100, 0] = there[80:200, 2] = there[200:210, 3] = there[220:260, 1] = there[270:300, 0] = 1.0
-    assert trials._order(there) == ["north", "west", "south", "north"]
+    zeros = np.zeros((300, 4))
+    zeros[10:100, 0] = zeros[80:200, 2] = zeros[200:210, 3] = zeros[220:260, 1] = zeros[270:300, 0] = 1.0
+    assert trials._order(zeros) == ["north", "west", "south", "north"]
 
 
 def test_jobs_cover_the_design():

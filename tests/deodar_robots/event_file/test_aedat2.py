@@ -91,7 +91,7 @@ def test_time_that_was_reset_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "message"),
     [
         (b"", "is empty"),
         (b"#!AER-DAT2.0", "ends within its header"),
@@ -105,12 +105,14 @@ def test_time_that_was_reset_is_refused(tmp_path: Path) -> None:
         (HEADER + b"\xff" * 80, "event 0 of 10 has the address 0xffffffff"),
     ],
 )
-def test_a_file_that_cannot_be_read_is_one_clear_error(content: bytes, said: str, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_read_is_one_clear_error(content: bytes, message: str, tmp_path: Path) -> None:
     path = tmp_path / "wrong.aedat"
     path.write_bytes(content)
     with pytest.raises(WorldError) as caught:
         world(path)
-    assert str(caught.value).startswith(f"{path}: {said}") or f"was recorded {said}" in str(caught.value)
+    assert str(caught.value).startswith(f"{path}: {message}") or f"was recorded {message}" in str(
+        caught.value
+    )
     assert len(caught.value.problems) == 1 and caught.value.problems[0].fix
 
 
@@ -152,11 +154,13 @@ def test_rates_of_poisson_events_are_read_back(tmp_path: Path) -> None:
     path.write_bytes(aedat2.encoded(times[order], pixels[order] // side, pixels[order] % side, on[order]))
     seen = world(path)
     axes = (dd.Axis("column", 31.5, 95.5, 2), dd.Axis("row", 31.5, 95.5, 2))
-    for sensor, wanted in (("on", rates[True]), ("off", rates[False]), ("events", sum(rates.values()))):
+    for sensor, expected in (("on", rates[True]), ("off", rates[False]), ("events", sum(rates.values()))):
         read = np.array([seen.sense(sensor, axes, 10.0 * (k + 1)) for k in range(400)])
         # four standard errors of a Poisson count
-        assert np.all(np.abs(read.mean(axis=0) - wanted) <= 4 * np.sqrt(wanted / (64 * 64 * seconds)) + 1e-9)
-        counts = read[:, wanted > 0] * (64 * 64 * 0.01)
+        assert np.all(
+            np.abs(read.mean(axis=0) - expected) <= 4 * np.sqrt(expected / (64 * 64 * seconds)) + 1e-9
+        )
+        counts = read[:, expected > 0] * (64 * 64 * 0.01)
         fano = counts.var(axis=0, ddof=1) / counts.mean(axis=0)
         assert np.all(np.abs(fano - 1) < 4 * np.sqrt(2 / 399))
 

@@ -54,15 +54,15 @@ def test_the_world_has_the_rates_of_a_stream() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "stream", "said"),
+    ("name", "stream", "message"),
     [
         ("frames", 0, "has no stream 0 with events; its streams: frame"),
         ("two", 2, "has no stream 2 with events; its streams: events 64 x 48, events 32 x 24, frame"),
         ("empty", 0, "holds no events"),
     ],
 )
-def test_a_file_without_such_events_is_refused(name: str, stream: int, said: str) -> None:
-    with pytest.raises(WorldError, match=f"{name}.aedat4: {said}"):
+def test_a_file_without_such_events_is_refused(name: str, stream: int, message: str) -> None:
+    with pytest.raises(WorldError, match=f"{name}.aedat4: {message}"):
         dd.EventFile(HERE / f"{name}.aedat4", stream=stream)
 
 
@@ -73,9 +73,12 @@ def test_events_before_the_damage_are_used(tmp_path: Path) -> None:
     with pytest.warns(RunWarning, match=r"cut\.aedat4: is damaged after 20 events .*; those before are used"):
         assert dd.EventFile(path).count == 20
     first = content.index(b"EVTS", content.index(b"</dv>"))
-    for size, said in ((40, "cannot be read as AEDAT4"), (first + 9, "holds no events before it is damaged")):
+    for size, message in (
+        (40, "cannot be read as AEDAT4"),
+        (first + 9, "holds no events before it is damaged"),
+    ):
         path.write_bytes(content[:size])
-        with pytest.raises(WorldError, match=said):
+        with pytest.raises(WorldError, match=message):
             dd.EventFile(path)
 
 

@@ -39,8 +39,8 @@ def test_a_reading_is_the_rate_in_the_period_before_its_time(tmp_path: Path) -> 
     world = dd.EventFile(recording(tmp_path / "a.aedat", [0, 9_999, 10_000, 25_000]))
     assert [lit(world, t) for t in (0, 10, 20, 30, 40)] == [[], [0, 1], [2], [3], []]
     assert lit(world, 15.0) == [1, 2] and lit(world, 1e12) == []
-    one = world.sense("on", PIXELS, 10.0)
-    assert one[0, 7] == pytest.approx(100) and one.sum() == pytest.approx(200)
+    reading = world.sense("on", PIXELS, 10.0)
+    assert reading[0, 7] == pytest.approx(100) and reading.sum() == pytest.approx(200)
     assert world.sense("off", PIXELS, 10.0).sum() == 0
     # 2 events among 16 pixels in 10 ms
     assert world.sense("events", COARSE, 10.0)[0, 1] == pytest.approx(12.5)
@@ -119,8 +119,13 @@ def test_a_run_of_the_command_line_reads_a_file(
         False,
         True,
     ]
-    said = json.loads(record.attrs["deodar"])["world"]
-    assert said["world"] == "EventFile" and said["file"] == str(file) and said["loop"] and said["sha256"]
+    document = json.loads(record.attrs["deodar"])["world"]
+    assert (
+        document["world"] == "EventFile"
+        and document["file"] == str(file)
+        and document["loop"]
+        and document["sha256"]
+    )
     assert main(["run", str(out)]) == 0
     assert "same bits" in capsys.readouterr().out
 
@@ -186,7 +191,7 @@ def test_a_simulated_eye_is_the_default_for_events() -> None:
 
 
 @pytest.mark.parametrize(
-    ("settings", "said"),
+    ("settings", "message"),
     [
         ({"period": 0}, "period is 0"),
         ({"period": float("nan")}, "period is nan"),
@@ -199,13 +204,13 @@ def test_a_simulated_eye_is_the_default_for_events() -> None:
         ({"size": (100_000, 100_000)}, "states a sensor of 100000 x 100000 pixels"),
     ],
 )
-def test_wrong_settings_are_refused(settings, said: str) -> None:
-    with pytest.raises(WorldError, match=said):
+def test_wrong_settings_are_refused(settings, message: str) -> None:
+    with pytest.raises(WorldError, match=message):
         dd.EventFile(HERE / "one.aedat4", **settings)
 
 
 @pytest.mark.parametrize(
-    ("argument", "said"),
+    ("argument", "message"),
     [
         ("none.aedat", "none.aedat: there is no such file"),
         ("{}", "there is no such file"),
@@ -218,10 +223,10 @@ def test_wrong_settings_are_refused(settings, said: str) -> None:
     ],
 )
 def test_an_argument_that_names_nothing_is_refused(
-    argument: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    argument: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(HERE)
-    with pytest.raises(WorldError, match=said):
+    with pytest.raises(WorldError, match=message):
         dd.EventFile.open(argument.format(tmp_path))
 
 

@@ -20,11 +20,11 @@ def exposed(camera: EventCamera, pictures, period: float = 10.0):
     pictures = jnp.asarray(pictures, jnp.float32)
     state = camera.start(pictures[0], KEY)
     step = jax.jit(lambda state, picture, tick: camera.expose(state, picture, period, KEY, tick))
-    found = []
+    frames = []
     for tick, picture in enumerate(pictures[1:], 2):
         state = step(state, picture, jnp.uint32(tick))
-        found.append((np.asarray(state["on"]), np.asarray(state["off"])))
-    return found
+        frames.append((np.asarray(state["on"]), np.asarray(state["off"])))
+    return frames
 
 
 def steps(*levels: float) -> np.ndarray:
@@ -38,20 +38,20 @@ def test_a_step_of_log_luminance_sends_an_event_for_each_threshold() -> None:
 
 
 def test_the_rest_of_a_step_is_remembered() -> None:
-    found = exposed(QUIET, steps(0.0, 0.15, 0.15, 0.25))
-    assert [int(on[0, 0]) for on, _ in found] == [0, 0, 1]
+    frames = exposed(QUIET, steps(0.0, 0.15, 0.15, 0.25))
+    assert [int(on[0, 0]) for on, _ in frames] == [0, 0, 1]
 
 
 def test_the_refractory_time_limits_the_events_of_a_period_and_delays_the_others() -> None:
     slow = EventCamera(spread=0.0, leak=0.0, shot=0.0, refractory=4.0)
-    found = exposed(slow, steps(0.0, 1.05, 1.05, 1.05, 1.05))
-    assert [int(on[0, 0]) for on, _ in found] == [2, 2, 1, 0]
+    frames = exposed(slow, steps(0.0, 1.05, 1.05, 1.05, 1.05))
+    assert [int(on[0, 0]) for on, _ in frames] == [2, 2, 1, 0]
 
 
 def test_shot_noise_has_its_rate_in_equal_parts() -> None:
     noisy = EventCamera(spread=0.0, leak=0.0, shot=2.0)
-    found = exposed(noisy, steps(*[0.0] * 101))
-    on, off = (np.sum([f[k] for f in found]) for k in (0, 1))
+    frames = exposed(noisy, steps(*[0.0] * 101))
+    on, off = (np.sum([f[k] for f in frames]) for k in (0, 1))
     seconds = 100 * 0.01 * SIZE * SIZE
     for count in (on, off):
         assert abs(count - seconds) < 4 * np.sqrt(seconds)
@@ -59,10 +59,10 @@ def test_shot_noise_has_its_rate_in_equal_parts() -> None:
 
 def test_the_leak_causes_on_events_at_its_rate() -> None:
     leaking = EventCamera(spread=0.0, leak=1.0, shot=0.0)
-    found = exposed(leaking, steps(*[0.0] * 101))
-    on, off = (np.sum([f[k] for f in found]) for k in (0, 1))
+    frames = exposed(leaking, steps(*[0.0] * 101))
+    on, off = (np.sum([f[k] for f in frames]) for k in (0, 1))
     assert on == pytest.approx(SIZE * SIZE, rel=0.01) and off == 0
-    spread = [f[0].sum() for f in found]
+    spread = [f[0].sum() for f in frames]
     assert max(spread) < 3 * np.mean(spread), "the pixels do not leak at the same moment"
 
 
@@ -70,9 +70,9 @@ def test_thresholds_spread_over_the_pixels() -> None:
     spread = EventCamera(spread=0.05, leak=0.0, shot=0.0)
     state = spread.start(jnp.zeros((SIZE, SIZE), jnp.float32), KEY)
     for name in ("on threshold", "off threshold"):
-        found = np.asarray(state[name])
-        assert found.mean() == pytest.approx(0.2, rel=0.002)
-        assert found.std() == pytest.approx(0.05 * 0.2, rel=0.03)
+        thresholds = np.asarray(state[name])
+        assert thresholds.mean() == pytest.approx(0.2, rel=0.002)
+        assert thresholds.std() == pytest.approx(0.05 * 0.2, rel=0.03)
     correlation = np.corrcoef(np.ravel(state["on threshold"]), np.ravel(state["off threshold"]))[0, 1]
     assert abs(correlation) < 0.03
 
@@ -83,10 +83,10 @@ def test_the_reading_is_a_rate_at_every_sampling() -> None:
     for samples in (128, 64, 32, 16):
         edge = SIZE / samples / 2 - 0.5
         axes = tuple(Axis(name, edge, SIZE - 1 - edge, samples) for name in ("column", "row"))
-        found = np.asarray(rate(jnp.asarray(events), axes, 10.0))
-        assert found.shape == (samples, samples)
-        assert found.sum() * axes[0].step ** 2 == pytest.approx(64 * 3 / 0.01)
-        assert found[int(44 / 128 * samples), int(84 / 128 * samples)] == pytest.approx(300, rel=1e-5)
+        rates = np.asarray(rate(jnp.asarray(events), axes, 10.0))
+        assert rates.shape == (samples, samples)
+        assert rates.sum() * axes[0].step ** 2 == pytest.approx(64 * 3 / 0.01)
+        assert rates[int(44 / 128 * samples), int(84 / 128 * samples)] == pytest.approx(300, rel=1e-5)
 
 
 def test_cells_beyond_the_sensor_have_no_events() -> None:

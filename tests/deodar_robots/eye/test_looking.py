@@ -30,9 +30,9 @@ def gaze(model: dd.Model, first: tuple[float, float], record: list[str], duratio
 
 def onset(values: np.ndarray, above: float) -> int:
     """Return the first sample above a value; fails if there is none."""
-    here = np.flatnonzero(values > above)
-    assert len(here), f"never above {above}"
-    return int(here[0])
+    indices = np.flatnonzero(values > above)
+    assert len(indices), f"never above {above}"
+    return int(indices[0])
 
 
 @pytest.mark.parametrize("first", [(25.0, 90.0), (60.0, 20.0), (30.0, 95.0)])
@@ -111,15 +111,15 @@ def test_a_gaze_that_misses_is_not_learned_by_the_paper_and_is_corrected_by_the_
 
 
 def test_at_rest_nothing_is_done() -> None:
-    data = dd.simulate(
+    record = dd.simulate(
         looking("correcting"),
         1500,
         record=["visual intention.output", "motor intention.output"],
         every=10,
         world=dd.Eye(screen=dd.EyeScreen(wait=1e9, endless=False)),
     )
-    assert data["visual intention.output"].values.max() < 0.5
-    assert data["motor intention.output"].values.max() < 0.5
+    assert record["visual intention.output"].values.max() < 0.5
+    assert record["motor intention.output"].values.max() < 0.5
 
 
 def test_a_finer_sampling_looks_at_the_same_place() -> None:

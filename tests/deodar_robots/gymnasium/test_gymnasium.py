@@ -163,8 +163,8 @@ def test_values_of_a_motor_become_an_action_of_the_space(space, values, action):
 def test_a_state_repeats_the_episode(tmp_path: Path):
     session = climbing(dd.Gymnasium(CAR))
     session.run(20 * 150)
-    kept = session.snapshot()
-    dd.save_snapshot(kept, tmp_path / "state.npz")
+    snapshot = session.snapshot()
+    dd.save_snapshot(snapshot, tmp_path / "state.npz")
     paths = ("state", "reward", "done")
 
     def onward():
@@ -176,7 +176,7 @@ def test_a_state_repeats_the_episode(tmp_path: Path):
 
     first = onward()
     assert any(done for *_, done in first), "an episode ends"
-    session.restore(kept)
+    session.restore(snapshot)
     assert onward() == first
     session.restore(dd.load_snapshot(tmp_path / "state.npz"))
     assert onward() == first

@@ -104,14 +104,14 @@ def test_the_command_line_names_all_worlds(tmp_path: Path):
     assert isinstance(world.others["camera"], Video)
     hyphens = named(f"Com-Bined:mu-joco:table;camera=video:{file}", "--world")
     assert isinstance(hyphens, Combined), "neither case nor hyphens count"
-    for text, said in (
+    for text, message in (
         ("mujoco:table", "no sensor is read from another world"),
         ("mujoco:table;video:x", "names no sensor"),
         ("mujoko:table;camera=video:x", "there is no world 'mujoko'"),
         ("mujoco;camera=video:x", "needs an argument"),
         (f"mujoco:table;camera=video:{tmp_path / 'none.avi'}", "none.avi"),
     ):
-        with pytest.raises(WorldError, match=said):
+        with pytest.raises(WorldError, match=message):
             named(f"combined:{text}", "--world")
 
 

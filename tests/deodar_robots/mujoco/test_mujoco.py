@@ -67,8 +67,8 @@ def test_a_model_drives_an_actuator_and_reads_a_sensor_of_the_file(cart: Path):
     model = dd.Model("cart")
     model.add(dd.Boost("force", [], 4.0)) >> model.add(dd.Motor("push", [], "push"))
     model.add(dd.Sensor("where", [], "where"))
-    data = dd.simulate(model, 1000, dt=10, record="where", world=dd.MuJoCo(cart))
-    np.testing.assert_allclose(data["where.output"].values[-1], 1.0, rtol=0.03)
+    record = dd.simulate(model, 1000, dt=10, record="where", world=dd.MuJoCo(cart))
+    np.testing.assert_allclose(record["where.output"].values[-1], 1.0, rtol=0.03)
 
 
 def test_a_camera_shows_colours_at_the_places_where_objects_are():
@@ -112,8 +112,8 @@ def test_pixel_noise_and_tool_noise_depend_on_seed_and_trial_alone():
         world.reset(seed, trials)
         return [world.sense("camera", FINE, 0.0), world.sense("tool", (), 0.0)]
 
-    both, alone = read(1, [0, 5]), read(1, [5])
-    for many, one in zip(both, alone, strict=True):
+    reading, alone = read(1, [0, 5]), read(1, [5])
+    for many, one in zip(reading, alone, strict=True):
         np.testing.assert_array_equal(many[1], one[0])
         assert np.abs(many[0] - many[1]).max() > 0.005
     assert np.std(read(1, [0])[0] - MuJoCo("table").sense("camera", FINE, 0.0)) == pytest.approx(
@@ -161,12 +161,12 @@ def test_placing_and_removing_keep_the_state_of_all_else():
     for _ in range(60):
         world.act({"tool_plane": np.array([[0.1, 0.1]])}, 0.0)
     angles, tool = world.sense("joint_angles", (), 0.0), world.sense("tool", (), 0.0)
-    kept = world.arrangement()
+    arrangement = world.arrangement()
     world.place("b", (0.2, 0.3), (0.06, 0.06))
     world.remove("a")
     np.testing.assert_allclose(world.sense("joint_angles", (), 0.0), angles)
     np.testing.assert_allclose(world.sense("tool", (), 0.0), tool)
-    world.arrange(kept)
+    world.arrange(arrangement)
     assert [box.name for box in world.scene().boxes] == ["a"]
 
 
@@ -222,7 +222,7 @@ def test_files_and_settings_with_errors_are_refused_by_name(tmp_path: Path, cart
 def test_objects_with_errors_are_refused_and_change_nothing():
     world = MuJoCo("table")
     world.place("a", (0.0, 0.3), (0.06, 0.06))
-    kept = world.arrangement()
+    arrangement = world.arrangement()
     for given, says in (
         ({"size": (0, 0.1)}, "expected lengths above 0"),
         ({"color": (2, 0, 0)}, "expected red, green and blue"),
@@ -237,7 +237,7 @@ def test_objects_with_errors_are_refused_and_change_nothing():
         world.move("c", (0.0, 0.0))
     with pytest.raises(WorldError, match="cannot be moved by hand"):
         world.move("table", (0.0, 0.0))
-    assert world.arrangement() == kept
+    assert world.arrangement() == arrangement
 
 
 def test_a_simulation_that_diverges_stops_with_motors_at_0_and_a_reset_continues(tmp_path: Path):
@@ -310,11 +310,11 @@ def test_a_push_is_part_of_the_state_and_stays_when_an_object_is_placed():
         return float(np.hypot(*(np.subtract(world.tool(), before)[:2])))
 
     world.push("link 5", (60, 0, 0))
-    kept = world.keep()
+    arrangement = world.keep()
     pushed = moved()
     assert pushed > 0.005
     world.push("link 5", (0, 0, 0))
-    world.put(kept)
+    world.put(arrangement)
     world.place("block", (0.3, 0.5), (0.05, 0.05))
     assert moved() == pytest.approx(pushed, rel=0.05)
     world.reset(0)

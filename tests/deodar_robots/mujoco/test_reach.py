@@ -27,8 +27,8 @@ def test_the_tool_arrives_at_every_corner_of_the_table_at_its_height(robot):
     for goal in CORNERS:
         for _ in range(400):
             away = np.array(goal) - tool(world)[:2]
-            wanted = 5 * away * min(1.0, 0.25 / max(5 * np.hypot(*away), 1e-9))
-            world.act({"tool_plane": wanted[None]}, 0.0)
+            expected = 5 * away * min(1.0, 0.25 / max(5 * np.hypot(*away), 1e-9))
+            world.act({"tool_plane": expected[None]}, 0.0)
             assert abs(tool(world)[2] - height) < 0.003
         assert np.hypot(*away) < 0.001, goal
 

@@ -84,10 +84,10 @@ def test_a_robot_of_every_kind_keeps_the_contract(kind, peers, tmp_path, capsys)
     file.write_text(json.dumps({"robot": 1, "name": "mine", **KINDS[kind](tmp_path, peers)}))
     robot = Robot(file)
     robot.reset(0)
-    wanted = [(name, axes_of(robot, name)) for name in robot.sensors if axes_of(robot, name) is not None]
-    assert wanted, "it reads something"
-    readings = robot.sense_all(wanted, 0.0)
-    for (name, axes), reading in zip(wanted, readings, strict=True):
+    expected = [(name, axes_of(robot, name)) for name in robot.sensors if axes_of(robot, name) is not None]
+    assert expected, "it reads something"
+    readings = robot.sense_all(expected, 0.0)
+    for (name, axes), reading in zip(expected, readings, strict=True):
         given = np.asarray(reading)
         each = robot.sensors[name].each and given.ndim == len(axes) + 1
         assert (given[0] if each else given).shape == shape(axes) and np.isfinite(given).all()
@@ -101,8 +101,8 @@ def test_a_robot_of_every_kind_keeps_the_contract(kind, peers, tmp_path, capsys)
     assert isinstance(same, Robot) and set(same.sensors) == set(robot.sensors)
     same.close()
     assert main(["robots", "check", str(file)]) == 0
-    said = capsys.readouterr().out
-    assert said.startswith("mine is there") and all(name in said for name in robot.sensors)
+    printed = capsys.readouterr().out
+    assert printed.startswith("mine is there") and all(name in printed for name in robot.sensors)
 
 
 def axes_of(robot: Robot, name: str):

@@ -108,7 +108,7 @@ def test_a_place_changes_what_it_states(written):
 
 
 @pytest.mark.parametrize(
-    ("keys", "said"),
+    ("keys", "message"),
     [
         ({"robot": 2}, r"is not the file of a robot: .*\$\.robot"),
         ({"kind": "areno"}, "no kind 'areno' of robots. Did you mean 'arena'"),
@@ -131,21 +131,21 @@ def test_a_place_changes_what_it_states(written):
         ({"places": {"lab": {"places": {}}}}, "unknown field `places`"),
     ],
 )
-def test_a_bad_file_is_named_with_its_problem(written, keys, said):
-    with pytest.raises(WorldError, match=said):
+def test_a_bad_file_is_named_with_its_problem(written, keys, message):
+    with pytest.raises(WorldError, match=message):
         written(**keys)
 
 
 def test_files_that_are_not_robots_are_refused(tmp_path: Path):
     file = tmp_path / "mine.json"
-    for content, said in (
+    for content, message in (
         ("{", "is not JSON"),
         ('{"robot": 1, "robot": 1}', "occurs twice"),
         ("[" * 200 + "]" * 200, "nested deeper"),
         ('{"robot": NaN}', "not finite"),
     ):
         file.write_text(content)
-        with pytest.raises(WorldError, match=said):
+        with pytest.raises(WorldError, match=message):
             Robot(file)
     with file.open("wb") as big:
         big.truncate(100_000_000)
@@ -192,10 +192,10 @@ def test_the_command_lists_robots_and_checks_one_without_moving_it(written, caps
     written(motors={"left": {"limits": [-100, 100], "slew": 50}, "right": {}})
     monkeypatch.setattr(Robot, "act", lambda *args: pytest.fail("a motor was moved"))
     assert main(["robots", "check", str(tmp_path / "mine.json")]) == 0
-    shown = capsys.readouterr().out
-    assert "mine is there: arena, repeatable" in shown
-    assert "sensor heading: heading; 0 along x, counter-clockwise; one number rad; 15.6 Hz" in shown
-    assert "step/s; -100 to 100, at most 50 per s; at rest 0 after 200 ms" in shown
+    printed = capsys.readouterr().out
+    assert "mine is there: arena, repeatable" in printed
+    assert "sensor heading: heading; 0 along x, counter-clockwise; one number rad; 15.6 Hz" in printed
+    assert "step/s; -100 to 100, at most 50 per s; at rest 0 after 200 ms" in printed
     assert main(["robots", "check", str(tmp_path / "mine.json"), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["robot"] == "mine"
     with pytest.raises(SystemExit):

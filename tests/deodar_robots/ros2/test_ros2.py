@@ -401,18 +401,18 @@ def test_a_robot_file_names_the_topics_and_is_checked(robot, tmp_path, capsys):
     file = tmp_path / "mine.json"
     settings = {"sensors": {"scan": SCAN}, "motors": DRIVE, "at": robot.at, "period": 10, "patience": 5}
     lab = {"kind": "ros2", "settings": settings}
-    data = {"robot": 1, "name": "mine", "kind": "arena", "settings": {"layout": "blocks"}}
-    file.write_text(json.dumps(data | {"places": {"simulated": {}, "lab": lab}}))
+    fields = {"robot": 1, "name": "mine", "kind": "arena", "settings": {"layout": "blocks"}}
+    file.write_text(json.dumps(fields | {"places": {"simulated": {}, "lab": lab}}))
     assert main(["robots", "check", f"{file}@lab"]) == 0
-    shown = capsys.readouterr().out
-    assert "mine is there: ros2, live" in shown and "sensor scan: ranges of /scan by angle" in shown
-    assert re.search(r"motor forward: .*; -0.3 to 0.3; at rest 0 after 200 ms", shown)
-    assert float(re.search(r"([\d.]+) Hz counted", shown)[1]) > 5
+    printed = capsys.readouterr().out
+    assert "mine is there: ros2, live" in printed and "sensor scan: ranges of /scan by angle" in printed
+    assert re.search(r"motor forward: .*; -0.3 to 0.3; at rest 0 after 200 ms", printed)
+    assert float(re.search(r"([\d.]+) Hz counted", printed)[1]) > 5
     assert not robot.commands, "nothing moved"
 
 
 @pytest.mark.parametrize(
-    ("sensors", "motors", "said"),
+    ("sensors", "motors", "message"),
     [
         ({}, {}, "names no topic"),
         ({"a": 3}, {}, "sensors a: Expected `object`"),
@@ -440,6 +440,6 @@ def test_a_robot_file_names_the_topics_and_is_checked(robot, tmp_path, capsys):
         ),
     ],
 )
-def test_settings_are_checked(sensors, motors, said):
-    with pytest.raises(WorldError, match=said):
+def test_settings_are_checked(sensors, motors, message):
+    with pytest.raises(WorldError, match=message):
         ROS2(sensors, motors)

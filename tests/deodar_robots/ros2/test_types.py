@@ -28,19 +28,19 @@ def read(raw: bytes, type: str, **settings) -> np.ndarray:
     return reading.take(from_bytes(raw, name))
 
 
-def picture(data: bytes, encoding: str, step: int, width: int = 4, height: int = 2, big: int = 0) -> bytes:
-    made = Cdr().header().number("I", height, width).text(encoding).number("B", big)
-    made.number("I", step, len(data)).raw.extend(data)
-    return bytes(made.raw)
+def picture(content: bytes, encoding: str, step: int, width: int = 4, height: int = 2, big: int = 0) -> bytes:
+    cdr = Cdr().header().number("I", height, width).text(encoding).number("B", big)
+    cdr.number("I", step, len(content)).raw.extend(content)
+    return bytes(cdr.raw)
 
 
 def joints(names=("pan", "tilt"), positions=(0.1, -0.2), velocities=(), efforts=()) -> bytes:
-    made = Cdr().header().number("I", len(names))
+    cdr = Cdr().header().number("I", len(names))
     for name in names:
-        made.text(name)
+        cdr.text(name)
     for values in (positions, velocities, efforts):
-        made.number("I", len(values)).number("d", *values)
-    return bytes(made.raw)
+        cdr.number("I", len(values)).number("d", *values)
+    return bytes(cdr.raw)
 
 
 def turned(yaw: float) -> tuple[float, ...]:
@@ -48,20 +48,20 @@ def turned(yaw: float) -> tuple[float, ...]:
 
 
 def odometry(orientation) -> bytes:
-    made = Cdr().header().text("base").number("d", 1.0, 2.0, 3.0, *orientation).number("d", *[0] * 36)
-    return bytes(made.number("d", 0.5, 0, 0, 0, 0, -0.25).number("d", *[0] * 36).raw)
+    cdr = Cdr().header().text("base").number("d", 1.0, 2.0, 3.0, *orientation).number("d", *[0] * 36)
+    return bytes(cdr.number("d", 0.5, 0, 0, 0, 0, -0.25).number("d", *[0] * 36).raw)
 
 
 def inertia() -> bytes:
-    made = Cdr().header().number("d", *turned(math.pi / 2)).number("d", *[0] * 9)
-    return bytes(made.number("d", 1, 2, 3).number("d", *[0] * 9).number("d", 4, 5, 9.8, *[0] * 9).raw)
+    cdr = Cdr().header().number("d", *turned(math.pi / 2)).number("d", *[0] * 9)
+    return bytes(cdr.number("d", 1, 2, 3).number("d", *[0] * 9).number("d", 4, 5, 9.8, *[0] * 9).raw)
 
 
 def array(code: str, values, *sizes: int) -> bytes:
-    made = Cdr().number("I", len(sizes))
+    cdr = Cdr().number("I", len(sizes))
     for k, size in enumerate(sizes):
-        made.text("axis").number("I", size, math.prod(sizes[k:]))
-    return bytes(made.number("I", 0, len(values)).number(code, *values).raw)
+        cdr.text("axis").number("I", size, math.prod(sizes[k:]))
+    return bytes(cdr.number("I", 0, len(values)).number(code, *values).raw)
 
 
 # --------------------------------------------------------------------------------------------------- pictures
@@ -98,11 +98,11 @@ def test_a_compressed_image_is_decoded(kind):
     whole = np.full((16, 16, 3), (200, 100, 50), np.uint8)
     file = io.BytesIO()
     Image.fromarray(whole).save(file, kind)
-    made = Cdr().header().text(kind.lower()).number("I", len(file.getvalue()))
-    raw = bytes(made.raw) + file.getvalue()
+    cdr = Cdr().header().text(kind.lower()).number("I", len(file.getvalue()))
+    raw = bytes(cdr.raw) + file.getvalue()
     assert np.abs(read(raw, "sensor_msgs/CompressedImage").astype(int) - whole).max() < 6
     with pytest.raises(Unreadable, match="no JPEG or PNG file"):
-        read(bytes(made.raw) + bytes(len(file.getvalue())), "sensor_msgs/CompressedImage")
+        read(bytes(cdr.raw) + bytes(len(file.getvalue())), "sensor_msgs/CompressedImage")
 
 
 def test_depths_are_in_metres_over_columns_and_rows():
@@ -126,7 +126,7 @@ def test_a_depth_that_is_not_defined_is_refused_or_replaced():
 
 
 @pytest.mark.parametrize(
-    ("raw", "said"),
+    ("raw", "message"),
     [
         (picture(bytes(24), "yuv422", 12), "its encoding is 'yuv422'"),
         (picture(bytes(23), "rgb8", 12), "it has 23 bytes, not 2 rows of 12"),
@@ -136,10 +136,10 @@ def test_a_depth_that_is_not_defined_is_refused_or_replaced():
         (picture(bytes(32), "32FC1", 16), "The field colour has the encodings"),
     ],
 )
-def test_a_strange_image_is_refused(raw, said):
+def test_a_strange_image_is_refused(raw, message):
     with pytest.raises(Unreadable) as caught:
         read(raw, "sensor_msgs/Image")
-    assert said in f"{caught.value} {caught.value.fix}"
+    assert message in f"{caught.value} {caught.value.fix}"
 
 
 # ----------------------------------------------------------------------------------------------------- states
@@ -155,7 +155,7 @@ def test_joints_are_read_by_name():
 
 
 @pytest.mark.parametrize(
-    ("raw", "settings", "said"),
+    ("raw", "settings", "message"),
     [
         (joints(), {"joints": ["pan", "roll"]}, "it has no joint 'roll'"),
         (joints(), {"joints": ["pan"], "fields": "velocity"}, "it has 2 joints and 0 of velocity"),
@@ -163,8 +163,8 @@ def test_joints_are_read_by_name():
         (joints(positions=(0.0, float("nan"))), {"shape": [2]}, "its position is not finite"),
     ],
 )
-def test_joints_that_are_missing_are_named(raw, settings, said):
-    with pytest.raises(Unreadable, match=said):
+def test_joints_that_are_missing_are_named(raw, settings, message):
+    with pytest.raises(Unreadable, match=message):
         read(raw, "sensor_msgs/JointState", **settings)
 
 
@@ -207,7 +207,7 @@ def test_arrays_are_in_c_order():
 
 
 @pytest.mark.parametrize(
-    ("entry", "said"),
+    ("entry", "message"),
     [
         ({"type": "sensor_msgs/Image", "fields": "depth"}, "needs its shape"),
         ({"type": "sensor_msgs/Image", "shape": [4, 2]}, "colours have no shape"),
@@ -223,8 +223,8 @@ def test_arrays_are_in_c_order():
         ({"type": "nav_msgs/Path"}, "the type 'nav_msgs/Path' is not read or written"),
     ],
 )
-def test_settings_of_sensors_are_checked(entry, said):
-    with pytest.raises(WorldError, match=said):
+def test_settings_of_sensors_are_checked(entry, message):
+    with pytest.raises(WorldError, match=message):
         readings({"a": {"topic": "/a", **entry}})
 
 
@@ -291,13 +291,13 @@ def test_an_array_of_numbers():
 @pytest.mark.parametrize("field", ["positions", "velocities"])
 def test_a_trajectory_is_one_point(field):
     entry = {"type": "trajectory_msgs/JointTrajectory", "joints": ["ab", "cd"], "fields": field}
-    made = Cdr().number("i", 0).number("I", 0).text("").number("I", 2).text("ab").text("cd").number("I", 1)
+    cdr = Cdr().number("i", 0).number("I", 0).text("").number("I", 2).text("ab").text("cd").number("I", 1)
     for each in ("positions", "velocities", "accelerations", "effort"):
-        made.number("I", 2 if each == field else 0)
+        cdr.number("I", 2 if each == field else 0)
         if each == field:
-            made.number("d", 0.1, 0.2)
-    made.number("i", 0).number("I", 100_000_000)
-    assert sent(entry, 0.1, 0.2) == bytes(made.raw)
+            cdr.number("d", 0.1, 0.2)
+    cdr.number("i", 0).number("I", 100_000_000)
+    assert sent(entry, 0.1, 0.2) == bytes(cdr.raw)
 
 
 def test_positions_have_no_command_at_rest_unless_one_is_stated():

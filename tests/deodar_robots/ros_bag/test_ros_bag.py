@@ -65,8 +65,8 @@ def test_a_run_is_repeatable_and_returns(tmp_path):
     model.add(dd.Sensor("see", BEAMS, sensor="scan"))
     first, again = (dd.simulate(model, 1500, record=["see.output"], world=world) for _ in range(2))
     assert first["see.output"].equals(again["see.output"])
-    shown = first["see.output"].values[:, 0]
-    assert np.allclose(shown, 1 + 0.1 * (first["time"].values // 100))
+    values = first["see.output"].values[:, 0]
+    assert np.allclose(values, 1 + 0.1 * (first["time"].values // 100))
 
 
 def test_messages_are_held_in_parts_in_any_order(tmp_path, monkeypatch):
@@ -174,8 +174,8 @@ def test_a_replay_of_the_bag_repeats_the_run(tmp_path, seen):
     model = dd.Model("seeing", dt=16)
     model.add(dd.Sensor("eyes", [dd.Axis("sensor", 0, 7, 8)], sensor="infrared"))
     model.add(dd.Boost("go", amplitude=300.0)) >> model.add(dd.Motor("wheel", motor="left"))
-    again = dd.simulate(model, 640, record=["eyes.output"], every=64, world=dd.ROSBag(tmp_path / "bag"))
-    assert np.array_equal(again["eyes.output"].values, seen["eyes.output"].values)
+    record = dd.simulate(model, 640, record=["eyes.output"], every=64, world=dd.ROSBag(tmp_path / "bag"))
+    assert np.array_equal(record["eyes.output"].values, seen["eyes.output"].values)
 
 
 def test_other_programs_read_topics_types_times_and_shapes(tmp_path, seen):

@@ -104,7 +104,7 @@ def test_it_is_named_when_it_leaves(robot):
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"robot": 2}, "is not version 1"),
         ({"name": ""}, "the name of a robot is ''"),
@@ -118,8 +118,8 @@ def test_it_is_named_when_it_leaves(robot):
         ({"motors": {"a": {"limits": [3, 1]}}}, "pan a: limits is"),
     ],
 )
-def test_what_a_robot_says_of_itself_is_checked(changes, said):
-    with pytest.raises(WorldError, match=said):
+def test_what_a_robot_says_of_itself_is_checked(changes, message):
+    with pytest.raises(WorldError, match=message):
         About.from_text(json.dumps(ABOUT | changes).encode())
     for content in (b"{", b"[]", b"\xff", b'{"robot": NaN}', b" " * 2_000_000):
         with pytest.raises(WorldError, match=r"what a robot says of itself|describes itself in"):

@@ -20,7 +20,7 @@ def test_endpoints_of_this_machine_are_accepted(text):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("tcp/192.168.1.4:7461", "beyond this machine, without encryption"),
         ("tcp/0.0.0.0:7461", "beyond this machine, without encryption"),
@@ -31,8 +31,8 @@ def test_endpoints_of_this_machine_are_accepted(text):
         ("udp/127.0.0.1:7461", "is not an endpoint"),
     ],
 )
-def test_other_endpoints_are_refused(text, said):
-    with pytest.raises(WorldError, match=said):
+def test_other_endpoints_are_refused(text, message):
+    with pytest.raises(WorldError, match=message):
         link.require_endpoint(text)
 
 
@@ -49,13 +49,13 @@ def test_the_owner_listens_at_its_endpoint_alone_and_the_commander_nowhere():
     here = free_endpoint()
     before = listening()
     owner = link.listen(here)
-    other = link.connect(here, 2.0)
+    connection = link.connect(here, 2.0)
     try:
         assert listening() - before == {("127.0.0.1", int(here.rpartition(":")[2]))}
         with pytest.raises(WorldError, match=f"cannot listen at {here}: another program does"):
             link.listen(here)
     finally:
-        other.close()
+        connection.close()
         owner.close()
     assert listening() == before
 

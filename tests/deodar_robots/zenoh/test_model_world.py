@@ -73,11 +73,11 @@ def test_a_model_that_nothing_can_reach_is_refused():
     alone.add(field("a"))
     with pytest.raises(ModelError, match="no sensor and no motor"):
         ModelWorld(alone)
-    both = dd.Model("both")
-    both.add(dd.Sensor("one", LINE, "a"))
-    both.add(dd.Sensor("two", [dd.Axis("x", 0, 30, 16)], "a"))
+    model = dd.Model("both")
+    model.add(dd.Sensor("one", LINE, "a"))
+    model.add(dd.Sensor("two", [dd.Axis("x", 0, 30, 16)], "a"))
     with pytest.raises(ModelError, match="two: reads 'a' over other axes than one"):
-        ModelWorld(both)
+        ModelWorld(model)
     with pytest.raises(WorldError, match="one trial at a time"):
         ModelWorld(halves()[1]).reset(0, [0, 1])
 

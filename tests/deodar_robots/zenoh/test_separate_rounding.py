@@ -106,7 +106,7 @@ def test_the_option_is_added_to_those_of_xla(monkeypatch: pytest.MonkeyPatch) ->
     for _ in range(2):
         dd.use_separate_rounding()
         assert os.environ["XLA_FLAGS"] == "--xla_dump_to=here --xla_cpu_max_isa=AVX"
-    made = {"made_by": provenance.made_by(devices.find())}
-    assert provenance.rounds_separately(made)
+    settings = {"made_by": provenance.made_by(devices.find())}
+    assert provenance.rounds_separately(settings)
     monkeypatch.setenv("XLA_FLAGS", "")
     assert not provenance.rounds_separately({"made_by": {}})

@@ -80,12 +80,12 @@ def test_messages_are_not_readable_on_the_way(served):
 
 def test_mutual_tls_accepts_a_model_with_a_certificate(served):
     world = Zenoh(at=served(MUTUAL), patience=5.0, authority=AUTHORITY, **pair("model"))
-    said = world.describe()
-    assert said["certificate"] == str(FILES / "model.pem") and "KEY" not in json.dumps(said)
+    description = world.describe()
+    assert description["certificate"] == str(FILES / "model.pem") and "KEY" not in json.dumps(description)
     world.reset(0)
     world.close()
-    opened = again(Zenoh, said)
-    assert opened.describe() == said
+    opened = again(Zenoh, description)
+    assert opened.describe() == description
     opened.close()
 
 

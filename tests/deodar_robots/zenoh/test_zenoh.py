@@ -60,8 +60,8 @@ def served():
         return begun[-1]
 
     yield serve
-    for each in begun:
-        each.close()
+    for sensing in begun:
+        sensing.close()
 
 
 def path(world, precision="float32", seed=3, periods=150):
@@ -90,14 +90,14 @@ def test_sensors_over_any_axes_are_read_like_those_of_the_world(served):
     axes = (dd.Axis("x", 0, 120, 13, unit="cm"), dd.Axis("y", 0, 80, 9, unit="cm"))
     coarse = (dd.Axis("x", 0, 120, 5, unit="cm"), dd.Axis("y", 0, 80, 4, unit="cm"))
     requests = [("obstacles", axes), ("obstacles", coarse), ("pose", (dd.Axis("of", 0, 2, 3),))]
-    for each in (world, same):
-        each.reset(0, [0, 5])
+    for sensing in (world, same):
+        sensing.reset(0, [0, 5])
     for _ in range(3):
-        found, expected = (each.sense_all(requests, 0.0) for each in (world, same))
+        found, expected = (sensing.sense_all(requests, 0.0) for sensing in (world, same))
         for a, b in zip(found, expected, strict=True):
             assert np.array_equal(a, b) and a.shape[0] == 2
-        for each in (world, same):
-            each.act({"left": np.full(2, 300.0, np.float32), "right": np.full(2, 200.0, np.float32)}, 0.0)
+        for sensing in (world, same):
+            sensing.act({"left": np.full(2, 300.0, np.float32), "right": np.full(2, 200.0, np.float32)}, 0.0)
     with pytest.raises(WorldError, match=r"no sensor 'obstacle'\. Did you mean 'obstacles'"):
         world.sense("obstacle", axes, 0.0)
     world.close()
@@ -327,10 +327,10 @@ def test_a_query_with_values_of_other_types_is_answered_and_the_robot_goes_on(se
     world = Zenoh(at=robot.endpoint)
     world.reset(0)
     stranger = link.connect(robot.endpoint, 2.0)
-    for time_, said in (("x", "time is 'x'"), (None, "time is None"), ([1], "expected a finite number")):
+    for time_, message in (("x", "time is 'x'"), (None, "time is None"), ([1], "expected a finite number")):
         asked = {"commander": world._commander, "requests": [["angle", []]], "time": time_}
         (answer,) = stranger.get(key("robot", "read"), payload=codec.line(asked), timeout=5.0)
-        assert said in bytes(answer.err.payload).decode()
+        assert message in bytes(answer.err.payload).decode()
     assert world.sense("angle", (), 0.0) == 0
     stranger.close()
     world.close()
@@ -370,10 +370,10 @@ def test_a_record_keeps_what_was_seen_before_a_robot_left_and_is_a_world(served,
         robot.close()
         with pytest.raises(WorldError, match="'robot' has left"):
             session.run_live(300)
-    data = dd.load_record(tmp_path / "run")
-    seen = data["see.output"].values
+    record = dd.load_record(tmp_path / "run")
+    seen = record["see.output"].values
     assert len(seen) > 20 and np.unique(seen).size > 5, "the wheel turned"
-    replay = dd.simulate(turning(), 200, record="see.output", every=10, world=dd.Recording(data))
+    replay = dd.simulate(turning(), 200, record="see.output", every=10, world=dd.Recording(record))
     np.testing.assert_array_equal(replay["see.output"].values, seen[: replay.sizes["time"]])
 
 

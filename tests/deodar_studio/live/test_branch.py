@@ -51,7 +51,7 @@ class Branching(Driven):
 
 
 @pytest.fixture
-def made() -> Iterator[Callable[..., Branching]]:
+def branching() -> Iterator[Callable[..., Branching]]:
     all: list[Branching] = []
 
     def make(model: dd.Model, world: Any = None) -> Branching:
@@ -59,52 +59,52 @@ def made() -> Iterator[Callable[..., Branching]]:
         return all[-1]
 
     yield make
-    for one in all:
-        one.engine.close()
+    for branched in all:
+        branched.engine.close()
 
 
-def test_a_branch_has_the_bits_of_an_undisturbed_session(made: Callable[..., Branching]) -> None:
-    one = made(mixed())
-    one.step(70)
+def test_a_branch_has_the_bits_of_an_undisturbed_session(branching: Callable[..., Branching]) -> None:
+    branched = branching(mixed())
+    branched.step(70)
     for tick in (63, 35, 14):  # each time from what remains of the past
-        one.branch(tick)
+        branched.branch(tick)
         script = dd.Session(mixed(), seed=3)
         script.step(tick)
-        assert bits(one.session) == bits(script), tick
-        one.step(20)
+        assert bits(branched.session) == bits(script), tick
+        branched.step(20)
         script.step(20)
-        assert bits(one.session) == bits(script), tick
-        one.branch(tick)
-    span = one.engine.ring.span()
-    assert span is not None and span.last == 14 and one.session.tick == 14
-    assert one.engine.traces[TraceRequest(one.place)].since(0)[-1, 0] == 14
+        assert bits(branched.session) == bits(script), tick
+        branched.branch(tick)
+    span = branched.engine.ring.span()
+    assert span is not None and span.last == 14 and branched.session.tick == 14
+    assert branched.engine.traces[TraceRequest(branched.place)].since(0)[-1, 0] == 14
 
 
-def test_changes_before_the_moment_are_made_again_at_their_ticks(made: Callable[..., Branching]) -> None:
+def test_changes_before_the_moment_are_made_again_at_their_ticks(branching: Callable[..., Branching]) -> None:
     """A live value, another program, a step and an injected input: each lies after the stored state."""
-    one, script = made(mixed()), dd.Session(mixed(), seed=3)
-    states = one.engine.states
-    one.step(7)
+    branched, script = branching(mixed()), dd.Session(mixed(), seed=3)
+    states = branched.engine.states
+    branched.step(7)
     assert states.ticks[0] == 0
     states._due = 1e9  # no further state: everything is computed from the start
-    docs: list[Document] = [one.session.document]
+    docs: list[Document] = [branched.session.document]
 
     def change(path: str, value: Any) -> None:
         docs.append(edit.change_all(docs[-1], {path: value}))
-        one.do(lambda: one.engine.adopt(one.model, docs[-1]))
-        one.until(lambda: one.session.document == docs[-1] and not one.engine.busy)
+        branched.do(lambda: branched.engine.adopt(branched.model, docs[-1]))
+        branched.until(lambda: branched.session.document == docs[-1] and not branched.engine.busy)
 
     change("u.resting_level", -4.0)
-    one.step(7)
-    one.do(lambda: one.engine.inject(Injection(one.ident, np.full(31, 2.0))))
-    one.step(7)
-    one.do(lambda: one.engine.inject(None))
+    branched.step(7)
+    branched.do(lambda: branched.engine.inject(Injection(branched.ident, np.full(31, 2.0))))
+    branched.step(7)
+    branched.do(lambda: branched.engine.inject(None))
     change("u.sigmoid", dd.Step())
-    one.step(7)
+    branched.step(7)
     docs.append(edit.describe(docs[-1], dt=0.5))
-    one.do(lambda: one.engine.adopt(one.model, docs[-1]))
-    one.step(14)
-    later = bits(one.session)
+    branched.do(lambda: branched.engine.adopt(branched.model, docs[-1]))
+    branched.step(14)
+    later = bits(branched.session)
 
     script.step(7)
     script.set("u.resting_level", -4.0)
@@ -116,137 +116,144 @@ def test_changes_before_the_moment_are_made_again_at_their_ticks(made: Callable[
     script.dt = 0.5
     script.step(7)
     time = script.time
-    found = one.branch(time)
-    assert states is one.engine.states and states.ticks == [0]
+    found = branched.branch(time)
+    assert states is branched.engine.states and states.ticks == [0]
     assert found == docs[-1]
-    assert one.session.dt == script.dt == 0.5
-    assert bits(one.session) == bits(script)
-    one.step(7)
+    assert branched.session.dt == script.dt == 0.5
+    assert bits(branched.session) == bits(script)
+    branched.step(7)
     script.step(7)
-    assert bits(one.session) == bits(script) == later
+    assert bits(branched.session) == bits(script) == later
 
 
-def test_a_moment_before_an_edit_has_the_parameters_of_that_moment(made: Callable[..., Branching]) -> None:
-    one = made(mixed())
-    one.step(14)
-    before = one.session.document
-    one.do(lambda: one.engine.adopt(one.model, edit.change_all(before, {"u.resting_level": -9.0})))
-    one.step(14)
-    assert one.branch(7) == before
+def test_a_moment_before_an_edit_has_the_parameters_of_that_moment(
+    branching: Callable[..., Branching],
+) -> None:
+    branched = branching(mixed())
+    branched.step(14)
+    before = branched.session.document
+    branched.do(
+        lambda: branched.engine.adopt(branched.model, edit.change_all(before, {"u.resting_level": -9.0}))
+    )
+    branched.step(14)
+    assert branched.branch(7) == before
     script = dd.Session(mixed(), seed=3)
     script.step(7)
-    assert bits(one.session) == bits(script)
+    assert bits(branched.session) == bits(script)
 
 
-def test_a_branch_of_a_world_has_its_objects_and_its_motion(made: Callable[..., Branching]) -> None:
-    one, script = made(driving(), dd.Arena("blocks")), dd.Session(driving(), seed=3, world=dd.Arena("blocks"))
+def test_a_branch_of_a_world_has_its_objects_and_its_motion(branching: Callable[..., Branching]) -> None:
+    branched, script = (
+        branching(driving(), dd.Arena("blocks")),
+        dd.Session(driving(), seed=3, world=dd.Arena("blocks")),
+    )
     scene = script.scene()
     assert scene is not None
     name = next(box.name for box in scene.boxes if not box.fixed)
-    one.step(14)
-    one.engine.states._due = 1e9
+    branched.step(14)
+    branched.engine.states._due = 1e9
     place = (0.9, 0.4)
-    one.do(lambda: one.engine.rearrange(lambda session: session.place("late", place, (0.04, 0.04))))
-    one.do(lambda: one.engine.rearrange(lambda session: session.remove(name)))
-    one.step(14)
+    branched.do(lambda: branched.engine.rearrange(lambda session: session.place("late", place, (0.04, 0.04))))
+    branched.do(lambda: branched.engine.rearrange(lambda session: session.remove(name)))
+    branched.step(14)
     script.step(14)
     script.place("late", place, (0.04, 0.04))
     script.remove(name)
     script.step(7)
-    one.branch(script.time)
-    assert bits(one.session) == bits(script)
-    one.step(30)
+    branched.branch(script.time)
+    assert bits(branched.session) == bits(script)
+    branched.step(30)
     script.step(30)
-    assert bits(one.session) == bits(script)
-    one.branch(7 * 16)
+    assert bits(branched.session) == bits(script)
+    branched.branch(7 * 16)
     first = dd.Session(driving(), seed=3, world=dd.Arena("blocks"))
     first.step(7)
-    assert bits(one.session) == bits(first), "the object is back"
-    trail = one.engine.track.trail.places
-    assert trail[0] == one.engine.ring.at(0)[1].trail.places[0]  # type: ignore[index]
+    assert bits(branched.session) == bits(first), "the object is back"
+    trail = branched.engine.track.trail.places
+    assert trail[0] == branched.engine.ring.at(0)[1].trail.places[0]  # type: ignore[index]
 
 
-def test_a_branch_returns_to_the_world_of_its_moment(made: Callable[..., Branching]) -> None:
-    one = made(driving(), dd.Arena("blocks"))
-    one.step(14)
-    one.engine.states._due = 1e9
-    one.do(lambda: one.engine.see(dd.Arena("large")))
-    one.step(14)
-    after = bits(one.session)
-    one.step(7)
-    one.branch(28 * 16)
-    assert bits(one.session) == after and "large" in str(one.session.world.describe())  # type: ignore[union-attr]
-    one.branch(7 * 16)
+def test_a_branch_returns_to_the_world_of_its_moment(branching: Callable[..., Branching]) -> None:
+    branched = branching(driving(), dd.Arena("blocks"))
+    branched.step(14)
+    branched.engine.states._due = 1e9
+    branched.do(lambda: branched.engine.see(dd.Arena("large")))
+    branched.step(14)
+    after = bits(branched.session)
+    branched.step(7)
+    branched.branch(28 * 16)
+    assert bits(branched.session) == after and "large" in str(branched.session.world.describe())  # type: ignore[union-attr]
+    branched.branch(7 * 16)
     script = dd.Session(driving(), seed=3, world=dd.Arena("blocks"))
     script.step(7)
-    assert bits(one.session) == bits(script)
+    assert bits(branched.session) == bits(script)
 
 
-def test_a_moment_before_the_first_element_is_restored(made: Callable[..., Branching]) -> None:
-    one = made(mixed())
-    full, empty = one.session.document, Document("nothing yet")
-    one.do(lambda: one.engine.adopt(one.model, empty))
-    one.until(lambda: one.session.document == empty and not one.engine.busy)
-    one.do(lambda: one.engine.show([], []))
-    one.do(one.engine.reset)
-    one.step(14)
-    one.do(lambda: one.engine.see(dd.Arena("blocks")))
-    one.do(lambda: one.engine.adopt(one.model, full))
-    one.until(lambda: one.session.document == full and not one.engine.busy)
-    one.step(14)
-    after = bits(one.session)
-    one.step(7)
-    one.branch(28)
-    assert bits(one.session) == after
-    assert one.branch(7) == empty and one.session.tick == 7 and one.session.world is None
+def test_a_moment_before_the_first_element_is_restored(branching: Callable[..., Branching]) -> None:
+    branched = branching(mixed())
+    full, empty = branched.session.document, Document("nothing yet")
+    branched.do(lambda: branched.engine.adopt(branched.model, empty))
+    branched.until(lambda: branched.session.document == empty and not branched.engine.busy)
+    branched.do(lambda: branched.engine.show([], []))
+    branched.do(branched.engine.reset)
+    branched.step(14)
+    branched.do(lambda: branched.engine.see(dd.Arena("blocks")))
+    branched.do(lambda: branched.engine.adopt(branched.model, full))
+    branched.until(lambda: branched.session.document == full and not branched.engine.busy)
+    branched.step(14)
+    after = bits(branched.session)
+    branched.step(7)
+    branched.branch(28)
+    assert bits(branched.session) == after
+    assert branched.branch(7) == empty and branched.session.tick == 7 and branched.session.world is None
 
 
 def test_a_refused_return_to_a_moment_keeps_the_edit_that_is_being_compiled(
-    made: Callable[..., Branching],
+    branching: Callable[..., Branching],
 ) -> None:
-    one = made(mixed())
-    one.step(7)
-    wrong = dc.replace(one.do(one.engine.snapshot), precision="float64")
-    one.engine.states._too_large = 2**40
+    branched = branching(mixed())
+    branched.step(7)
+    wrong = dc.replace(branched.do(branched.engine.snapshot), precision="float64")
+    branched.engine.states._too_large = 2**40
 
     def adopt_and_return(coming: Document, back: Callable[[], Any], error: type[Exception]) -> None:
-        one.engine.adopt(one.model, coming)  # in one call, so that its compilation has not ended
+        branched.engine.adopt(branched.model, coming)  # in one call, so that its compilation has not ended
         with pytest.raises(error):
             back()
 
     for sigmoid, back, error in (
-        (dd.Step(), lambda: one.engine.branch(7), RecordError),
-        (dd.Absolute(), lambda: one.engine.restore(wrong), ParameterError),
+        (dd.Step(), lambda: branched.engine.branch(7), RecordError),
+        (dd.Absolute(), lambda: branched.engine.restore(wrong), ParameterError),
     ):
-        coming = edit.change_all(one.session.document, {"u.sigmoid": sigmoid})
-        one.do(lambda coming=coming, back=back, error=error: adopt_and_return(coming, back, error))
-        one.until(lambda coming=coming: one.session.document == coming and not one.engine.busy)
+        coming = edit.change_all(branched.session.document, {"u.sigmoid": sigmoid})
+        branched.do(lambda coming=coming, back=back, error=error: adopt_and_return(coming, back, error))
+        branched.until(lambda coming=coming: branched.session.document == coming and not branched.engine.busy)
 
 
-def test_a_world_that_cannot_be_read_again_is_named(made: Callable[..., Branching]) -> None:
+def test_a_world_that_cannot_be_read_again_is_named(branching: Callable[..., Branching]) -> None:
     class Window(dd.Arena):
         repeatable = False
 
-    one = made(driving(), Window("blocks"))
-    one.step(14)
-    before = bits(one.session)
+    branched = branching(driving(), Window("blocks"))
+    branched.step(14)
+    before = bits(branched.session)
     with pytest.raises(RecordError, match="the world Window cannot be read again"):
-        one.branch(0)
-    assert bits(one.session) == before
+        branched.branch(0)
+    assert bits(branched.session) == before
 
 
 def test_memory_is_bounded_and_a_moment_that_is_gone_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(branch_states, "SHARE", 1e9)
     session = dd.Session(mixed())
-    one = size(session.snapshot())
-    assert one > 0
-    states = BranchStates(interval=0.0, most=6 * one)
+    branched = size(session.snapshot())
+    assert branched > 0
+    states = BranchStates(interval=0.0, most=6 * branched)
     for _ in range(40):
         states.follow(session)
         session.step(3)
-        assert states.nbytes <= 6 * one
+        assert states.nbytes <= 6 * branched
     assert states.ticks[0] == 0 and len(states.ticks) >= 4, "thinned, from the start on"
-    small = BranchStates(most=one)
+    small = BranchStates(most=branched)
     small.follow(session)
     with pytest.raises(RecordError, match="a state of it takes"):
         small.branch(session, session.tick, lambda *_: None)

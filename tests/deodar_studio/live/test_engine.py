@@ -25,10 +25,10 @@ WAIT = 600.0
 
 
 def model() -> dd.Model:
-    made = dd.Model("m")
-    u = made.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5)]))
-    made.add(dd.GaussianStimulus("s", [X], center=50, amplitude=2)) >> u
-    return made
+    network = dd.Model("m")
+    u = network.add(dd.Field("u", [X], kernel=[dd.Gaussian(1, 5)]))
+    network.add(dd.GaussianStimulus("s", [X], center=50, amplitude=2)) >> u
+    return network
 
 
 class Driven:
@@ -182,9 +182,9 @@ def test_requested_steps_wait_for_the_program_that_samples_a_new_trace(
     """Otherwise a plot that was just opened would stay without the steps that follow."""
     made = engine_module.port_reader
 
-    def slow(*given: Any) -> Any:
+    def slow(*arguments: Any) -> Any:
         time.sleep(0.5)
-        return made(*given)
+        return made(*arguments)
 
     monkeypatch.setattr(engine_module, "port_reader", slow)
     engine, place = driven.engine, (driven.u, "activation")

@@ -64,25 +64,25 @@ def test_the_journal_repeats_the_run() -> None:
     first.move("crate", (0.8, 1.5))
     first.step(30)
     assert stopped == pytest.approx(0.7 - 0.037, abs=1e-3) and first.read("pose")[0] > 0.8
-    again = dd.Session(driving(), world=Arena(OPEN))
+    session = dd.Session(driving(), world=Arena(OPEN))
     for change in first.journal:
-        again.step(change.tick - again.tick)
-        change.repeat(again)
-    again.step(first.tick - again.tick)
-    assert np.array_equal(again.read("pose"), first.read("pose"))
+        session.step(change.tick - session.tick)
+        change.repeat(session)
+    session.step(first.tick - session.tick)
+    assert np.array_equal(session.read("pose"), first.read("pose"))
 
 
 def test_a_refused_change_has_no_effect_and_is_not_recorded() -> None:
     session = dd.Session(driving(), world=Arena(OPEN))
     before = session.scene()
-    for wrong, said in [
+    for wrong, message in [
         (lambda: session.move("crate", (0.2, 1.0)), "crate: .* cover 'e-puck'"),
         (lambda: session.move("goal", (0.5, 1.5)), "goal: .* inside 'crate'"),
         (lambda: session.place("goal", (1.0, 1.0), (0.1, 0.1)), "goal: is the name of a mark"),
         (lambda: session.place("flat", (1.0, 1.0), (0.1, 0.0)), "flat.*has no area"),
         (lambda: session.remove("goal"), "goal: is a mark"),
     ]:
-        with pytest.raises(WorldError, match=said):
+        with pytest.raises(WorldError, match=message):
             wrong()
     with pytest.raises(UnknownName, match="crate"):
         session.remove("crat")

@@ -12,9 +12,9 @@ from deodar_studio.live.ring import PAUSE, StateRing
 PLACE = ("u", "activation")
 
 
-def state(tick: int, values: np.ndarray | None = None, **more: object) -> PublishedState:
+def state(tick: int, values: np.ndarray | None = None, **options: object) -> PublishedState:
     array = np.full(100, float(tick)) if values is None else values
-    return PublishedState(tick + 1, float(10 * tick), tick, {PLACE: array}, **more)  # type: ignore[arg-type]
+    return PublishedState(tick + 1, float(10 * tick), tick, {PLACE: array}, **options)  # type: ignore[arg-type]
 
 
 def filled(ring: StateRing, states: int, apart: float = 0.02, start: float = 0.0) -> StateRing:
@@ -24,9 +24,9 @@ def filled(ring: StateRing, states: int, apart: float = 0.02, start: float = 0.0
 
 
 def shown(ring: StateRing, time: float, further: int = 0) -> float:
-    found = ring.at(time, further)
-    assert found is not None
-    return found[1].time
+    state_at = ring.at(time, further)
+    assert state_at is not None
+    return state_at[1].time
 
 
 def test_an_empty_ring_has_no_moments() -> None:
@@ -38,9 +38,9 @@ def test_the_moment_up_to_a_time_is_found_with_its_values() -> None:
     ring = filled(StateRing(), 10)
     assert [shown(ring, t) for t in (-5, 0, 9, 10, 55, 1e9, float("inf"))] == [0, 0, 0, 10, 50, 90, 90]
     assert [shown(ring, 50, n) for n in (-9, -1, 1, 2, 99)] == [0, 40, 60, 70, 90]
-    number, found = ring.at(55) or (-1, state(0))
-    assert number == 5 and found.tick == 5
-    assert np.array_equal(found.arrays[PLACE], np.full(100, 5.0))
+    number, state_at = ring.at(55) or (-1, state(0))
+    assert number == 5 and state_at.tick == 5
+    assert np.array_equal(state_at.arrays[PLACE], np.full(100, 5.0))
 
 
 def test_states_older_than_the_covered_wall_time_are_removed() -> None:
@@ -60,8 +60,8 @@ def test_a_ring_up_to_a_tick_has_the_earlier_states_only() -> None:
     assert 0 < short.nbytes < ring.nbytes and shown(short, 1e9) == 40
     short.add(state(5, np.full(100, 3.0)), 100.0)
     assert shown(ring, 50) == shown(short, 50) == 50
-    found = ring.at(50)
-    assert found is not None and found[1].arrays[PLACE][0] == 5, "the first ring has not changed"
+    state_at = ring.at(50)
+    assert state_at is not None and state_at[1].arrays[PLACE][0] == 5, "the first ring has not changed"
 
 
 def test_a_pause_does_not_count_as_running() -> None:
@@ -77,8 +77,8 @@ def test_a_state_without_a_step_replaces_the_last_one() -> None:
     ring.add(state(2, np.full(100, 77.0)), 0.05)
     span = ring.span()
     assert span is not None and span.frames == 3 and ring.nbytes == before
-    found = ring.at(20)
-    assert found is not None and found[1].arrays[PLACE][0] == 77
+    state_at = ring.at(20)
+    assert state_at is not None and state_at[1].arrays[PLACE][0] == 77
 
 
 def test_arrays_are_copied_in_single_precision_and_equal_ones_are_stored_once() -> None:
@@ -86,10 +86,10 @@ def test_arrays_are_copied_in_single_precision_and_equal_ones_are_stored_once() 
     for tick in range(5):
         ring.add(state(tick, values), tick * 0.02)
     assert ring.nbytes == 400
-    found = ring.at(0)
+    state_at = ring.at(0)
     values[:] = -1
-    assert found is not None and found[1].arrays[PLACE].dtype == np.float32
-    assert found[1].arrays[PLACE][-1] == 1
+    assert state_at is not None and state_at[1].arrays[PLACE].dtype == np.float32
+    assert state_at[1].arrays[PLACE][-1] == 1
     ring.add(state(5, values), 0.1)
     assert ring.nbytes == 800
 
@@ -136,4 +136,7 @@ def test_boxes_that_do_not_move_are_stored_once() -> None:
     assert first is not None and second is not None
     assert first[1].scene is not None and second[1].scene is not None
     assert first[1].scene.boxes is second[1].scene.boxes
-    assert [found[1].scene.bodies[0].center[0] for found in (first, second) if found[1].scene] == [0, 1]
+    assert [state_at[1].scene.bodies[0].center[0] for state_at in (first, second) if state_at[1].scene] == [
+        0,
+        1,
+    ]

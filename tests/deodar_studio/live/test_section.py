@@ -56,8 +56,8 @@ def test_a_time_course_of_rows_keeps_the_newest_within_its_memory() -> None:
     request = TraceRequest(("u", "activation"), section=Section(("y",), (("x", 0.0),), most=1))
     trace = Trace()
     for k in range(3):
-        value = request.value(np.full((4, 5), float(k)) + np.arange(5), (X, Y))
-        trace.add(10.0 * k, value)
+        number = request.value(np.full((4, 5), float(k)) + np.arange(5), (X, Y))
+        trace.add(10.0 * k, number)
     assert trace.width == 5
     assert trace.since(1).tolist() == [[10, 1, 2, 3, 4, 5], [20, 2, 3, 4, 5, 6]]
     assert capacity(1) == capacity(5) == CAPACITY and capacity(10**9) == 2

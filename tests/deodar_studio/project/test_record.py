@@ -21,8 +21,8 @@ def record(path: Path, seed: int) -> Path:
     """Write a record of a node with noise."""
     model = dd.Model("m")
     model.add(dd.Noise("n")) >> model.add(dd.RateNode("u"))
-    data = dd.simulate(model, duration=20, record=["u.activation"], seed=seed)
-    folder.write(data, model.document, path, "zarr")
+    recording = dd.simulate(model, duration=20, record=["u.activation"], seed=seed)
+    folder.write(recording, model.document, path, "zarr")
     return path
 
 
@@ -33,13 +33,13 @@ def opened(news: list[str]) -> OpenRecord:
 def test_two_records_are_compared_until_one_is_closed(tmp_path: Path) -> None:
     async def scene() -> None:
         news: list[str] = []
-        r, other = opened(news), record(tmp_path / "two", 2)
+        r, recording = opened(news), record(tmp_path / "two", 2)
         with pytest.raises(DocumentError, match="no record is open"):
-            await r.compare(other, lambda: None)
+            await r.compare(recording, lambda: None)
         r.open(RecordReader(record(tmp_path / "one", 1)), (None, ""))
         ended = asyncio.Event()
         loop = asyncio.get_running_loop()
-        await r.compare(other, lambda: (loop.call_soon_threadsafe(ended.set), None)[1])
+        await r.compare(recording, lambda: (loop.call_soon_threadsafe(ended.set), None)[1])
         while r.compared().progress < 1:
             await asyncio.wait_for(ended.wait(), 60)
             ended.clear()

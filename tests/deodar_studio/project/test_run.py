@@ -53,9 +53,9 @@ async def scene(problems: Callable[[Document], Sequence[Problem]] = lambda doc: 
 
 
 def model(tau: float = 20.0) -> dd.Model:
-    made = dd.Model("m")
-    made.add(dd.RateNode("u", tau=tau), id="0000000a")
-    return made
+    network = dd.Model("m")
+    network.add(dd.RateNode("u", tau=tau), id="0000000a")
+    return network
 
 
 def test_a_document_is_compiled_and_the_engine_continues_with_its_changes() -> None:
@@ -104,9 +104,9 @@ def test_what_was_compiled_for_a_document_that_was_closed_is_not_loaded() -> Non
         async with scene() as s:
             s.run.open(model())
             await s.run.close()
-            s.run.open(other := model(tau=50.0))
+            s.run.open(network := model(tau=50.0))
             await s.ready()
-            assert s.engine.session is not None and s.engine.session.document == other.document
+            assert s.engine.session is not None and s.engine.session.document == network.document
 
     asyncio.run(act())
 

@@ -34,7 +34,7 @@ def largest_difference(
     content = write(model, "file.json").content
     body = json.loads(content)["simulator"]
     plain = Sim(elements(content), body["deltaT"], body["tZero"])
-    data = dd.simulate(
+    record = dd.simulate(
         model,
         steps * body["deltaT"],
         record=[f"{dd.quote(f)}.{component}" for f in fields],
@@ -44,9 +44,9 @@ def largest_difference(
     for step in range(1, steps + 1):
         plain.step()
         for f in fields:
-            wanted = plain.out[f][component]
-            found = data[f"{f}.{component}"].isel(time=step).values
-            far = max(far, float(abs(found.reshape(wanted.shape) - wanted).max()))
-            moved = max(moved, float(np.ptp(wanted)))
+            expected = plain.out[f][component]
+            values = record[f"{f}.{component}"].isel(time=step).values
+            far = max(far, float(abs(values.reshape(expected.shape) - expected).max()))
+            moved = max(moved, float(np.ptp(expected)))
     assert moved > 0.1  # something happens
     return far

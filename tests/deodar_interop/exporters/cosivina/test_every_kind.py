@@ -50,9 +50,9 @@ def test_a_kind_is_written_or_left_out(kind: str) -> None:
     made = write(around(kind), "file.json")
     (line,) = (line for line in made.report.lines if (line.where, line.part) == ("example", "element"))
     assert line.what == kind and (line.verdict == "carried" or line.why)
-    again = read(made.content, "file.json")
-    assert problems(again.model.document) == []
-    labels = {e.path for e in again.model.document.entries}
+    reading = read(made.content, "file.json")
+    assert problems(reading.model.document) == []
+    labels = {e.path for e in reading.model.document.entries}
     assert ("example" in labels) == (line.verdict != "dropped")
-    fields = {line.where for line in again.report.losses if line.what == "NeuralField"}
+    fields = {line.where for line in reading.report.losses if line.what == "NeuralField"}
     assert not fields

@@ -42,9 +42,9 @@ def test_a_parameter_that_cosivina_does_not_have_is_reported(element, parameter,
     m = model_of(element)
     if isinstance(element, dd.MemoryTrace):
         m.add(dd.Boost("b", [X])) >> m["u"]
-    found = lost(m)
-    assert ("u", "parameter", parameter, verdict) in found
-    assert ("u", "element", type(element).__name__, "approximated") in found
+    losses = lost(m)
+    assert ("u", "parameter", parameter, verdict) in losses
+    assert ("u", "element", type(element).__name__, "approximated") in losses
     assert "u" in [label for label, *_ in elements(write(m, "file.json").content)]
 
 
@@ -79,9 +79,9 @@ def test_an_element_that_cosivina_does_not_have_is_left_out_with_its_connections
     if element.ports():
         u >> e
     e >> v
-    found = lost(m)
-    assert ("e", "element", type(element).__name__, "dropped") in found
-    assert ("v", "connection", "e", "dropped") in found
+    losses = lost(m)
+    assert ("e", "element", type(element).__name__, "dropped") in losses
+    assert ("v", "connection", "e", "dropped") in losses
     assert [label for label, *_ in elements(write(m, "file.json").content)] == ["u", "v"]
 
 
@@ -93,11 +93,11 @@ def test_groups_shared_parameters_rates_and_units_are_reported():
     m.parameter("rest", -4.0)
     m.link("inside.u.resting_level", "rest")
     m.add(dd.Field("slow", [X]), ticks=4)
-    found = lost(m)
-    assert ("inside", "group", "inside", "dropped") in found
-    assert ("", "file", "time_unit", "dropped") in found
-    assert ("rest", "parameter", "rest", "dropped") in found
-    assert ("slow", "element", "Field", "approximated") in found
+    losses = lost(m)
+    assert ("inside", "group", "inside", "dropped") in losses
+    assert ("", "file", "time_unit", "dropped") in losses
+    assert ("rest", "parameter", "rest", "dropped") in losses
+    assert ("slow", "element", "Field", "approximated") in losses
     assert [label for label, *_ in elements(write(m, "f").content)] == ["inside.u", "slow"]
 
 
@@ -143,17 +143,17 @@ def test_connections_into_one_input_are_added_up_before_it():
     k = m.add(dd.Convolve([dd.Gaussian(1, 2)], name="k"))
     for source in (u, v, n):
         source >> k
-    found = {label: (kind, inputs) for label, kind, _, inputs in elements(write(m, "f").content)}
-    assert found["k"][1] == [("inputs of k", "output")]
-    assert found["inputs of k"][0] == "SumInputs" and len(found["inputs of k"][1]) == 3
+    losses = {label: (kind, inputs) for label, kind, _, inputs in elements(write(m, "f").content)}
+    assert losses["k"][1] == [("inputs of k", "output")]
+    assert losses["inputs of k"][0] == "SumInputs" and len(losses["inputs of k"][1]) == 3
 
 
 def test_the_gaussians_of_a_field_are_written_without_its_other_kernels():
     plane = [X, dd.Axis("y", 0, 9, samples=10)]
     m = model_of(dd.Field("u", plane, kernel=[dd.Gaussian(1, 2), dd.Box(1, 3)], global_inhibition=0.1))
-    found = {label: (kind, inputs) for label, kind, _, inputs in elements(write(m, "f").content)}
-    assert found["u -> u"] == ("LateralInteractions2D", [("u", "output")])
-    assert found["u"] == ("NeuralField", [("u -> u", "output")])
+    losses = {label: (kind, inputs) for label, kind, _, inputs in elements(write(m, "f").content)}
+    assert losses["u -> u"] == ("LateralInteractions2D", [("u", "output")])
+    assert losses["u"] == ("NeuralField", [("u -> u", "output")])
     assert ("u", "parameter", "kernel", "dropped") in lost(m)
 
 

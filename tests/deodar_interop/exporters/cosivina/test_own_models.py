@@ -137,8 +137,8 @@ MODELS = [selection, memory, broad, coupled, node, planes, couplings, later]
 @pytest.mark.parametrize("make", MODELS)
 def test_the_exported_file_gives_the_trajectory(make):
     model, fields = make()
-    made = write(model, "file.json")
-    assert made.report.faithful and read(made.content, "file.json").report.faithful
+    exported = write(model, "file.json")
+    assert exported.report.faithful and read(exported.content, "file.json").report.faithful
     assert largest_difference(model, fields, 80) < 1e-9
 
 
@@ -157,8 +157,8 @@ def test_a_threshold_moves_the_resting_level_and_the_output_is_the_same():
     u = m.add(dd.Field("u", [RING], sigmoid=dd.Logistic(3, threshold=0.5), kernel=[dd.Gaussian(2, 3)]))
     m.add(dd.GaussianStimulus("s", [RING], center=20, sigma=4, amplitude=9)) >> u
     assert largest_difference(m, ["u"], 60, "output") < 1e-9
-    made = write(m, "file.json")
-    (line,) = (line for line in made.report.lines if line.what == "resting_level")
+    exported = write(m, "file.json")
+    (line,) = (line for line in exported.report.lines if line.what == "resting_level")
     assert line.verdict == "carried" and "-5.5" in line.why
 
 
@@ -180,22 +180,22 @@ def test_noise_has_the_same_strength_and_correlation(length):
     m.add(dd.Field("u", [x], tau=10, noise=3, noise_length=length))
     v = m.add(dd.Field("v", [x], tau=10))
     m.add(dd.Noise("n", [x], 3, length)) >> v
-    made = write(m, "file.json")
-    assert made.report.faithful
+    exported = write(m, "file.json")
+    assert exported.report.faithful
     plain = Sim(
         [
             (a, "CustomStimulus", _drawn(p), i) if k == "NormalNoise" else (a, k, p, i)
-            for a, k, p, i in elements(made.content)
+            for a, k, p, i in elements(exported.content)
         ],
         2.0,
     )
     plain.step()
     ours = dd.simulate(m, 2, every=2, record=["n.output"], precision="float64")["n.output"].values[-1]
     strength = 3 / np.sqrt(2.0) / (1 if length else np.sqrt(0.5))
-    for found in (ours, plain.out["noise u"]["output"][0], plain.out["n"]["output"][0]):
-        assert found.std() == pytest.approx(strength, rel=0.2)
-        near = np.corrcoef(found[:-4], found[4:])[0, 1]
-        assert near == pytest.approx(np.exp(-0.5 * (2 / length) ** 2) if length else 0, abs=0.1)
+    for noise in (ours, plain.out["noise u"]["output"][0], plain.out["n"]["output"][0]):
+        assert noise.std() == pytest.approx(strength, rel=0.2)
+        correlation = np.corrcoef(noise[:-4], noise[4:])[0, 1]
+        assert correlation == pytest.approx(np.exp(-0.5 * (2 / length) ** 2) if length else 0, abs=0.1)
 
 
 def _drawn(p):
@@ -210,14 +210,16 @@ def test_a_gaussian_that_wraps_around_its_ring_is_exact_approximated_or_a_matrix
     kernel = [dd.Gaussian(20, 4, normalized=True), dd.Gaussian(-15, sigma, normalized=True)]
     u = m.add(dd.Field("u", [RING], kernel=kernel))
     m.add(dd.GaussianStimulus("cue", [RING], center=25, sigma=5, amplitude=8)) >> u
-    made = write(m, "file.json")
-    kinds = [kind for _, kind, _, _ in elements(made.content) if "Neural" not in kind and "Stim" not in kind]
+    exported = write(m, "file.json")
+    kinds = [
+        kind for _, kind, _, _ in elements(exported.content) if "Neural" not in kind and "Stim" not in kind
+    ]
     assert (
         kinds
         == {6: ["MexicanHatKernel1D"], 10: ["MexicanHatKernel1D"], 20: ["GaussKernel1D", "WeightMatrix"]}[
             sigma
         ]
     )
-    assert made.report.faithful == (sigma != 10)
-    found = largest_difference(m, ["u"], 60)
-    assert found < far and (sigma != 10 or found > 1e-9)
+    assert exported.report.faithful == (sigma != 10)
+    difference = largest_difference(m, ["u"], 60)
+    assert difference < far and (sigma != 10 or difference > 1e-9)

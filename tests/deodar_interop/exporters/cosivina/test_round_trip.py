@@ -153,8 +153,8 @@ def plain(document: Document) -> Document:
 def again(content: bytes) -> tuple[Document, Document, Any]:
     """Return the document of a file, that of its export, and the report of the export."""
     first = read(content, "file.json").model
-    made = write(first, "file.json")
-    return plain(first.document), plain(read(made.content, "file.json").model.document), made
+    written = write(first, "file.json")
+    return plain(first.document), plain(read(written.content, "file.json").model.document), written
 
 
 def content(parts: list[Any], dt: float = 1, t0: float = 0) -> bytes:
@@ -163,8 +163,8 @@ def content(parts: list[Any], dt: float = 1, t0: float = 0) -> bytes:
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
 def test_a_published_file_is_the_same_after_import_export_and_import(path):
-    before, after, made = again(path.read_bytes())
-    assert after == before and made.report.faithful
+    before, after, written = again(path.read_bytes())
+    assert after == before and written.report.faithful
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
@@ -179,17 +179,17 @@ def test_the_order_classes_and_inputs_of_a_published_file_are_kept(path):
     ("seed", "dt", "t0"), [("", 1, 0), ("reversed", 1, 0), ("mixed", 0.5, 2), ("more", 0.1, 0.3)]
 )
 def test_every_class_is_the_same_in_any_order(seed, dt, t0):
-    before, after, made = again(content(test_classes.everything(seed), dt, t0))
-    assert after == before and made.report.faithful
+    before, after, written = again(content(test_classes.everything(seed), dt, t0))
+    assert after == before and written.report.faithful
 
 
 @pytest.mark.parametrize(("seed", "dt", "t0"), [(0, 1, 0), (1, 1, 0), (2, 0.1, 0.3)])
 def test_further_classes_are_the_same_in_any_order(seed, dt, t0):
     parts = [*SOURCES, *((name, *case) for name, case in FURTHER.items())]
     random.Random(seed).shuffle(parts)
-    before, after, made = again(content(parts, dt, t0))
+    before, after, written = again(content(parts, dt, t0))
     assert after == before
-    assert {line.where for line in made.report.losses} == {"past that is read", "association", "rewarded"}
+    assert {line.where for line in written.report.losses} == {"past that is read", "association", "rewarded"}
 
 
 def test_the_cases_cover_every_class_of_the_importer():
@@ -199,8 +199,8 @@ def test_the_cases_cover_every_class_of_the_importer():
 
 @pytest.mark.parametrize("seed", range(1, 13))
 def test_a_random_model_with_loops_is_the_same(seed):
-    before, after, made = again(content(test_random_models.model(seed, 50)))
-    assert after == before and made.report.faithful
+    before, after, written = again(content(test_random_models.model(seed, 50)))
+    assert after == before and written.report.faithful
 
 
 def test_a_change_of_the_model_is_in_the_export():

@@ -86,10 +86,10 @@ def run(content, steps, dt, slots=None):
     parts, model = translated(content)
     known = {slot: at for slot, at in ports(parts).items() if slots is None or slot in slots}
     record = sorted({port for port, _ in known.values()})
-    data = dd.simulate(model, steps * dt, dt=dt, record=record, every=dt, precision="float64", seed=0)
+    recording = dd.simulate(model, steps * dt, dt=dt, record=record, every=dt, precision="float64", seed=0)
     out = {}
     for slot, (port, late) in known.items():
-        values = data[port].values
+        values = recording[port].values
         if late:
             values = np.concatenate([np.full_like(values[:1], np.nan), values[:-1]])
         out[slot] = values

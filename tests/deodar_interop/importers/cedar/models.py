@@ -141,27 +141,27 @@ def written(value: Any) -> str:
     return json.dumps(str(value)).replace("/", "\\/")
 
 
-def sigmoid(kind: str = "ExpSigmoid", **more: Any) -> dict[str, Any]:
+def sigmoid(kind: str = "ExpSigmoid", **options: Any) -> dict[str, Any]:
     """Return a transfer function."""
-    return {"type": f"cedar.aux.math.{kind}", **more}
+    return {"type": f"cedar.aux.math.{kind}", **options}
 
 
-def gauss(amplitude: float, sigmas: list[float], **more: Any) -> tuple[str, dict[str, Any]]:
+def gauss(amplitude: float, sigmas: list[float], **options: Any) -> tuple[str, dict[str, Any]]:
     """Return a kernel of a list."""
     d = len(sigmas)
-    given = {"dimensionality": d, "anchor": [0] * d, "amplitude": amplitude, "sigmas": sigmas}
-    return "cedar.aux.kernel.Gauss", {**given, "normalize": True, "shifts": [0] * d, "limit": 5, **more}
+    settings = {"dimensionality": d, "anchor": [0] * d, "amplitude": amplitude, "sigmas": sigmas}
+    return "cedar.aux.kernel.Gauss", {**settings, "normalize": True, "shifts": [0] * d, "limit": 5, **options}
 
 
-def box(amplitude: float, widths: list[int], **more: Any) -> tuple[str, dict[str, Any]]:
+def box(amplitude: float, widths: list[int], **options: Any) -> tuple[str, dict[str, Any]]:
     """Return a kernel of a list."""
-    given = {"dimensionality": len(widths), "anchor": [0] * len(widths), "amplitude": amplitude}
-    return "cedar.aux.kernel.Box", {**given, "widths": widths, **more}
+    settings = {"dimensionality": len(widths), "anchor": [0] * len(widths), "amplitude": amplitude}
+    return "cedar.aux.kernel.Box", {**settings, "widths": widths, **options}
 
 
-def border(kind: str = "Zero", engine: str = "OpenCV", **more: Any) -> dict[str, Any]:
+def border(kind: str = "Zero", engine: str = "OpenCV", **options: Any) -> dict[str, Any]:
     """Return how kernels are applied."""
-    return {"borderType": kind, "mode": "Same", "engine": {"type": f"cedar.aux.conv.{engine}"}, **more}
+    return {"borderType": kind, "mode": "Same", "engine": {"type": f"cedar.aux.conv.{engine}"}, **options}
 
 
 @dataclass
@@ -185,9 +185,9 @@ class Model:
         self.place[name] = group
         return name
 
-    def field(self, name: str, sizes: tuple[int, ...], **more: Any) -> str:
+    def field(self, name: str, sizes: tuple[int, ...], **options: Any) -> str:
         """Add a field; underscores in the names of parameters stand for spaces."""
-        given = {key.replace("_", " "): value for key, value in more.items()}
+        given = {key.replace("_", " "): value for key, value in options.items()}
         defaults: dict[str, Any] = {
             "activation as output": False,
             "dimensionality": len(sizes),
@@ -355,8 +355,8 @@ def _stimulus(rng: random.Random, m: Model, name: str, sizes: tuple[int, ...]) -
         return f"{own}.box input"
     centers = [round(rng.uniform(0, n - 1), 1) for n in sizes]
     sigmas = [round(rng.uniform(1, 3), 1) for _ in sizes]
-    more = {"centers": centers, "sigma": sigmas, "cyclic": rng.random() < 0.5}
-    m.add("GaussInput", own, {**shape, **more})
+    settings = {"centers": centers, "sigma": sigmas, "cyclic": rng.random() < 0.5}
+    m.add("GaussInput", own, {**shape, **settings})
     return f"{own}.Gauss input"
 
 
@@ -380,9 +380,9 @@ def _coupling(rng: random.Random, m: Model, name: str, a: Any, b: Any) -> None:
     convolved = from_sizes and len(from_sizes) < 3 and rng.random() < 0.4
     if convolved:
         sigmas = [round(rng.uniform(0.6, 1.6), 2) for _ in from_sizes]
-        more = {"kernels": Many([gauss(1.5, sigmas)])}
-        more["convolution"] = border(rng.choice(("Zero", "Cyclic", "Replicate", "Reflect")))
-        m.wire(end, f"{m.add('Convolution', f'{name} convolution', more)}.matrix")
+        settings = {"kernels": Many([gauss(1.5, sigmas)])}
+        settings["convolution"] = border(rng.choice(("Zero", "Cyclic", "Replicate", "Reflect")))
+        m.wire(end, f"{m.add('Convolution', f'{name} convolution', settings)}.matrix")
         end = f"{name} convolution.result"
     if len(from_sizes) != len(to_sizes):
         end, cells = _projection(rng, m, name, end, from_sizes, to_sizes)
@@ -417,8 +417,12 @@ def _projection(rng: random.Random, m: Model, name: str, end: str, a: Any, b: An
     if across and len(a) == 1:
         m.wire(end, f"{m.add('Resize', f'{name} resize', {'output size': [b[1]], **resized})}.input")
         end = f"{name} resize.output"
-    more = {"dimension mapping": mapping, "output dimensionality": len(b), "output dimension sizes": list(b)}
-    m.add("Projection", f"{name} projection", {**more, "compression type": way})
+    settings = {
+        "dimension mapping": mapping,
+        "output dimensionality": len(b),
+        "output dimension sizes": list(b),
+    }
+    m.add("Projection", f"{name} projection", {**settings, "compression type": way})
     m.wire(end, f"{name} projection.input")
     end = f"{name} projection.output"
     if across and len(a) == 2:
@@ -432,12 +436,14 @@ def _sum_of_two(rng: random.Random, m: Model, pair: tuple[str, str], target: str
     m.add("Sum", "sum of two")
     for name in pair:
         m.wire(_output(rng, m, name), "sum of two.terms")
-    sizes = {name: more["sizes"] for kind, name, more in m.steps if kind == "NeuralField"}
+    sizes = {name: settings["sizes"] for kind, name, settings in m.steps if kind == "NeuralField"}
     end = "sum of two.sum"
     if sizes[pair[0]] != sizes[target]:
         mapping = dict.fromkeys(range(len(sizes[pair[0]])), DROP)
-        more = {"dimension mapping": mapping, "output dimensionality": 0, "output dimension sizes": []}
-        m.wire(end, f"{m.add('Projection', 'mean of two', {**more, 'compression type': 'AVERAGE'})}.input")
+        settings = {"dimension mapping": mapping, "output dimensionality": 0, "output dimension sizes": []}
+        m.wire(
+            end, f"{m.add('Projection', 'mean of two', {**settings, 'compression type': 'AVERAGE'})}.input"
+        )
         end = "mean of two.output"
     m.wire(end, f"{m.add('StaticGain', 'gain of two', {'gain factor': 0.8})}.input")
     m.wire("gain of two.output", f"{target}.input")
@@ -462,7 +468,7 @@ def _triggers(rng: random.Random, names: list[str]) -> dict[str, list[str]] | No
 # ----------------------------------------------------------------------------- every type of step
 
 
-def between(kind: str, more: dict[str, Any], reads: dict[str, Any], puts: str, sizes: Any) -> str:
+def between(kind: str, settings: dict[str, Any], reads: dict[str, Any], puts: str, sizes: Any) -> str:
     """Return the text of a model in which a step stands between fields.
 
     Args:
@@ -474,11 +480,11 @@ def between(kind: str, more: dict[str, Any], reads: dict[str, Any], puts: str, s
     """
     m = Model()
     k = 0
-    m.add(kind, "step", more)
+    m.add(kind, "step", settings)
     for slot, given in reads.items():
         for own in given if isinstance(given, list) else [given]:
             end = f"{_driven(m, f'source {k}', own, k)}.{OUT}"
-            if kind == "SpaceToRateCode" or more.get("position type", "Maximum") != "Maximum":
+            if kind == "SpaceToRateCode" or settings.get("position type", "Maximum") != "Maximum":
                 end = _peaked(m, end)
             m.wire(end, f"step.{slot}")
             k += 1
@@ -515,18 +521,18 @@ def _peaked(m: Model, end: str) -> str:
 
 def every_type() -> dict[str, str]:
     """Return a tiny model for each supported type of step, by "type" or "type, variant"."""
-    line, plane, cube, one = (12,), (8, 7), (6, 5, 7), ()
+    line, plane, cube, node = (12,), (8, 7), (6, 5, 7), ()
     models: dict[str, str] = {}
 
     def put(kind: str, variant: str, more: Any, reads: Any, puts: str, sizes: Any) -> None:
         models[TYPES[kind] + (f", {variant}" if variant else "")] = between(kind, more, reads, puts, sizes)
 
-    _dynamics(put, line, plane, one)
-    _sources(put, line, plane, one)
-    _algebra(put, line, plane, one)
-    _arrays(put, line, plane, cube, one)
-    _programs(put, line, plane, one)
-    _synapses(put, line, plane, cube, one)
+    _dynamics(put, line, plane, node)
+    _sources(put, line, plane, node)
+    _algebra(put, line, plane, node)
+    _arrays(put, line, plane, cube, node)
+    _programs(put, line, plane, node)
+    _synapses(put, line, plane, cube, node)
     _rate_matrices(put, plane)
     models[TYPES["VariableBox"]] = _moved_box({"center at input": False})
     models[TYPES["VariableBox"] + ", centred"] = _moved_box({"center at input": True})
@@ -543,7 +549,7 @@ def every_type() -> dict[str, str]:
     return models
 
 
-def _synapses(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
+def _synapses(put: Any, line: Any, plane: Any, cube: Any, node: Any) -> None:
     """Add connections with all of their parts, each alone, and with point-wise weights."""
     inside = Many([gauss(1.3, [0.9], shifts=[1]), box(0.2, [4])])
     flat = Many([gauss(1, [1.4, 0.9]), box(-0.1, [3, 2])])
@@ -557,29 +563,19 @@ def _synapses(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
     off = {"projection": {**wide, "enabled": False}}
     for variant, more, source, target in (
         ("", {"convolution": {"kernels": inside}, **gain, **off}, line, line),
-        (
-            "several",
-            {"convolution": ring, **gain},
-            [one, line, line],
-            line,
-        ),
+        ("several", {"convolution": ring, **gain}, [node, line, line], line),
         ("plane", {"convolution": {**border("Reflect"), "kernels": flat}, **gain}, plane, plane),
         ("FFTW", {"convolution": {**border("Zero", "FFTW"), "kernels": flat}, **gain}, plane, plane),
         ("summed", {"convolution": {"kernels": flat}, "projection": summed}, plane, (7,)),
         ("largest", {"projection": {**summed, "compression type": "MAXIMUM"}}, [plane, plane], (7,)),
         ("expanded", {**gain, "projection": wide}, line, (5, 12)),
-        ("of numbers", {"convolution": {"kernels": Many([gauss(1.5, [3.0])])}, **gain}, [one, one], one),
+        ("of numbers", {"convolution": {"kernels": Many([gauss(1.5, [3.0])])}, **gain}, [node, node], node),
         ("of defaults", {}, line, line),
         ("weights", {"PointWiseWeight": {"kernels": inside}, **gain}, line, line),
-        (
-            "weights, moved",
-            {"PointWiseWeight": {"kernels": moved}},
-            line,
-            line,
-        ),
+        ("weights, moved", {"PointWiseWeight": {"kernels": moved}}, line, line),
         ("weights, plane", {"PointWiseWeight": {"kernels": flat}, "projection": summed}, plane, (7,)),
         ("weights, cube", {"PointWiseWeight": {"kernels": Many([gauss(2, [1.2, 2.5, 0.6])])}}, cube, cube),
-        ("weights, one", {"PointWiseWeight": {"kernels": Many([gauss(3, [1.0])])}, **gain}, one, one),
+        ("weights, one", {"PointWiseWeight": {"kernels": Many([gauss(3, [1.0])])}, **gain}, node, node),
         (
             "weights, all",
             {
@@ -588,7 +584,7 @@ def _synapses(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
                 **gain,
                 "projection": wide,
             },
-            [line, one],
+            [line, node],
             (5, 12),
         ),
     ):
@@ -598,20 +594,20 @@ def _synapses(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
 def _rate_matrices(put: Any, plane: Any) -> None:
     """Add codes of rates inside and beyond the limits, and of the largest of several bins."""
     for variant, low, high, bins in (("", 0.1, 0.9, 6), ("narrow", 0.3, 0.45, 4), ("falling", 0.8, 0.1, 3)):
-        given = {"number of bins": bins, "lower limit": low, "upper limit": high}
+        settings = {"number of bins": bins, "lower limit": low, "upper limit": high}
         reads = {"bin map": plane, "values": plane} if variant == "narrow" else {"bin map": plane}
-        put("RateMatrixToSpaceCode", variant, given, reads, "output", (*plane, bins))
+        put("RateMatrixToSpaceCode", variant, settings, reads, "output", (*plane, bins))
     limits = {"lower limit": -1, "upper limit": 2}
     put("SpaceCodeToRateMatrix", "", limits, {"input": (6, 5, 7)}, "output", (6, 5))
     put("SpaceCodeToRateMatrix", "falling", {"lower limit": 1}, {"input": (6, 1, 7)}, "output", (6,))
 
 
-def _moved_box(more: dict[str, Any]) -> str:
+def _moved_box(settings: dict[str, Any]) -> str:
     """Return a model of a box at a place that is a whole number, the count of active cells of a field."""
     m = Model()
     m.wire(f"{_driven(m, 'source', (12,), 0)}.{OUT}", f"{m.add('Count', 'count', {'threshold': 0.41})}.input")
     shape = {"dimensionality": 1, "sizes": [12], "amplitude": 2, "widths": [4], "reference level": 0.2}
-    m.wire("count.output", f"{m.add('VariableBox', 'step', {**shape, **more})}.left bounds")
+    m.wire("count.output", f"{m.add('VariableBox', 'step', {**shape, **settings})}.left bounds")
     m.field("target", (12,))
     m.wire("step.box", "target.input")
     return m.text()
@@ -620,12 +616,12 @@ def _moved_box(more: dict[str, Any]) -> str:
 def _bank(kind: str, count: int, given: bool) -> str:
     """Return a model of oscillators whose state is integrated, from a state at the start."""
     m = Model()
-    more = {"bank size": count, "bank omega": 3, "bank alpha": 2, "bank gamma": 0.5}
-    more |= {"bank stiffness": 9, "bank damping": 0.6, "force critically damped": given and count == 1}
+    settings = {"bank size": count, "bank omega": 3, "bank alpha": 2, "bank gamma": 0.5}
+    settings |= {"bank stiffness": 9, "bank damping": 0.6, "force critically damped": given and count == 1}
     start = ("ConstVector", {"number of vector entries": 2, "entries": [1, 0.5]}, "vector")
     if count > 1:
         start = ("ConstMatrix", {"sizes": [2, count], "value": 0.7}, "matrix")
-    m.add(kind, "step", more)
+    m.add(kind, "step", settings)
     m.add("NumericalIntegration", "state", {})
     m.wire(f"{m.add(start[0], 'start', start[1])}.{start[2]}", "state.initial state (optional)")
     m.wire("step.state change", "state.input")
@@ -662,10 +658,10 @@ def _bordered(shape: str, engine: str) -> str:
     return m.text()
 
 
-def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
+def _dynamics(put: Any, line: Any, plane: Any, node: Any) -> None:
     shape = {"dimensionality": 1, "sizes": list(line)}
     plain = {"time scale": 90, "resting level": -1, "sigmoid": sigmoid(beta=3), "lateral kernels": ""}
-    put("NeuralField", "", {**shape, **plain}, {"input": [line, one]}, OUT, line)
+    put("NeuralField", "", {**shape, **plain}, {"input": [line, node]}, OUT, line)
     shown = {**shape, **plain, "activation as output": True, "global inhibition": -0.02}
     put("NeuralField", "activation", shown, {"input": line}, "activation", line)
     for kind, more in (
@@ -684,11 +680,11 @@ def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
         )
     bent = {**shape, **plain, "resting level": -1, "global inhibition": -0.02}
     bent["sigmoid"] = sigmoid("SemiLinearTransferFunction", threshold=-0.6, beta=0.7)
-    for sizes in (line, plane, one):
+    for sizes in (line, plane, node):
         kernels = Many([gauss(0.6, [0.9] * max(len(sizes), 1)), box(-0.1, [3] * max(len(sizes), 1))])
-        own = {"dimensionality": len(sizes), "sizes": list(sizes), "lateral kernels": kernels}
+        fields = {"dimensionality": len(sizes), "sizes": list(sizes), "lateral kernels": kernels}
         variant = f"SemiLinearTransferFunction {len(sizes)}-D"
-        put("NeuralField", variant, {**bent, **own}, {"input": sizes}, OUT, sizes)
+        put("NeuralField", variant, {**bent, **fields}, {"input": sizes}, OUT, sizes)
     constant = {"sigmoid": sigmoid("LinearTransferFunction", factor=0, offset=0.4)}
     put("NeuralField", "constant output", {**bent, **constant}, {"input": line}, OUT, line)
     trace = {
@@ -698,14 +694,14 @@ def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
         "sigmoid": sigmoid(threshold=0.4, beta=6),
     }
     put("Preshape", "", trace, {"input": line}, "activation", line)
-    put("Preshape", "detector", trace, {"input": line, "peak detector": one}, "activation", line)
+    put("Preshape", "detector", trace, {"input": line, "peak detector": node}, "activation", line)
     for variant, more in (
         ("", {}),
         ("jump", {"jump to fixed point": True}),
         ("cyclic", {"use cyclic mean": True}),
     ):
-        given = {"tau": "400 ms", "lowerLimit": -1, "upperLimit": 2, **more}
-        put("SpaceToRateCode", variant, given, {"input": line}, "output", one)
+        settings = {"tau": "400 ms", "lowerLimit": -1, "upperLimit": 2, **more}
+        put("SpaceToRateCode", variant, settings, {"input": line}, "output", node)
     blob = {
         "output sizes": list(line),
         "amplitude": 2,
@@ -713,8 +709,8 @@ def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
         "upper limits": [1],
         "sigma": [2],
     }
-    put("RateToSpaceCode", "", {**blob, "cyclic": False}, {"input": one}, "output", line)
-    put("RateToSpaceCode", "cyclic", {**blob, "cyclic": True}, {"input": one}, "output", line)
+    put("RateToSpaceCode", "", {**blob, "cyclic": False}, {"input": node}, "output", line)
+    put("RateToSpaceCode", "cyclic", {**blob, "cyclic": True}, {"input": node}, "output", line)
     put(
         "HarmonicOscillator",
         "",
@@ -724,27 +720,27 @@ def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
         (2,),
     )
     order = {"number of ordinal positions": 3, "tau": 100, "sigmoid": sigmoid(beta=2)}
-    put("SerialOrder", "", order, {"CoS signal input": one}, "ordinal node 1 output", one)
+    put("SerialOrder", "", order, {"CoS signal input": node}, "ordinal node 1 output", node)
     put(
         "SerialOrder",
         "cyclic",
         {**order, "cyclic": True},
-        {"CoS signal input": one},
+        {"CoS signal input": node},
         "ordinal node 2 output",
-        one,
+        node,
     )
     soft = {"ordinal resting level": -1, "ordinal self excitation": 3, "ordinal global inhibition": -2}
     soft |= {"memory resting level": -0.5, "memory to next ordinal": 2, "memory to same ordinal": -1}
     soft |= {"ordinal to prev memory": -1, "ordinal to same memory": 2, "memory self excitation": 2}
     for cyclic in (False, True):
-        given = {**order, **soft, "number of ordinal positions": 4, "cyclic": cyclic}
+        settings = {**order, **soft, "number of ordinal positions": 4, "cyclic": cyclic}
         puts = "ordinal node 2 output"
-        put("SerialOrder", f"soft {cyclic}", given, {"CoS signal input": one}, puts, one)
-    put("SerialOrder", "no signal", {**order, **soft}, {}, "ordinal node 0 output", one)
-    _learning(put, line, plane, one)
+        put("SerialOrder", f"soft {cyclic}", settings, {"CoS signal input": node}, puts, node)
+    put("SerialOrder", "no signal", {**order, **soft}, {}, "ordinal node 0 output", node)
+    _learning(put, line, plane, node)
 
 
-def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
+def _learning(put: Any, line: Any, plane: Any, node: Any) -> None:
     soft = {
         "f (source sigmoid)": sigmoid(threshold=0.4, beta=3),
         "g (reward sigmoid)": sigmoid(threshold=0.4, beta=3),
@@ -761,21 +757,26 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
     sharp = {"g (reward sigmoid)": sigmoid("HeavisideSigmoid", threshold=0.5)}
     short = {"fixed reward duration": True, "reward duration": 50, **sharp}
     for variant, source, target, more in (
-        ("", one, line, {}),
-        ("0-D target", line, one, {}),
-        ("0-D target one time scale", plane, one, {"time scale": 50}),
+        ("", node, line, {}),
+        ("0-D target", line, node, {}),
+        ("0-D target one time scale", plane, node, {"time scale": 50}),
         ("lines", line, (9,), sharp),
         ("lines one time scale", line, (9,), {**sharp, "time scale": 30}),
         ("lines two time scales", (9,), line, {**sharp, **times}),
         ("lines of one length", line, line, {**short, "weight init value": 0.1, "weight init noise": 0.1}),
-        ("0-D to 2-D", one, plane, {}),
-        ("one time scale", one, line, {"time scale": 50}),
-        ("two time scales", one, line, times),
-        ("manual weights", one, (24,), {"weight centers": [12], "weight sigmas": [2], "weight amplitude": 2}),
-        ("a jump of the source", one, line, {"f (source sigmoid)": bent}),
-        ("reward duration", one, line, short),
-        ("short reward duration", one, line, {**short, "reward duration": 8}),
-        ("uneven reward duration", one, line, {**short, "reward duration": 55}),
+        ("0-D to 2-D", node, plane, {}),
+        ("one time scale", node, line, {"time scale": 50}),
+        ("two time scales", node, line, times),
+        (
+            "manual weights",
+            node,
+            (24,),
+            {"weight centers": [12], "weight sigmas": [2], "weight amplitude": 2},
+        ),
+        ("a jump of the source", node, line, {"f (source sigmoid)": bent}),
+        ("reward duration", node, line, short),
+        ("short reward duration", node, line, {**short, "reward duration": 8}),
+        ("uneven reward duration", node, line, {**short, "reward duration": 55}),
     ):
         given = {
             **rule,
@@ -787,7 +788,7 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
             "manual weights": variant == "manual weights",
             **more,
         }
-        reads = {"source node": source, "target field": target, "reward signal": one}
+        reads = {"source node": source, "target field": target, "reward signal": node}
         put("HebbianConnection", variant, given, reads, "learned output", target)
         if variant == "lines":
             given |= {"weight init value": 0.2, "weight init noise": 0.2}
@@ -795,7 +796,7 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
             put("HebbianConnection", "no reward", given, reads, "learned output", target)
 
 
-def _sources(put: Any, line: Any, plane: Any, one: Any) -> None:
+def _sources(put: Any, line: Any, plane: Any, node: Any) -> None:
     flat = {"dimensionality": 2, "sizes": list(plane), "amplitude": 2}
     put("GaussInput", "", {**flat, "centers": [2.4, 3], "sigma": [2, 1.5]}, {}, "Gauss input", plane)
     ring = {"dimensionality": 1, "sizes": list(line), "amplitude": 2, "centers": [1.2], "sigma": [2]}
@@ -810,17 +811,17 @@ def _sources(put: Any, line: Any, plane: Any, one: Any) -> None:
     ray = {"size x": 8, "size y": 7, "mu th": 0.3, "sigma th hor": 0.5, "mu r": 1, "sigma r": 0.6}
     put("SpatialTemplate", "", ray, {}, "spatial pattern", plane)
     wave = {"period": 0.23, "amplitude": 2, "phase shift": 0.003, "vertical offset": 0.5}
-    put("SinusSignal", "", wave, {}, "signal", one)
-    put("SinusSignal", "cosine", {**wave, "make cos": True}, {}, "signal", one)
-    put("StepSignal", "", wave, {}, "signal", one)
+    put("SinusSignal", "", wave, {}, "signal", node)
+    put("SinusSignal", "cosine", {**wave, "make cos": True}, {}, "signal", node)
+    put("StepSignal", "", wave, {}, "signal", node)
 
 
-def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
+def _algebra(put: Any, line: Any, plane: Any, node: Any) -> None:
     put("StaticGain", "", {"gain factor": -1.5}, {"input": line}, "output", line)
     put("AddConstant", "", {"constant": 0.6}, {"input": plane}, "output", plane)
-    put("Sum", "", {}, {"terms": [line, one, line]}, "sum", line)
+    put("Sum", "", {}, {"terms": [line, node, line]}, "sum", line)
     put("SubtractElementwise", "", {}, {"minuend": line, "subtrahend": line}, "result", line)
-    put("ComponentMultiply", "", {}, {"operands": [plane, plane, one]}, "product", plane)
+    put("ComponentMultiply", "", {}, {"operands": [plane, plane, node]}, "product", plane)
     ends = {
         "input lower bound": -1,
         "input upper bound": 1,
@@ -830,8 +831,8 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("ConvertToValueRange", "", ends, {"input": line}, "converted output", line)
     put("AbsoluteValue", "", {}, {"input": line}, "absolute value", line)
     put("DivideElementwise", "", {}, {"divisor": line, "dividend": line}, "result", line)
-    put("ScalarDivision", "", {}, {"divisor": one, "matrix": line}, "result", line)
-    put("InnerProduct", "", {}, {"input": line, "input 2": line}, "output", one)
+    put("ScalarDivision", "", {}, {"divisor": node, "matrix": line}, "result", line)
+    put("InnerProduct", "", {}, {"input": line, "input 2": line}, "output", node)
     put("OuterProduct", "", {}, {"input": (8,), "input 2": (7,)}, "output", plane)
     put("CrossProduct", "", {}, {"input": (3,), "input 2": (3,)}, "output", (3,))
     pair = {"operand1": (4, 6), "operand2": (6, 5)}
@@ -841,8 +842,8 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     for variant, first, second, target in (
         ("by a vector", (4, 6), (6,), (4,)),
         ("of a vector", (6,), (6, 5), (5,)),
-        ("of two vectors", (6,), (6,), one),
-        ("a column by a number", (6,), one, (6,)),
+        ("of two vectors", (6,), (6,), node),
+        ("a column by a number", (6,), node, (6,)),
         ("of equal sizes", (5, 5), (5, 5), (5, 5)),
     ):
         turned = {"transposeOperand1": variant.startswith("of")}
@@ -854,24 +855,24 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
         ("of a vector", (5,), (5,)),
     ):
         put("PseudoInverse", variant, {}, {"matrix": source}, "inverted", target)
-    put("PseudoInverse", "of a number", {}, {"matrix": one}, "inverted", one)
+    put("PseudoInverse", "of a number", {}, {"matrix": node}, "inverted", node)
     put("Nullspace", "", {}, {"jacobian": (3, 5)}, "nullspace", (5, 5))
     for variant, shown in (("of a vector", "projected vector"), ("without it", "orthogonal vector")):
         put("Nullspace", variant, {}, {"jacobian": (2, 4), "vector": (4,)}, shown, (4,))
     put("Maximum", "", {}, {"terms": [line, line, line]}, "maximum", line)
     put("Minimum", "", {}, {"terms": [line, line]}, "minimum", line)
-    put("Norm", "", {}, {"input": plane}, "output", one)
+    put("Norm", "", {}, {"input": plane}, "output", node)
     for kind in ("None", "InfinityNorm", "L1Norm", "L2Norm"):
         variant = "" if kind == "L2Norm" else kind
-        given = {"normalization type": kind, "normalized dimensions": [True]}
-        put("Normalization", variant, given, {"input": line}, "normalized input", line)
+        settings = {"normalization type": kind, "normalized dimensions": [True]}
+        put("Normalization", variant, settings, {"input": line}, "normalized input", line)
     put("RemoveMean", "", {}, {"matrix": plane}, "mean-free matrix", plane)
     put("LinearFunction", "", {"slope": 2, "horizontal shift": 0.3}, {"input": line}, "result", line)
     put("Logarithm", "", {"base": 2}, {"input": line}, "result", line)
-    put("Logarithm", "base", {}, {"input": line, "base (optional)": one}, "result", line)
-    put("Sinus", "", {"amplitude": 2, "phase shift": 0.4}, {"input": one}, "result", one)
-    shifted = {"input": one, "phase shift (optional)": one}
-    put("Sinus", "cosine", {"amplitude": 2, "make cos": True}, shifted, "result", one)
+    put("Logarithm", "base", {}, {"input": line, "base (optional)": node}, "result", line)
+    put("Sinus", "", {"amplitude": 2, "phase shift": 0.4}, {"input": node}, "result", node)
+    shifted = {"input": node, "phase shift (optional)": node}
+    put("Sinus", "cosine", {"amplitude": 2, "make cos": True}, shifted, "result", node)
     function = {"function": sigmoid(threshold=0.3, beta=4)}
     put("TransferFunction", "", function, {"input": line}, "sigmoided output", line)
     for variant, more in (
@@ -879,19 +880,19 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
         ("Logarithm", {}),
         ("LinearTransferFunction", {"factor": 0, "offset": 0.3}),
     ):
-        given = {"function": sigmoid(variant, **more)}
-        put("TransferFunction", variant, given, {"input": line}, "sigmoided output", line)
+        settings = {"function": sigmoid(variant, **more)}
+        put("TransferFunction", variant, settings, {"input": line}, "sigmoided output", line)
     put("Transpose", "", {}, {"matrix": (7, 8)}, "transposed", plane)
     _convolutions(put, line, plane)
-    _projections(put, one)
+    _projections(put, node)
 
 
 def _convolutions(put: Any, line: Any, plane: Any) -> None:
     both = Many([gauss(1, [1.5], shifts=[2]), box(0.4, [4])])
     for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
         variant = "" if shape == "Zero" else shape
-        given = {"kernels": both, "convolution": border(shape)}
-        put("Convolution", variant, given, {"matrix": line}, "result", line)
+        settings = {"kernels": both, "convolution": border(shape)}
+        put("Convolution", variant, settings, {"matrix": line}, "result", line)
         flat = {"kernels": Many([gauss(1, [0.9, 1.3])]), "convolution": border(shape)}
         put("Convolution", f"2-D {shape}", flat, {"matrix": plane}, "result", plane)
     put(
@@ -904,20 +905,22 @@ def _convolutions(put: Any, line: Any, plane: Any) -> None:
     )
     put("Convolution", "copy", {"kernels": "", "convolution": border()}, {"matrix": line}, "result", line)
     for alternate in (False, True):
-        given = {"kernels": "", "convolution": border(**{"alternate even kernel center": alternate})}
+        settings = {"kernels": "", "convolution": border(**{"alternate even kernel center": alternate})}
         variant = f"kernel input {alternate}"
-        put("Convolution", variant, given, {"matrix": line, "kernel": (6,)}, "result", line)
+        put("Convolution", variant, settings, {"matrix": line, "kernel": (6,)}, "result", line)
     for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
-        given = {"kernels": both, "convolution": border(shape)}
-        put("Convolution", f"kernel input {shape}", given, {"matrix": line, "kernel": (5,)}, "result", line)
+        settings = {"kernels": both, "convolution": border(shape)}
+        put(
+            "Convolution", f"kernel input {shape}", settings, {"matrix": line, "kernel": (5,)}, "result", line
+        )
         flat = {"matrix": plane, "kernel": (3, 4)}
-        put("Convolution", f"kernel input 2-D {shape}", given, flat, "result", plane)
-    given = {"kernels": "", "convolution": border("Zero", "FFTW")}
-    put("Convolution", "kernel input FFTW", given, {"matrix": line, "kernel": (4,)}, "result", line)
-    put("Convolution", "kernel input 0-D", given, {"matrix": line, "kernel": ()}, "result", line)
+        put("Convolution", f"kernel input 2-D {shape}", settings, flat, "result", plane)
+    settings = {"kernels": "", "convolution": border("Zero", "FFTW")}
+    put("Convolution", "kernel input FFTW", settings, {"matrix": line, "kernel": (4,)}, "result", line)
+    put("Convolution", "kernel input 0-D", settings, {"matrix": line, "kernel": ()}, "result", line)
 
 
-def _projections(put: Any, one: Any) -> None:
+def _projections(put: Any, node: Any) -> None:
     for source, target, mapping in (
         ((9,), (9, 5), {0: 0}),
         ((9,), (5, 9), {0: 1}),
@@ -926,26 +929,26 @@ def _projections(put: Any, one: Any) -> None:
         ((8, 10), (10, 12, 8), {0: 2, 1: 0}),
         ((8, 10), (5, 8, 10), {0: 1, 1: 2}),
         ((6, 7, 8), (8, 6, 7), {0: 1, 1: 2, 2: 0}),
-        (one, (4, 5), {}),
+        (node, (4, 5), {}),
     ):
-        given = {"dimension mapping": mapping, "output dimensionality": len(target)}
-        given |= {"output dimension sizes": list(target), "compression type": "SUM"}
-        put("Projection", f"{source} to {target}", given, {"input": source}, "output", target)
+        settings = {"dimension mapping": mapping, "output dimensionality": len(target)}
+        settings |= {"output dimension sizes": list(target), "compression type": "SUM"}
+        put("Projection", f"{source} to {target}", settings, {"input": source}, "output", target)
     for way in ("SUM", "AVERAGE", "MAXIMUM", "MINIMUM"):
         for source, target, mapping in (
-            ((9,), one, {0: DROP}),
+            ((9,), node, {0: DROP}),
             ((8, 10), (10,), {0: DROP, 1: 0}),
             ((6, 7, 8), (8, 6), {0: 1, 1: DROP, 2: 0}),
             ((6, 7, 8), (7,), {0: DROP, 1: 0, 2: DROP}),
-            ((6, 7, 8), one, {0: DROP, 1: DROP, 2: DROP}),
+            ((6, 7, 8), node, {0: DROP, 1: DROP, 2: DROP}),
         ):
-            given = {"dimension mapping": mapping, "output dimensionality": len(target)}
-            given |= {"output dimension sizes": list(target), "compression type": way}
+            settings = {"dimension mapping": mapping, "output dimensionality": len(target)}
+            settings |= {"output dimension sizes": list(target), "compression type": way}
             variant = "" if (way, target) == ("SUM", (10,)) else f"{way} {source} to {target}"
-            put("Projection", variant, given, {"input": source}, "output", target)
+            put("Projection", variant, settings, {"input": source}, "output", target)
 
 
-def _arrays(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
+def _arrays(put: Any, line: Any, plane: Any, cube: Any, node: Any) -> None:
     put("Resize", "", {"output size": [17], "interpolation": "LINEAR"}, {"input": line}, "output", (17,))
     put(
         "Resize", "NEAREST", {"output size": [7], "interpolation": "NEAREST"}, {"input": line}, "output", (7,)
@@ -984,30 +987,30 @@ def _arrays(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
     put("Mask", "", {}, {"input": line, "mask": line}, "masked", line)
     counted = {"bins": 6, "range lower": 0.1, "range upper": 0.9}
     for kind in ("None", "ImageSize", "Maximum"):
-        given = {**counted, "normalization type": kind}
-        put("Histogram", "" if kind == "None" else kind, given, {"input": plane}, "histogram", (6,))
+        settings = {**counted, "normalization type": kind}
+        put("Histogram", "" if kind == "None" else kind, settings, {"input": plane}, "histogram", (6,))
     put("Histogram", "mask", counted, {"input": line, "mask": line}, "histogram", (6,))
-    put("Histogram", "one bin", {**counted, "bins": 1}, {"input": cube}, "histogram", one)
+    put("Histogram", "one bin", {**counted, "bins": 1}, {"input": cube}, "histogram", node)
     for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
-        given = {"padding mode": "PadByBorder", "border size": [2, 3], "border type": shape}
+        settings = {"padding mode": "PadByBorder", "border size": [2, 3], "border type": shape}
         variant = "" if shape == "Zero" else shape
-        put("MatrixPadding", variant, given, {"input": plane}, "padded", (12, 13))
-    given = {"anchor type": "Absolute", "range lower": [1, 2], "range upper": [5, 7]}
-    put("MatrixSlice", "", given, {"matrix": plane}, "slice", (4, 5))
+        put("MatrixPadding", variant, settings, {"input": plane}, "padded", (12, 13))
+    settings = {"anchor type": "Absolute", "range lower": [1, 2], "range upper": [5, 7]}
+    put("MatrixSlice", "", settings, {"matrix": plane}, "slice", (4, 5))
     put("ConcatVertically", "", {}, {"input above": line, "input below": (5,)}, "output", (17,))
     put("Stack", "", {"dimensionality": 3}, {"0": plane, "1": plane, "2": plane}, "stack", (8, 7, 3))
     shape = {"dimensionality": 1, "sizes": list(line), "amplitude": 2}
-    put("VariableGauss", "", {**shape, "sigma": [2]}, {"centers": one}, "box", line)
+    put("VariableGauss", "", {**shape, "sigma": [2]}, {"centers": node}, "box", line)
     flat = {"dimensionality": 2, "sizes": list(plane), "amplitude": 2}
     put("VariableGauss", "2-D", {**flat, "sigma": [2, 1]}, {"centers": (2,)}, "box", plane)
 
 
-def _programs(put: Any, line: Any, plane: Any, one: Any) -> None:
+def _programs(put: Any, line: Any, plane: Any, node: Any) -> None:
     put(
         "Switch",
         "",
         {"make binary": False},
-        {"input 1": line, "input 2": line, "factor": one},
+        {"input 1": line, "input 2": line, "factor": node},
         "mixture",
         line,
     )
@@ -1015,46 +1018,46 @@ def _programs(put: Any, line: Any, plane: Any, one: Any) -> None:
         "Switch",
         "binary",
         {"make binary": True},
-        {"input 1": line, "input 2": line, "factor": one},
+        {"input 1": line, "input 2": line, "factor": node},
         "mixture",
         line,
     )
-    put("Count", "", {"threshold": 0.41}, {"input": line}, "output", one)
+    put("Count", "", {"threshold": 0.41}, {"input": line}, "output", node)
     for kind in ("Maximum", "Centroid", "Cyclic Mean"):
         variant = "" if kind == "Maximum" else kind
-        given = {"position type": kind, "Centroid detection threshold": 0.41}
-        put("PositionOfMaximum", variant, given, {"input": line}, "output", one)
-        put("PositionOfMaximum", f"2-D {kind}", given, {"input": plane}, "output", (2,))
+        settings = {"position type": kind, "Centroid detection threshold": 0.41}
+        put("PositionOfMaximum", variant, settings, {"input": line}, "output", node)
+        put("PositionOfMaximum", f"2-D {kind}", settings, {"input": plane}, "output", (2,))
     three = {"number of vector entries": 3}
-    put("ScalarsToVector", "", three, {f"scalar {i}": one for i in range(3)}, "vector", (3,))
-    put("VectorToScalars", "", three, {"input vector": (3,)}, "scalar 1", one)
+    put("ScalarsToVector", "", three, {f"scalar {i}": node for i in range(3)}, "vector", (3,))
+    put("VectorToScalars", "", three, {"input vector": (3,)}, "scalar 1", node)
     put("Delay", "", {"number of time steps": 3}, {"input": line}, "output", line)
     put("OverTime", "", {}, {"input": line}, "output", line)
-    put("OverTime", "of a number", {}, {"input": one}, "output", one)
-    put("Timer", "", {}, {"run signal (optional)": one}, "time", one)
+    put("OverTime", "of a number", {}, {"input": node}, "output", node)
+    put("Timer", "", {}, {"run signal (optional)": node}, "time", node)
     put("NumericalIntegration", "", {}, {"input": line}, "integration result", line)
     start, delay, reset = (f"{w} (optional)" for w in ("initial state", "delay", "reset signal"))
     out = "integration result"
     first = {"input": line, start: line}
     put("NumericalIntegration", "initial state", {}, first, out, line)
-    put("NumericalIntegration", "initial number", {}, {"input": plane, start: one}, out, plane)
-    put("NumericalIntegration", "delay", {}, {"input": line, delay: one}, out, line)
-    put("NumericalIntegration", "reset", {}, {"input": line, reset: one}, out, line)
-    put("NumericalIntegration", "all", {}, {"input": one, start: one, delay: one, reset: one}, out, one)
-    put("Timer", "reset", {}, {"run signal (optional)": one, reset: one}, "time", one)
-    put("Timer", "only reset", {}, {reset: one}, "time", one)
+    put("NumericalIntegration", "initial number", {}, {"input": plane, start: node}, out, plane)
+    put("NumericalIntegration", "delay", {}, {"input": line, delay: node}, out, line)
+    put("NumericalIntegration", "reset", {}, {"input": line, reset: node}, out, line)
+    put("NumericalIntegration", "all", {}, {"input": node, start: node, delay: node, reset: node}, out, node)
+    put("Timer", "reset", {}, {"run signal (optional)": node, reset: node}, "time", node)
+    put("Timer", "only reset", {}, {reset: node}, "time", node)
     out = "differentiated result"
     put("NumericalDifferentiation", "", {}, {"input": line}, out, line)
     long = {"ignore time steps smaller than": 0.02}
     put("NumericalDifferentiation", "short steps", long, {"input": line}, out, line)
     some = {"ignore time steps smaller than": 0.3, "ignore time steps larger than": 0.8}
-    put("NumericalDifferentiation", "delay", some, {"input": plane, delay: one}, out, plane)
+    put("NumericalDifferentiation", "delay", some, {"input": plane, delay: node}, out, plane)
     put("ExponentialSmoothing", "", {"data smoothing factor": 0.3}, {"input": line}, "forecast", line)
     put(
         "ExponentialSmoothing",
         "of a number",
         {"trend smoothing factor": 0.4},
-        {"input": one},
+        {"input": node},
         "forecast",
-        one,
+        node,
     )

@@ -1319,12 +1319,12 @@ def point_wise_weights(shape, kernels):
         parts, anchor = kernel_parts(type_id, p, len(shape))
         factors = []
         for n, part, shift in zip(shape, parts, anchor, strict=True):
-            own = np.zeros(n)
+            zeros = np.zeros(n)
             for j, value in enumerate(part):
                 i = n // 2 + j - centre_of(len(part), False) + shift
                 if 0 <= i < n:
-                    own[i] = value
-            factors.append(own)
+                    zeros[i] = value
+            factors.append(zeros)
         result += math.prod(np.ix_(*factors))
     return result
 

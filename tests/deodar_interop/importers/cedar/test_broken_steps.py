@@ -51,9 +51,9 @@ UNKNOWN = [
 def why_of(text):
     """Return the reasons of the report for the step, and the model."""
     done = translate.read(text.encode(), "file.json")
-    said = [line for line in done.report.losses if (line.where, line.part) == ("step", "element")]
-    assert said and len({entry.names[-1] for entry in done.model.document.entries}) >= 2
-    return " ".join(line.why for line in said), done.model
+    lines = [line for line in done.report.losses if (line.where, line.part) == ("step", "element")]
+    assert lines and len({entry.names[-1] for entry in done.model.document.entries}) >= 2
+    return " ".join(line.why for line in lines), done.model
 
 
 @pytest.mark.parametrize(("kind", "more", "reads", "puts", "why"), REFUSED)
@@ -81,10 +81,10 @@ def test_a_rate_between_two_bins_is_in_the_upper_one_and_beyond_the_last_in_none
     m.wire("rates.matrix", f"{m.add('RateMatrixToSpaceCode', 'step', limits)}.bin map")
     model = translate.read(m.text().encode(), "file.json").model
     code = dd.simulate(model, 10, dt=10, record=["step.output"])["step.output"].values[-1]
-    wanted = np.zeros((2, 3, 6))
+    expected = np.zeros((2, 3, 6))
     if at is not None:
-        wanted[:, :, at] = 1
-    assert np.array_equal(code, wanted)
+        expected[:, :, at] = 1
+    assert np.array_equal(code, expected)
 
 
 def test_the_null_space_of_a_robot_states_what_takes_its_place():
@@ -97,6 +97,6 @@ def test_the_null_space_of_a_robot_states_what_takes_its_place():
 def test_the_largest_bins_are_found_in_single_precision():
     text = every_type()[TYPES["SpaceCodeToRateMatrix"]]
     model = translate.read(text.encode(), "file.json").model
-    data = dd.simulate(model, 2000, every=10, record=["step.output"], seed=0)
-    wanted = oracle.run(text, 200, 10)["step.output"][1:]
-    assert np.abs(data["step.output"].values[:-1] - wanted).max() < 1e-5
+    record = dd.simulate(model, 2000, every=10, record=["step.output"], seed=0)
+    expected = oracle.run(text, 200, 10)["step.output"][1:]
+    assert np.abs(record["step.output"].values[:-1] - expected).max() < 1e-5

@@ -38,8 +38,8 @@ def test_a_projection_is_valid_as_its_name_says(path):
     refused = [line for line in done.report.lines if "cedar does not run it" in line.why]
     if path.stem.endswith("_invalid"):
         assert {line.where for line in refused} == {"new Projection", "new NeuralField 1"}
-        data = dd.simulate(done.model, 200, dt=10, record=['"new NeuralField 1".activation'], every=200)
-        assert np.all(data["new NeuralField 1.activation"].values == -5)
+        record = dd.simulate(done.model, 200, dt=10, record=['"new NeuralField 1".activation'], every=200)
+        assert np.all(record["new NeuralField 1.activation"].values == -5)
     else:
         assert not refused
         assert any(c.target_port == "input" for c in done.model.document.connections)
@@ -92,10 +92,12 @@ def test_a_placeholder_says_what_to_use_or_what_is_not_documented(tmp_path):
     own = ("element of your own", "reads='delayed'", "deodar export", "not documented")
     assert kinds
     for kind in kinds:
-        said = why(done, kind)[0]
-        used = re.findall(r"\bdd\.(\w+)|\b(Homography|ObstacleRepulsion|TimeSeries|Function)\b", said)
-        assert all(hasattr(dd, first or second) for first, second in used), said
-        assert said.startswith("Placeholder: ") and (used or any(words in said for words in own)), said
+        message = why(done, kind)[0]
+        used = re.findall(r"\bdd\.(\w+)|\b(Homography|ObstacleRepulsion|TimeSeries|Function)\b", message)
+        assert all(hasattr(dd, first or second) for first, second in used), message
+        assert message.startswith("Placeholder: ") and (used or any(words in message for words in own)), (
+            message
+        )
 
 
 @pytest.mark.parametrize(
@@ -111,8 +113,8 @@ def test_a_part_of_a_robot_names_the_world_and_its_signals(values, world, tmp_pa
     part = {"name": "s", **values}
     steps = {"cedar.processing.steps.Component": part, FIELD: {**LINE, "name": "u"}}
     wires = [{"source": "s.Joint Angles", "target": "u.input"}]
-    said = why(opened({"steps": steps, "connections": wires}, tmp_path), "s")[0]
-    assert world in said and "(Joint Angles: sensor joint_angles)" in said
+    message = why(opened({"steps": steps, "connections": wires}, tmp_path), "s")[0]
+    assert world in message and "(Joint Angles: sensor joint_angles)" in message
 
 
 def test_repeated_keys_times_with_units_and_text_lists(tmp_path):
@@ -127,9 +129,9 @@ def test_repeated_keys_times_with_units_and_text_lists(tmp_path):
     assert (done.model["a"].tau, done.model["b"].tau) == (50, 70)
 
 
-def linked_fields(tmp_path, *links, **more):
+def linked_fields(tmp_path, *links, **options):
     """Return two fields whose parameters are linked, with the first value stated."""
-    steps = Many([(FIELD, {**LINE, "name": n, "time scale": "50", **more}) for n in ("a", "b")])
+    steps = Many([(FIELD, {**LINE, "name": n, "time scale": "50", **options}) for n in ("a", "b")])
     return opened(written({"steps": steps, "parameter links": list(links)}), tmp_path)
 
 
@@ -161,8 +163,8 @@ def test_direct_links_become_document_parameters(tmp_path):
     [("target = 2 * source", -6), ("-(source - 1) / 4 + 0.5 - 3", -1.5), ("target=source*source - 1e1", -1)],
 )
 def test_links_by_an_equation_give_the_target_its_value(equation, found, tmp_path):
-    more = {"resting level": "-3"}
-    done = linked_fields(tmp_path, link("resting level", "resting level", equation), **more)
+    settings = {"resting level": "-3"}
+    done = linked_fields(tmp_path, link("resting level", "resting level", equation), **settings)
     assert (done.model["a"].resting_level, done.model["b"].resting_level) == (-3, found)
     line = next(line for line in done.report.losses if "->" in line.what)
     assert line.verdict == "approximated" and f"as the value {found}" in line.why
@@ -209,8 +211,8 @@ def test_stored_values_beside_the_file_begin_traces_and_weights(tmp_path):
     steps = {"cedar.dynamics.Preshape": trace, FIELD: {**LINE, "name": "u"}}
     wires = [{"source": "u.sigmoided activation", "target": "p.input"}]
     done = opened({"steps": steps, "connections": wires}, tmp_path)
-    data = dd.simulate(done.model, 20, record=["p.output"], every=20)
-    np.testing.assert_allclose(data["p.output"].values[0], values, atol=1e-6)
+    record = dd.simulate(done.model, 20, record=["p.output"], every=20)
+    np.testing.assert_allclose(record["p.output"].values[0], values, atol=1e-6)
 
 
 def test_a_linked_group_is_copied_from_its_file_with_its_connectors(tmp_path):
@@ -260,8 +262,8 @@ def test_a_connection_that_cedar_refuses_states_its_reason_and_stops_the_field(t
     )
     assert why(done, "u", "connection") == ["cedar refuses it: size [30] into [20]"]
     assert any("cedar does not run it" in text for text in why(done, "u"))
-    data = dd.simulate(done.model, 100, dt=10, record=["u.activation"], every=100)
-    assert np.all(data["u.activation"].values == -2)
+    record = dd.simulate(done.model, 100, dt=10, record=["u.activation"], every=100)
+    assert np.all(record["u.activation"].values == -2)
 
 
 def test_a_kernel_longer_than_the_field_stops_it_with_fftw_and_its_readers_get_zero(tmp_path):
@@ -283,9 +285,9 @@ def test_a_kernel_longer_than_the_field_stops_it_with_fftw_and_its_readers_get_z
     ]
     done = opened(written({"steps": steps, "connections": wires}), tmp_path)
     assert any("FFTW raises an exception for a kernel of [15] samples" in text for text in why(done, "small"))
-    data = dd.simulate(done.model, 100, dt=10, record=["small.activation", "node.activation"], every=100)
-    assert np.all(data["small.activation"].values == -5)
-    assert abs(data["node.activation"].values + 5).max() < 0.01
+    record = dd.simulate(done.model, 100, dt=10, record=["small.activation", "node.activation"], every=100)
+    assert np.all(record["small.activation"].values == -5)
+    assert abs(record["node.activation"].values + 5).max() < 0.01
 
 
 def test_files_without_types_of_cedar_are_recognised(tmp_path):

@@ -21,12 +21,12 @@ def parts(model):
     return {step.path: step for step in root.all_steps()}, {entry.names: entry for entry in entries}
 
 
-def synapse(**more):
+def synapse(**options):
     """Return a file with a field and a connection from it."""
     m = Model()
     m.field("u", (12,), time_scale="0.08 s", global_inhibition=-0.3)
     m.field("node", (), lateral_kernels=Many([gauss(1e-10, [3.0])]))
-    m.add("SynapticConnection", "step", {"static gain": {"Synapse Weight": -0.7}, **more})
+    m.add("SynapticConnection", "step", {"static gain": {"Synapse Weight": -0.7}, **options})
     m.wire("u.sigmoided activation", "step.matrix")
     return m
 

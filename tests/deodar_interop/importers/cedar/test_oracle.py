@@ -39,17 +39,17 @@ def test_the_traces_of_cedar_are_reproduced(name):
     done = run(DATA / f"{name}.json", AT[-1], 10, AT)
     reference = stored(name)
     assert len(reference) > 50
-    for (n, slot), wanted in reference.items():
+    for (n, slot), expected in reference.items():
         found = done[slot][AT.index(n)]
-        assert found.shape == wanted.shape, slot
+        assert found.shape == expected.shape, slot
         if slot != KNOWN_BUG:
-            assert np.abs(found - wanted).max() < (1e-4 if n <= 5 else 1e-3), (slot, n)
+            assert np.abs(found - expected).max() < (1e-4 if n <= 5 else 1e-3), (slot, n)
 
 
 def test_where_cedar_leaves_slices_empty_the_reference_fills_them():
     found = run(DATA / "projection_steps.json", 1, 10)[KNOWN_BUG][1]
-    wanted = stored("projection_steps")[1, KNOWN_BUG]
-    wrong = np.abs(found - wanted).max(axis=(0, 2)) > 1e-4
+    expected = stored("projection_steps")[1, KNOWN_BUG]
+    wrong = np.abs(found - expected).max(axis=(0, 2)) > 1e-4
     assert wrong.tolist() == [False] * 10 + [True] * 2
     assert np.abs(found[:, 10:] - found[:, :1]).max() == 0
 
@@ -132,8 +132,8 @@ def only_field(sizes, kernels, shape="Zero", engine="OpenCV", inputs=()):
     m = Model()
     convolution = border(shape, engine)
     linear = sigmoid("LinearTransferFunction", factor=1, offset=0)
-    more = {"resting_level": 0, "time_scale": 10, "sigmoid": linear}
-    m.field("f", sizes, lateral_kernels=Many(kernels), lateral_kernel_convolution=convolution, **more)
+    settings = {"resting_level": 0, "time_scale": 10, "sigmoid": linear}
+    m.field("f", sizes, lateral_kernels=Many(kernels), lateral_kernel_convolution=convolution, **settings)
     for k, center in enumerate(inputs):
         shape_of_input = {"dimensionality": len(sizes), "sizes": list(sizes), "amplitude": 1}
         m.add("BoxInput", f"i {k}", {**shape_of_input, "left bounds": center, "widths": [1] * len(sizes)})
@@ -222,8 +222,8 @@ def test_a_number_cannot_be_subtracted_from_a_matrix():
 def test_projections_run_if_their_mapping_is_possible(source, mapping, target, runs):
     m = Model()
     m.add("ConstMatrix", "matrix", {"sizes": list(source), "value": 1})
-    more = {"dimension mapping": mapping, "output dimensionality": len(target)}
-    m.add("Projection", "projection", {**more, "output dimension sizes": list(target)})
+    settings = {"dimension mapping": mapping, "output dimensionality": len(target)}
+    m.add("Projection", "projection", {**settings, "output dimension sizes": list(target)})
     m.wire("matrix.matrix", "projection.input")
     m.field("f", target)
     m.wire("projection.output", "f.input")

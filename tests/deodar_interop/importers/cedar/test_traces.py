@@ -18,16 +18,16 @@ BUG = "2to3 20 short.output"
 @pytest.mark.parametrize("name", sorted(path.stem for path in DATA.glob("*.json")))
 def test_a_file_runs_as_in_cedar(name):
     with np.load(DATA / f"{name}.npz") as z:
-        wanted = {key: z[key] for key in z}
-    slots = {key.rpartition("|")[0] for key in wanted}
-    found = run((DATA / f"{name}.json").read_bytes(), AT[-1], 10.0, slots)
-    assert len(found) >= 7
+        expected = {key: z[key] for key in z}
+    slots = {key.rpartition("|")[0] for key in expected}
+    record = run((DATA / f"{name}.json").read_bytes(), AT[-1], 10.0, slots)
+    assert len(record) >= 7
     compared = 0
-    for key, reference in wanted.items():
+    for key, reference in expected.items():
         slot, _, n = key.rpartition("|")
-        if slot not in found or slot == BUG:
+        if slot not in record or slot == BUG:
             continue
-        values = found[slot][int(n)]
+        values = record[slot][int(n)]
         limit = 1e-4 if int(n) <= 5 else 1e-3
         assert values.size == reference.size, slot
         worst = np.abs(values.reshape(-1) - reference.reshape(-1)).max()

@@ -36,22 +36,22 @@ SENSITIVE = 8
 
 def off(content, steps):
     """Return the largest difference of each slot, from the first iteration on."""
-    wanted = oracle.run(content, steps, DT)
-    found = run(content.encode(), steps, DT, set(wanted))
+    expected = oracle.run(content, steps, DT)
+    record = run(content.encode(), steps, DT, set(expected))
     out = {}
-    for slot, values in found.items():
-        a, b = (np.asarray(v).reshape(steps + 1, -1)[1:] for v in (values, wanted[slot]))
+    for slot, values in record.items():
+        a, b = (np.asarray(v).reshape(steps + 1, -1)[1:] for v in (values, expected[slot]))
         assert a.shape == b.shape, slot
-        known = np.isfinite(a)
-        out[slot] = np.abs(a - b)[known].max() if known.any() else 0.0
+        finite = np.isfinite(a)
+        out[slot] = np.abs(a - b)[finite].max() if finite.any() else 0.0
     return out
 
 
 @pytest.mark.parametrize("name", sorted(TYPES))
 def test_a_step_runs_as_in_the_reference(name):
-    found = off(TYPES[name], 200)
-    assert "target.activation" in found or len(found) > 2
-    assert {slot: error for slot, error in found.items() if not error < 1e-5} == {}
+    errors = off(TYPES[name], 200)
+    assert "target.activation" in errors or len(errors) > 2
+    assert {slot: error for slot, error in errors.items() if not error < 1e-5} == {}
 
 
 @pytest.mark.parametrize("name", sorted(TYPES))
@@ -64,6 +64,6 @@ def test_what_is_assumed_is_reported_and_nothing_else_is_lost(name):
 
 @pytest.mark.parametrize("seed", [0, 1, 3, 11, 14, 17])
 def test_a_random_architecture_runs_as_in_the_reference(seed):
-    found = off(models.random_models(seed), 200)
-    assert len(found) >= 8
-    assert {slot: error for slot, error in found.items() if not error < 1e-5} == {}
+    errors = off(models.random_models(seed), 200)
+    assert len(errors) >= 8
+    assert {slot: error for slot, error in errors.items() if not error < 1e-5} == {}

@@ -401,15 +401,15 @@ def test_every_class_agrees_with_the_oracle_in_any_order(seed, dt, t0, tmp_path)
         t0,
     )
     labels = [a for a, k, _, _ in parts if k in ("NeuralField", "SingleNodeDynamics")]
-    data = dd.simulate(
+    record = dd.simulate(
         done.model, STEPS * dt, record=[f"{dd.quote(a)}.activation" for a in labels], precision="float64"
     )
     for step in range(1, STEPS + 1):
         plain.step()
         for label in labels:
-            wanted = plain.out[label]["activation"]
-            found = data[f"{label}.activation"].isel(time=step).values
-            assert abs(found.reshape(wanted.shape) - wanted).max() < 1e-9, (label, step)
+            expected = plain.out[label]["activation"]
+            values = record[f"{label}.activation"].isel(time=step).values
+            assert abs(values.reshape(expected.shape) - expected).max() < 1e-9, (label, step)
     still = [
         a
         for a in labels
@@ -530,9 +530,9 @@ def test_every_class_of_cosivina_is_translated_or_names_what_is_missing(tmp_path
         assert verdicts[kind] == ("dropped", f"Placeholder: {MISSING[kind]}")
     lost = {kind for kind in CLASSES if verdicts[kind][0] != "carried"}
     # patterns, weights and times must be given
-    given = {"CustomStimulus", "TimedCustomStimulus", "CustomStimulusSequence", "WeightMatrix", "History"}
+    settings = {"CustomStimulus", "TimedCustomStimulus", "CustomStimulusSequence", "WeightMatrix", "History"}
     # no peak on one sample; learning needs two inputs
-    assert lost == given | {"ScalarToGaussian", "HebbianConnection"}
+    assert lost == settings | {"ScalarToGaussian", "HebbianConnection"}
     assert [done.model[f"a {kind}"].element.amplitude for kind in ("BoostStimulus", "TimedBoost")] == [0, 0]
     assert done.model["a Sigmoid"].element.sigmoid == dd.Logistic(beta=1, threshold=0)
     dd.simulate(done.model, 3, every=3)

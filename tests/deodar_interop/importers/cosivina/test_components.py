@@ -63,14 +63,14 @@ def test_sums_without_readers_are_read_at_the_path_in_the_report(kind, tmp_path)
     done = read(written(tmp_path, [element(*part) for part in parts]))
     assert done.report.faithful
     paths = {component: told(done.report, "it")[component].removeprefix("read ") for component in SUMS}
-    data = dd.simulate(done.model, 6, record=list(paths.values()), precision="float64")
+    record = dd.simulate(done.model, 6, record=list(paths.values()), precision="float64")
     plain = Sim(parts)
     for step in range(1, 7):
         plain.step()
         for component, path in paths.items():
-            wanted = plain.out["it"][component]
+            expected = plain.out["it"][component]
             assert np.allclose(
-                data[path].isel(time=step).values.reshape(wanted.shape), wanted, rtol=0, atol=1e-12
+                record[path].isel(time=step).values.reshape(expected.shape), expected, rtol=0, atol=1e-12
             ), (component, step)
 
 
@@ -98,15 +98,15 @@ def test_each_component_is_a_port_or_named_in_the_report(kind, tmp_path):
             if line.part == "element"
         )
         return
-    said = told(done.report, "it")
+    message = told(done.report, "it")
     for component in components(kind):
-        if component not in said:
+        if component not in message:
             assert component in own.outputs({port: () for port in own.ports()})
-        elif said[component].startswith("read "):
-            find.port(done.model.document, said[component].removeprefix("read "))
+        elif message[component].startswith("read "):
+            find.port(done.model.document, message[component].removeprefix("read "))
         else:
-            assert len(said[component]) > 12
-    for why in said.values():
+            assert len(message[component]) > 12
+    for why in message.values():
         words = [word for word in why.replace(",", "").split() if word.startswith("it.")]
         assert all(
             done.model.get(word) is not None

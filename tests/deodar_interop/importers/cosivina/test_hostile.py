@@ -153,8 +153,8 @@ def test_a_loop_through_a_sum_runs(tmp_path):
     ]
     done = read(written(tmp_path, parts))
     assert problems(done.model.document) == [] and done.report.faithful
-    found = dd.simulate(done.model, 3, every=3, record=["s.output"])["s.output"].values[-1]
-    assert np.isfinite(found).all() and found.min() > 1
+    values = dd.simulate(done.model, 3, every=3, record=["s.output"])["s.output"].values[-1]
+    assert np.isfinite(values).all() and values.min() > 1
 
 
 @pytest.mark.parametrize(
@@ -244,9 +244,9 @@ def test_keys_that_occur_twice_are_reported_with_the_value_in_use(tmp_path):
 
 
 def test_a_single_element_may_be_given_without_a_list(tmp_path):
-    data = json.loads(text([element("u", "NeuralField", FIELD)]))
-    data["simulator"]["elements"] = data["simulator"]["elements"][0]
-    (tmp_path / "one.json").write_text(json.dumps(data))
+    document = json.loads(text([element("u", "NeuralField", FIELD)]))
+    document["simulator"]["elements"] = document["simulator"]["elements"][0]
+    (tmp_path / "one.json").write_text(json.dumps(document))
     assert len(dd.load(tmp_path / "one.json").document.entries) == 1
 
 

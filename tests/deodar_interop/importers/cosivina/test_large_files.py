@@ -89,11 +89,11 @@ def test_work_grows_with_the_number_of_inputs(made):
             )
         )
         model = models[0]
-        data = json.loads(model.to_json())
+        document = json.loads(model.to_json())
         found.setdefault("check", []).append(lines(lambda m=model: m.check()))
         found.setdefault("plan", []).append(lines(lambda m=model: plan(m.document)))
         found.setdefault("write", []).append(lines(model.to_json))
-        found.setdefault("read", []).append(lines(lambda d=data: document_files.from_data(d, {})))
+        found.setdefault("read", []).append(lines(lambda d=document: document_files.from_data(d, {})))
         assert model.check() == []
     for name, (few, many) in found.items():
         assert many <= MOST * few, (name, few, many)

@@ -17,7 +17,7 @@ def labels(text):
 
 
 @pytest.mark.parametrize(
-    ("written", "value"),
+    ("written", "number"),
     [
         ("1/4*100", 25),
         ("-2^2", -4),
@@ -85,13 +85,13 @@ def labels(text):
         ("(2 + 3)' * 2", 10),
     ],
 )
-def test_expressions_have_the_values_of_matlab(written, value):
-    (found,) = values(f"x = {written};", "x")
-    assert found == value
+def test_expressions_have_the_values_of_matlab(written, number):
+    (evaluated,) = values(f"x = {written};", "x")
+    assert evaluated == number
 
 
 @pytest.mark.parametrize(
-    ("text", "value"),
+    ("text", "number"),
     [
         ("x = [4 5 6]; x = x(2);", 5),
         ("x = [4 5 6]; x = x(end);", 6),
@@ -145,26 +145,26 @@ def test_expressions_have_the_values_of_matlab(written, value):
         ("rand('state', 3); x = 1;", 1),
     ],
 )
-def test_statements_give_variables_the_values_of_matlab(text, value):
-    (found,) = values(text, "x")
-    assert found == value
+def test_statements_give_variables_the_values_of_matlab(text, number):
+    (evaluated,) = values(text, "x")
+    assert evaluated == number
 
 
 def test_elements_are_made_in_loops_with_built_labels():
-    found, lost = labels(
+    evaluated, lost = labels(
         "for i = 1 : 2\n  n = num2str(i);\n  sim.addElement(NeuralField(['u' n], 10));\n"
         "  for j = 1:2\n    sim.addElement(BoostStimulus(sprintf('b%d%d', i, j), j), [], [], ['u' n]);\n"
         "  end\nend\n"
     )
-    assert found == ["u1", "b11", "b12", "u2", "b21", "b22"] and not lost
+    assert evaluated == ["u1", "b11", "b12", "u2", "b21", "b22"] and not lost
 
 
 def test_functions_may_lack_their_end():
-    found, lost = labels(
+    evaluated, lost = labels(
         "addNode(sim, 'u');\nfunction addNode(s, name)\n s.addElement(NeuralField(name, both(2)));\n"
         "function y = both(x)\n y = [x, x];\n"
     )
-    assert found == ["u"] and not lost
+    assert evaluated == ["u"] and not lost
 
 
 def test_methods_may_be_called_as_functions():
@@ -195,8 +195,8 @@ def test_parameters_are_changed_after_an_element_was_added():
         "sim.setElementParameters('v', {'beta', 'h'}, [2, sim.getElementParameter('u', 'h')]);\n"
     )
     assert not lost and (sim.step, sim.start) == (0.5, 3)
-    found = [[plain(sim.elements[e].values[p]) for p in ("tau", "h", "beta")] for e in "uv"]
-    assert found == [[10, -3, 9], [7, -3, 2]]
+    evaluated = [[plain(sim.elements[e].values[p]) for p in ("tau", "h", "beta")] for e in "uv"]
+    assert evaluated == [[10, -3, 9], [7, -3, 2]]
 
 
 @pytest.mark.parametrize(
@@ -232,8 +232,8 @@ def test_parameters_are_changed_after_an_element_was_added():
 )
 def test_constructors_derive_the_parameters_that_cosivina_derives(call, expected):
     sim, _ = built(f"sim = Simulator();\nsim.addElement({call});\n")
-    found = {name: plain(value) for name, value in sim.elements["m"].values.items()}
-    assert {name: found[name] for name in expected} == expected
+    evaluated = {name: plain(number) for name, number in sim.elements["m"].values.items()}
+    assert {name: evaluated[name] for name in expected} == expected
 
 
 @pytest.mark.parametrize(

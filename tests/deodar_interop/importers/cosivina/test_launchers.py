@@ -99,8 +99,8 @@ def test_the_range_of_a_pin_is_in_the_numbers_of_deodar(control, leaf, lower, up
 
 
 def test_a_slider_of_several_equal_parameters_is_a_document_parameter():
-    both = "{'cue left', 'cue right'}, {'amplitude', 'amplitude'}"
-    done = imported(launcher(f"ParameterSlider('strength', {both}, [0, 8])"))
+    controls = "{'cue left', 'cue right'}, {'amplitude', 'amplitude'}"
+    done = imported(launcher(f"ParameterSlider('strength', {controls}, [0, 8])"))
     pin = pins(done)["strength"]
     assert pin == {"element": "", "parameter": "strength", "lower": 0.0, "upper": 8.0}
     (shared,) = done.model.document.parameters
@@ -110,19 +110,19 @@ def test_a_slider_of_several_equal_parameters_is_a_document_parameter():
 
 
 def test_a_slider_of_parameters_with_different_values_is_one_for_each():
-    both = "{'line', 'watcher'}, {'h', 'h'}"
-    done = imported(launcher(f"ParameterSlider('h', {both}, [-9, 0])"))
+    controls = "{'line', 'watcher'}, {'h', 'h'}"
+    done = imported(launcher(f"ParameterSlider('h', {controls}, [-9, 0])"))
     assert list(pins(done)) == ["h (line)", "h (watcher)"]
     assert told(done, "control")["h"][0] == "approximated"
     assert by_name(done, "line").resting_level == -4 and by_name(done, "watcher").resting_level == -5
 
 
 def test_a_document_parameter_is_not_made_where_a_preset_needs_different_values():
-    both = "{'cue left', 'cue right'}, {'amplitude', 'amplitude'}"
+    controls = "{'cue left', 'cue right'}, {'amplitude', 'amplitude'}"
     done = imported(
         launcher(
-            f"ParameterSlider('strength', {both}, [0, 8])",
-            f"ParameterSwitchButton('one', {both}, [0, 0], [7, 2])",
+            f"ParameterSlider('strength', {controls}, [0, 8])",
+            f"ParameterSwitchButton('one', {controls}, [0, 0], [7, 2])",
         )
     )
     assert not done.model.document.parameters

@@ -18,7 +18,7 @@ RANDOM = np.random.default_rng(2).normal(size=(1, 9))
 ENDS = {"circularY": 1, "circularX": 0, "circularZ": 1, "normalized": 1, "cutoffFactor": 2}
 
 
-def shown(folder, kind, param, pattern, bugs=False, component="output"):
+def output_of(folder, kind, param, pattern, bugs=False, component="output"):
     """Return the output for a pattern."""
     pattern = np.asarray(pattern, float)
     size = list(pattern.shape)
@@ -47,14 +47,14 @@ def solid(pattern, sigmas, amplitude, flags, cutoff=2):
 
 @pytest.mark.parametrize("bugs", [False, True])
 def test_a_kernel_over_three_axes_and_its_known_error_agree_with_the_oracle(bugs, tmp_path):
-    found, report = shown(
+    output, report = output_of(
         tmp_path,
         "GaussKernel3D",
         {"size": SOLID, "sigmaY": 1, "sigmaX": 1.5, "sigmaZ": 0.8, "amplitude": 3, **ENDS},
         CORNER,
         bugs,
     )
-    assert np.allclose(found, solid(CORNER, (1, 1.5, 0.8), 3, (True, bugs, True)), rtol=0, atol=1e-12)
+    assert np.allclose(output, solid(CORNER, (1, 1.5, 0.8), 3, (True, bugs, True)), rtol=0, atol=1e-12)
     assert len(report.bugs) == 1 and report.bugs[0].endswith("reproduced" if bugs else "corrected")
 
 
@@ -65,12 +65,14 @@ def test_differences_of_gaussians_over_three_axes_agree_with_the_oracle(tmp_path
         for c, v in zip("YXZ", values, strict=True)
     }
     param = {"size": SOLID, **widths, "amplitudeExc": 3, "amplitudeInh": 2, **ENDS}
-    wanted = solid(CORNER, (1, 1.5, 0.8), 3, (True, False, True)) - solid(
+    expected = solid(CORNER, (1, 1.5, 0.8), 3, (True, False, True)) - solid(
         CORNER, (2, 1, 1.2), 2, (True, False, True)
     )
-    assert np.allclose(shown(tmp_path, "MexicanHatKernel3D", param, CORNER)[0], wanted, rtol=0, atol=1e-12)
-    found = shown(tmp_path, "LateralInteractions3D", {**param, "amplitudeGlobal": -0.25}, CORNER)[0]
-    assert np.allclose(found, wanted - 0.25, rtol=0, atol=1e-12)
+    assert np.allclose(
+        output_of(tmp_path, "MexicanHatKernel3D", param, CORNER)[0], expected, rtol=0, atol=1e-12
+    )
+    output = output_of(tmp_path, "LateralInteractions3D", {**param, "amplitudeGlobal": -0.25}, CORNER)[0]
+    assert np.allclose(output, expected - 0.25, rtol=0, atol=1e-12)
 
 
 def test_a_shifted_interaction_agrees_with_the_oracle(tmp_path):
@@ -84,19 +86,19 @@ def test_a_shifted_interaction_agrees_with_the_oracle(tmp_path):
         "shift": 2,
     }
     param |= {"circular": 1, "normalized": 1, "cutoffFactor": 2}
-    found = shown(tmp_path, "LateralInteractionsShifted1D", param, RANDOM)[0]
-    wanted = np.roll(2 * line(9, 1, True, True, 2) @ RANDOM[0], 2) - 0.1 * RANDOM.sum()
-    assert np.allclose(found, wanted, rtol=0, atol=1e-12)
+    output = output_of(tmp_path, "LateralInteractionsShifted1D", param, RANDOM)[0]
+    expected = np.roll(2 * line(9, 1, True, True, 2) @ RANDOM[0], 2) - 0.1 * RANDOM.sum()
+    assert np.allclose(output, expected, rtol=0, atol=1e-12)
 
 
 def test_a_discrete_interaction_agrees_with_the_oracle(tmp_path):
-    found = shown(
+    output = output_of(
         tmp_path,
         "LateralInteractionsDiscrete",
         {"size": [1, 9], "amplitudeExc": 2, "amplitudeGlobal": -0.1},
         RANDOM,
     )[0]
-    assert np.allclose(found, 2 * RANDOM[0] - 0.1 * RANDOM.sum(), rtol=0, atol=1e-12)
+    assert np.allclose(output, 2 * RANDOM[0] - 0.1 * RANDOM.sum(), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("bugs", [False, True])
@@ -120,12 +122,12 @@ def test_a_split_transform_agrees_with_the_oracle(bugs, tmp_path):
             element("k", "KernelInverseFFT", {**kernel, "amplitudeExc": amplitude}, [("t", "output")])
         )
         done = read(written(tmp_path, parts), bugs)
-        found = dd.simulate(done.model, 1, every=1, record=["k.output"], precision="float64")[
+        values = dd.simulate(done.model, 1, every=1, record=["k.output"], precision="float64")[
             "k.output"
         ].values[0]
         overall = 0.0 if bugs and not amplitude else -0.1 * RANDOM.sum()
         assert np.allclose(
-            found, amplitude * line(9, 1, True, True, 9) @ RANDOM[0] + overall, rtol=0, atol=1e-12
+            values, amplitude * line(9, 1, True, True, 9) @ RANDOM[0] + overall, rtol=0, atol=1e-12
         )
 
 
@@ -139,27 +141,31 @@ def test_a_stimulus_over_three_axes_agrees_with_the_oracle(tmp_path):
         gauss(np.arange(1, 6) - 6, 1.5, 5),
         gauss(np.arange(1, 7) - 1, 2),
     )
-    found = dd.simulate(model, 1, every=1, record=["s.output"], precision="float64")["s.output"].values[0]
-    assert np.allclose(found, 2 * np.einsum("i,j,k->ijk", y, x, z), rtol=0, atol=1e-12)
+    values = dd.simulate(model, 1, every=1, record=["s.output"], precision="float64")["s.output"].values[0]
+    assert np.allclose(values, 2 * np.einsum("i,j,k->ijk", y, x, z), rtol=0, atol=1e-12)
 
 
 def test_a_general_expansion_agrees_with_the_oracle(tmp_path):
     plane = np.arange(12.0).reshape(3, 4)
     param = {"inputSize": [3, 4], "outputSize": [4, 2, 3], "dimensionMapping": [3, 1]}
-    found = shown(tmp_path, "ExpandDimension", param, plane)[0]
-    assert np.array_equal(found, np.repeat(plane.T[:, None], 2, axis=1))
+    output = output_of(tmp_path, "ExpandDimension", param, plane)[0]
+    assert np.array_equal(output, np.repeat(plane.T[:, None], 2, axis=1))
 
 
 @pytest.mark.parametrize("bugs", [False, True])
 def test_amplitudes_that_cosivina_ignores_are_applied_unless_bugs_are_reproduced(bugs, tmp_path):
     wide = np.arange(9.0)[None]
-    found, report = shown(tmp_path, "DiagonalExpansion", {"inputSize": [1, 9], "amplitude": 3}, wide, bugs)
+    output, report = output_of(
+        tmp_path, "DiagonalExpansion", {"inputSize": [1, 9], "amplitude": 3}, wide, bugs
+    )
     assert (
-        np.array_equal(found, (1 if bugs else 3) * np.add.outer(np.arange(5.0), np.arange(5.0)))
+        np.array_equal(output, (1 if bugs else 3) * np.add.outer(np.arange(5.0), np.arange(5.0)))
         and len(report.bugs) == 1
     )
-    found, report = shown(tmp_path, "DiagonalExpansion", {"inputSize": [1, 9], "amplitude": 0}, wide, bugs)
-    assert np.array_equal(found, np.add.outer(np.arange(5.0), np.arange(5.0))) and not report.bugs
+    output, report = output_of(
+        tmp_path, "DiagonalExpansion", {"inputSize": [1, 9], "amplitude": 0}, wide, bugs
+    )
+    assert np.array_equal(output, np.add.outer(np.arange(5.0), np.arange(5.0))) and not report.bugs
 
 
 @pytest.mark.parametrize("bugs", [False, True])
@@ -198,7 +204,7 @@ def test_learning_from_another_component_agrees_with_the_oracle(bugs, tmp_path):
     g, w = 1 / (1 + np.exp(-4.0)), 0.0
     for _ in range(3):
         w += 0.1 * (1.0 - w) * (1.0 if bugs else g)
-    found = dd.simulate(done.model, 3, every=3, record=["w.output"], precision="float64")["w.output"].values[
+    values = dd.simulate(done.model, 3, every=3, record=["w.output"], precision="float64")["w.output"].values[
         -1
     ]
-    assert np.allclose(found, 3 * g * w, rtol=0, atol=1e-12) and len(done.report.bugs) == 1
+    assert np.allclose(values, 3 * g * w, rtol=0, atol=1e-12) and len(done.report.bugs) == 1

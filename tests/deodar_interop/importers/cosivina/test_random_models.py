@@ -117,13 +117,13 @@ def test_a_random_model_agrees_with_the_oracle(seed, tmp_path):
     assert problems(done.model.document) == [] and not done.report.losses
     labels = [label for label, kind, *_ in parts if kind == "NeuralField"]
     assert len(labels) > 3
-    data = dd.simulate(
+    record = dd.simulate(
         done.model, STEPS, record=[f"{label}.activation" for label in labels], precision="float64"
     )
     plain = Sim(parts)
     for step in range(1, STEPS + 1):
         plain.step()
         for label in labels:
-            wanted = plain.out[label]["activation"]
-            found = data[f"{label}.activation"].isel(time=step).values.reshape(wanted.shape)
-            assert (abs(found - wanted) < 1e-9 * (1 + abs(wanted))).all(), (label, step)
+            expected = plain.out[label]["activation"]
+            found = record[f"{label}.activation"].isel(time=step).values.reshape(expected.shape)
+            assert (abs(found - expected) < 1e-9 * (1 + abs(expected))).all(), (label, step)

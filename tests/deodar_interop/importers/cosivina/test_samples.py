@@ -22,8 +22,8 @@ def test_every_part_of_a_sample_is_carried(path):
 
 @pytest.mark.parametrize("path", [p for p in SAMPLES if p not in REFERENCES], ids=lambda p: p.stem)
 def test_samples_without_stored_steps_run(path):
-    data = dd.simulate(dd.load(path), 3, every=3)
-    assert all(np.isfinite(values).all() for values in data.values())
+    record = dd.simulate(dd.load(path), 3, every=3)
+    assert all(np.isfinite(values).all() for values in record.values())
 
 
 @pytest.mark.parametrize("path", REFERENCES, ids=lambda p: p.stem)
@@ -36,9 +36,9 @@ def test_every_listed_step_agrees(path):
             dd.simulate(model, to, record=ports, every=every, precision=precision)
             for to, every in ((5, 1), (300, 20))
         )
-        for (label, step), wanted in reference.items():
-            found = (early if int(step) <= 5 else late)[f"{label}.activation"].sel(time=float(step)).values
-            assert abs(found.reshape(wanted.shape) - wanted).max() < near, (precision, label, step)
+        for (label, step), expected in reference.items():
+            values = (early if int(step) <= 5 else late)[f"{label}.activation"].sel(time=float(step)).values
+            assert abs(values.reshape(expected.shape) - expected).max() < near, (precision, label, step)
 
 
 def test_axes_names_step_and_notes_are_taken_from_the_file():
@@ -55,7 +55,7 @@ def test_axes_names_step_and_notes_are_taken_from_the_file():
 def test_the_written_document_gives_the_same_bits(path, tmp_path):
     model = dd.load(path)
     dd.save(model, tmp_path / "a.json")
-    again = dd.load(tmp_path / "a.json")
-    assert again.document == model.document
-    one, two = (dd.simulate(m, 20, every=20, seed=3) for m in (model, again))
+    loaded = dd.load(tmp_path / "a.json")
+    assert loaded.document == model.document
+    one, two = (dd.simulate(m, 20, every=20, seed=3) for m in (model, loaded))
     assert all(np.array_equal(one[name], two[name]) for name in one.data_vars)

@@ -48,23 +48,23 @@ def test_each_row_is_stored_when_cosivina_stores_it(name, size, first, tmp_path)
         )
     done = read(written(tmp_path, [element(*part) for part in parts]))
     assert done.report.faithful
-    data = dd.simulate(done.model, 14, record=["past.output"], precision="float64")["past.output"]
+    record = dd.simulate(done.model, 14, record=["past.output"], precision="float64")["past.output"]
     plain = Sim(parts)
     for step in range(15):
-        wanted = plain.out["past"]["output"]
-        found = data.isel(time=step).values
-        found = np.moveaxis(found, 0, -1) if wanted.ndim == 3 else found
-        assert np.allclose(found.reshape(wanted.shape), wanted, rtol=0, atol=1e-12, equal_nan=True), step
+        expected = plain.out["past"]["output"]
+        values = record.isel(time=step).values
+        values = np.moveaxis(values, 0, -1) if expected.ndim == 3 else values
+        assert np.allclose(values.reshape(expected.shape), expected, rtol=0, atol=1e-12, equal_nan=True), step
         plain.step()
-    assert np.isnan(data.isel(time=0)).all() and not np.isnan(data.isel(time=-1)).all()
+    assert np.isnan(record.isel(time=0)).all() and not np.isnan(record.isel(time=-1)).all()
 
 
 def test_rows_that_elements_read_begin_with_zero_which_the_report_states(tmp_path):
     readers = [("v", "NeuralField", {"size": [4, 4], "tau": 5, "h": 0, "beta": 4}, [("past", "output")])]
     done = read(written(tmp_path, [element(*part) for part in parts_of("running", ROW, readers)]))
     assert [(line.where, line.verdict) for line in done.report.losses] == [("past", "approximated")]
-    data = dd.simulate(done.model, 4, record=["v.activation", "past.output"])
-    assert np.isfinite(data["v.activation"]).all() and (data["past.output"][0] == 0).all()
+    record = dd.simulate(done.model, 4, record=["v.activation", "past.output"])
+    assert np.isfinite(record["v.activation"]).all() and (record["past.output"][0] == 0).all()
 
 
 @pytest.mark.parametrize("bugs", [False, True])
@@ -76,8 +76,8 @@ def test_times_that_rounding_misses_are_a_known_error(bugs, tmp_path):
     ]
     done = read(written(tmp_path, parts, dt=0.1), bugs)
     assert len(done.report.bugs) == 1 and "misses 1 of 2" in done.report.bugs[0]
-    found = dd.simulate(done.model, 1, every=1, record=["past.output"])["past.output"].values[-1]
-    assert np.isnan(found).all(axis=1).tolist() == [False, bugs]
+    values = dd.simulate(done.model, 1, every=1, record=["past.output"])["past.output"].values[-1]
+    assert np.isnan(values).all(axis=1).tolist() == [False, bugs]
 
 
 @pytest.mark.parametrize("rewarded", [False, True])
@@ -130,16 +130,16 @@ def test_an_association_learns_as_cosivina_does_with_its_defaults(rewarded, tmp_
             for a, k, p, i in parts
         ]
     )
-    data = dd.simulate(
+    record = dd.simulate(
         done.model, 12, record=["v.activation", "it.output", "it.weights"], precision="float64"
     )
     for step in range(1, 13):
         plain.step()
         assert np.allclose(
-            data["v.activation"].isel(time=step).values,
+            record["v.activation"].isel(time=step).values,
             plain.out["v"]["activation"].ravel(),
             rtol=0,
             atol=1e-9,
         ), step
-    assert np.allclose(data["it.weights"].values[-1].T.ravel(), plain.memory["it"].ravel(), atol=1e-9)
+    assert np.allclose(record["it.weights"].values[-1].T.ravel(), plain.memory["it"].ravel(), atol=1e-9)
     assert abs(plain.memory["it"]).max() > 0.1

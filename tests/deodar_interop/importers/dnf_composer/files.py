@@ -25,12 +25,12 @@ def element(
     inputs: Any = None,
     x: Any = 20,
     d: float = 1.0,
-    **more: Any,
+    **options: Any,
 ) -> dict[str, Any]:
     """Return one entry of the list of elements; inputs are names, or pairs of name and component."""
     pairs = [[s, "output"] if isinstance(s, str) else list(s) for s in inputs] if inputs else inputs
-    own = {"uniqueName": name, "label": [1, label], "x_max": x, "d_x": d, "inputs": pairs}
-    return {**own, **values, **more}
+    settings = {"uniqueName": name, "label": [1, label], "x_max": x, "d_x": d, "inputs": pairs}
+    return {**settings, **values, **options}
 
 
 def plane(

@@ -139,17 +139,17 @@ class Simulation:
         """Set the values at the start."""
         kind, (rows, columns) = e["label"][1], self.shape(name)
         n = rows * columns
-        shown = {"output": np.zeros(n)}
+        outputs = {"output": np.zeros(n)}
         if kind.startswith("neural field"):
             u = np.full(n, e["restingLevel"])
-            shown = {"activation": u, "output": squash(e["activationFunction"], u)}
+            outputs = {"activation": u, "output": squash(e["activationFunction"], u)}
         elif kind.startswith("boost"):
-            shown = {"output": np.full(n, e["amplitude"] if e["isActive"] else 0.0)}
+            outputs = {"output": np.full(n, e["amplitude"] if e["isActive"] else 0.0)}
         elif kind.startswith("gauss stimulus"):
-            shown = {"output": self.stimulus(e, rows, columns)}
+            outputs = {"output": self.stimulus(e, rows, columns)}
         if "stimulus" in kind and "timed" not in kind and wired:
-            shown["output"] = shown["output"] + self.input(e, n)
-        self.out[name] = shown
+            outputs["output"] = outputs["output"] + self.input(e, n)
+        self.out[name] = outputs
 
     def stimulus(self, e: dict[str, Any], rows: int, columns: int) -> np.ndarray:
         """Return a Gaussian pattern: widths are samples on a line, and units on a plane."""
@@ -174,16 +174,16 @@ class Simulation:
         """Advance the time, then each element."""
         self.t += self.dt
         for name, e in self.elements.items():
-            kind, shape, shown = e["label"][1], self.shape(name), self.out[name]
+            kind, shape, outputs = e["label"][1], self.shape(name), self.out[name]
             if kind.startswith("neural field"):
-                u = shown["activation"]
+                u = outputs["activation"]
                 u = u + self.dt / e["tau"] * (-u + e["restingLevel"] + self.input(e, u.size))
                 self.out[name] = {"activation": u, "output": squash(e["activationFunction"], u)}
             elif kind.startswith("timed"):
                 on = any(a <= self.t <= b for a, b in e["onTimes"])
-                shown["output"] = self.stimulus(e, *shape) * on
+                outputs["output"] = self.stimulus(e, *shape) * on
             elif "stimulus" not in kind and "noise" not in kind:
-                shown["output"] = self.computed(name, e, kind, shape)
+                outputs["output"] = self.computed(name, e, kind, shape)
 
     def computed(self, name: str, e: dict[str, Any], kind: str, shape: tuple[int, int]) -> np.ndarray:
         """Return the output of all other elements."""
@@ -228,10 +228,10 @@ class Simulation:
             parts = [(kind, e["amplitude"], e.get("width"))]
         total = np.zeros(shape)
         for label, amplitude, width in parts:
-            own = {**e, "width": width}
+            settings = {**e, "width": width}
             plane = x.reshape(shape)
-            across = factor(own, label, shape[1], "_x")
-            down = factor(own, label, shape[0], "_y")
+            across = factor(settings, label, shape[1], "_x")
+            down = factor(settings, label, shape[0], "_y")
             plane = np.array([convolved(row, *across, e["circular"]) for row in plane])
             plane = np.array([convolved(column, *down, e["circular"]) for column in plane.T]).T
             total += amplitude * plane

@@ -23,14 +23,14 @@ COUPLING = {"input_x_max": 20, "input_d_x": 1.0}
 
 
 def field(name, inputs, function=None, **values):
-    own = {**FIELD, **({"activationFunction": function} if function else {}), **values}
-    return element(name, "neural field", own, inputs)
+    settings = {**FIELD, **({"activationFunction": function} if function else {}), **values}
+    return element(name, "neural field", settings, inputs)
 
 
-def on_a_line(label, values, **more):
+def on_a_line(label, values, **options):
     """A stimulus, a field, the element of a label, and a field that reads it."""
-    middle = element("k", label, values, ["u"], **more)
-    reader = element("v", "neural field", {**FIELD, "restingLevel": -0.5}, ["k"], **more)
+    middle = element("k", label, values, ["u"], **options)
+    reader = element("v", "neural field", {**FIELD, "restingLevel": -0.5}, ["k"], **options)
     return [element("s", "gauss stimulus", BELL), field("u", ["s"]), middle, reader]
 
 
@@ -212,12 +212,12 @@ def compared(parts, folder, dt=1.0, weights=None, steps=STEPS):
     ports = {
         (e["uniqueName"], c): f"{dd.quote(e['uniqueName'])}.{c}" for e in parts for c in shown(e["label"][1])
     }
-    data = dd.simulate(done.model, steps * dt, every=dt, record=list(ports.values()), precision="float64")
+    record = dd.simulate(done.model, steps * dt, every=dt, record=list(ports.values()), precision="float64")
     plain, worst = Simulation(parts, dt, weights), 0.0
     for step in range(steps + 1):
         for (name, component), port in ports.items():
-            found = data[port].values[step].reshape(-1)
-            worst = max(worst, float(abs(found - plain.out[name][component]).max()))
+            samples = record[port].values[step].reshape(-1)
+            worst = max(worst, float(abs(samples - plain.out[name][component]).max()))
         plain.step()
     return worst, done
 
@@ -285,10 +285,10 @@ def test_components_of_an_element_are_read_by_others(tmp_path):
     ]
     done = read(written(tmp_path, parts))
     assert done.report.faithful and problems(done.model.document) == []
-    data = dd.simulate(done.model, 40, every=40, precision="float64")
-    u = data["u.activation"].values[-1]
-    assert abs(data["b.activation"].values[-1] + 4).max() < 0.1
-    assert abs(data["a.activation"].values[-1] - u).max() < 0.1
+    record = dd.simulate(done.model, 40, every=40, precision="float64")
+    u = record["u.activation"].values[-1]
+    assert abs(record["b.activation"].values[-1] + 4).max() < 0.1
+    assert abs(record["a.activation"].values[-1] - u).max() < 0.1
     taps = np.exp(-0.5 * (np.arange(-8, 9) / 1.5) ** 2)
-    wanted = np.append(3 * taps / taps.sum(), np.zeros(3))
-    assert abs(done.model["k kernel"].element.values.data - wanted).max() < 1e-12
+    expected = np.append(3 * taps / taps.sum(), np.zeros(3))
+    assert abs(done.model["k kernel"].element.values.data - expected).max() < 1e-12

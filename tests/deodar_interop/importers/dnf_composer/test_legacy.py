@@ -23,11 +23,7 @@ SWITCHES = {"circular": True, "normalized": True}
 
 
 def model_of(kernel, bell, folder, bare=False):
-    parts = [
-        element("s", "gauss stimulus", bell),
-        element("u", "neural field", FIELD, ["s", "k"]),
-        kernel,
-    ]
+    parts = [element("s", "gauss stimulus", bell), element("u", "neural field", FIELD, ["s", "k"]), kernel]
     path = written(folder, parts)
     if bare:
         path.write_text(json.dumps(parts))
@@ -64,13 +60,13 @@ def test_an_old_kernel_is_that_of_today_and_the_defaults_are_reported(
         e.element for e in after.model.document.entries
     ]
     assert after.report.faithful and all(line.verdict == "approximated" for line in before.report.losses)
-    told = {line.what for line in before.report.losses}
+    problems = {line.what for line in before.report.losses}
     assert {
         "sigma",
         *(set(old) & {"sigma", "sigmaExc", "sigmaInh"}),
         *(set(values) - set(old) - {"width", "widthExc", "widthInh"}),
-    } <= told
-    assert ("lateral interactions" in told) == (label != now) and ("deltaT" in told) == bare
+    } <= problems
+    assert ("lateral interactions" in problems) == (label != now) and ("deltaT" in problems) == bare
 
 
 def test_a_width_in_both_forms_is_read_once(tmp_path):

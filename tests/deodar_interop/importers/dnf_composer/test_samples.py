@@ -50,13 +50,13 @@ def test_every_listed_step_agrees(path, tmp_path):
     unstable = "color" in path.stem  # a two-cycle that multiplies rounding by 2,500 in 25 steps
     for precision, early, late in (("float64", 1e-9, 1e-7), ("float32", 1e-3, 1e-2))[: 1 if unstable else 2]:
         end = last if precision == "float64" else 50
-        data = dd.simulate(model, end * dt, every=dt, record=list(ports.values()), precision=precision)
-        for (name, port, step), wanted in reference.items():
+        record = dd.simulate(model, end * dt, every=dt, record=list(ports.values()), precision=precision)
+        for (name, port, step), expected in reference.items():
             if int(step) > end:
                 continue
             near = early if int(step) <= 50 and not unstable else late
-            found = data[display((name, port))].values[int(step)].reshape(-1)
-            assert abs(found - wanted).max() < near, (precision, name, port, step)
+            values = record[display((name, port))].values[int(step)].reshape(-1)
+            assert abs(values - expected).max() < near, (precision, name, port, step)
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
@@ -77,20 +77,20 @@ def test_names_step_axes_and_notes_are_taken_from_the_file():
 def test_the_written_document_gives_the_same_bits(tmp_path):
     model = dd.load(next(p for p in SAMPLES if p.stem == "syn-couplings"))
     dd.save(model, tmp_path / "a.json")
-    again = dd.load(tmp_path / "a.json")
-    assert again.document == model.document
-    one, two = (dd.simulate(m, 20, every=20, seed=3) for m in (model, again))
+    loaded = dd.load(tmp_path / "a.json")
+    assert loaded.document == model.document
+    one, two = (dd.simulate(m, 20, every=20, seed=3) for m in (model, loaded))
     assert all(np.array_equal(one[name], two[name]) for name in one.data_vars)
 
 
 def test_noise_has_the_strength_of_the_file(tmp_path):
     """White noise has the standard deviation amplitude / sqrt(dt); a kernel makes it smaller."""
-    own = {"label": [8, "normal noise"], "x_max": 400, "d_x": 1.0, "inputs": None, "amplitude": 0.6}
+    settings = {"label": [8, "normal noise"], "x_max": 400, "d_x": 1.0, "inputs": None, "amplitude": 0.6}
     smooth = {"label": [9, "correlated normal noise"], "width": 2.0, "circular": True}
-    parts = [{"uniqueName": "n", **own}, {"uniqueName": "c", **own, **smooth}]
+    parts = [{"uniqueName": "n", **settings}, {"uniqueName": "c", **settings, **smooth}]
     (tmp_path / "n.dnf").write_text(json.dumps({"deltaT": 4.0, "elements": parts}))
-    data = dd.simulate(dd.load(tmp_path / "n.dnf"), 400, every=4, record=["n.output", "c.output"], seed=1)
+    record = dd.simulate(dd.load(tmp_path / "n.dnf"), 400, every=4, record=["n.output", "c.output"], seed=1)
     taps = np.exp(-0.5 * (np.arange(-10, 11) / 2.0) ** 2)
     share = np.sqrt(np.sum((taps / taps.sum()) ** 2))
-    for name, wanted in (("n", 0.6 / 2), ("c", 0.6 / 2 * share)):
-        assert abs(data[f"{name}.output"].values[1:].std() / wanted - 1) < 0.05
+    for name, expected in (("n", 0.6 / 2), ("c", 0.6 / 2 * share)):
+        assert abs(record[f"{name}.output"].values[1:].std() / expected - 1) < 0.05
