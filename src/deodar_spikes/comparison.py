@@ -86,9 +86,9 @@ class SpikingComparison:
                         }
                         for name, e in measures.items()
                     }
-                    for run, measures in found.items()
+                    for run, measures in estimates.items()
                 }
-                for label, found in self.estimates.items()
+                for label, estimates in self.estimates.items()
             },
         }
 
@@ -120,18 +120,18 @@ def compare_spikes(
     """
     if trials < 1:
         raise ParameterError(f"{trials} trials", fix=option("Give 1 or more:", "trials", "100"))
-    given = SpikingOptions() if options is None else instance_of(SpikingOptions, options, "options")
-    made = prepare(model, model.document.name, given)
-    network, graph = made.translated.network, made.fitted.graph
+    settings = SpikingOptions() if options is None else instance_of(SpikingOptions, options, "options")
+    prepared = prepare(model, model.document.name, settings)
+    network, graph = prepared.translated.network, prepared.fitted.graph
     every = max(1, round(WINDOW / network.step))
     many = None if world is None else trials
-    inputs = network_input(made.translated, graph, duration, world, many, given.seed)
-    chips = min(trials, CHIPS) if any(made.spread.values()) else 1
-    sampling = SpikingTrials(trials, every, made.spread, chips, given.seed)
+    inputs = network_input(prepared.translated, graph, duration, world, many, settings.seed)
+    chips = min(trials, CHIPS) if any(prepared.spread.values()) else 1
+    sampling = SpikingTrials(trials, every, prepared.spread, chips, settings.seed)
     step = network.step / network.unit
     windows = (len(inputs.analog) - inputs.settling) // every
     runs = {
-        "rates": _rate_model(model, made, windows, every * step, trials, given.seed, world),
+        "rates": _rate_model(model, prepared, windows, every * step, trials, settings.seed, world),
         "spikes": simulated(graph, inputs, sampling),
     }
     python = None if isinstance(norse, bool) else norse
@@ -146,12 +146,12 @@ def compare_spikes(
         )
         for label in runs["spikes"]
     }
-    return SpikingComparison(made, inputs, every, runs, estimates, version)
+    return SpikingComparison(prepared, inputs, every, runs, estimates, version)
 
 
 def _rate_model(
     model: Model,
-    made: Prepared,
+    prepared: Prepared,
     windows: int,
     window: float,
     trials: int,
@@ -159,7 +159,7 @@ def _rate_model(
     world: World | None,
 ) -> Rates:
     """Run the model itself; its outputs in the middle of each window."""
-    labels = [p.label for p in made.translated.network.populations if p.probed]
+    labels = [p.label for p in prepared.translated.network.populations if p.probed]
     many = world is not None or any(e.element.noise_axes() is not None for e in model.document.entries)
     dt = model.document.step
     record = simulate(
@@ -218,28 +218,30 @@ def _most(winners: NDArray[np.float64]) -> float:
     return float(values[counts.argmax()])
 
 
-def _winner(found: FieldOutcomes, expected: NDArray[np.float64], axes: Axes) -> Estimate:
+def _winner(outcomes: FieldOutcomes, expected: NDArray[np.float64], axes: Axes) -> Estimate:
     """Return the share of trials with the wanted winner, of those in which one is wanted."""
     known = ~np.isnan(expected)
     sizes = [a.samples for a in axes] or [1]
     places, targets = (
         np.stack(np.unravel_index(np.nan_to_num(v[known]).astype(int), sizes))
-        for v in (found.winner, expected)
+        for v in (outcomes.winner, expected)
     )
     apart = np.abs(places - targets)
     for k, axis in enumerate(axes):
         if axis.periodic:
             apart[k] = np.minimum(apart[k], axis.samples - apart[k])
-    near = (apart <= np.maximum(1, NEAR * np.array(sizes))[:, None]).all(0) & ~np.isnan(found.winner[known])
+    near = (apart <= np.maximum(1, NEAR * np.array(sizes))[:, None]).all(0) & ~np.isnan(
+        outcomes.winner[known]
+    )
     return _share(near.astype(float))
 
 
 def _mean(values: NDArray[np.float64] | Sequence[float]) -> Estimate:
-    known = np.asarray(values, float)
-    known = known[~np.isnan(known)]
-    if not len(known):
+    samples = np.asarray(values, float)
+    samples = samples[~np.isnan(samples)]
+    if not len(samples):
         return Estimate(np.nan, None, 0)
-    return Estimate(float(known.mean()), mean_interval(known), len(known))
+    return Estimate(float(samples.mean()), mean_interval(samples), len(samples))
 
 
 def _share(values: NDArray[np.float64]) -> Estimate:

@@ -41,8 +41,8 @@ class NetworkInput:
     @property
     def on(self) -> NDArray[np.bool_]:
         """Whether an excitatory input is on, for each step after settling."""
-        given = self.analog[self.settling :].max(tuple(range(1, self.analog.ndim)), initial=0.0)
-        return np.asarray(given > 1e-3 * max(1e-30, float(given.max(initial=0.0))))
+        peak_input = self.analog[self.settling :].max(tuple(range(1, self.analog.ndim)), initial=0.0)
+        return np.asarray(peak_input > 1e-3 * max(1e-30, float(peak_input.max(initial=0.0))))
 
     def pieces(self, trials: int, seed: int, size: int) -> Iterator[InputValues]:
         """Yield pieces of `size` steps: steps x values if all trials are equal, else steps x trials x values.

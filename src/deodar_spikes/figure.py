@@ -31,9 +31,9 @@ def spikes_figure(
         grid = figure.subplots(len(labels), len(runs), squeeze=False, sharex=True, sharey="row")
         for row, label in enumerate(labels):
             most = max(float(np.max(r[label])) for r in runs.values()) or 1.0
-            for column, (name, found) in enumerate(runs.items()):
+            for column, (name, run) in enumerate(runs.items()):
                 ax = grid[row][column]
-                values = found[label][:, : MOST_CELLS * 100]
+                values = run[label][:, : MOST_CELLS * 100]
                 if values.shape[1] == 1:
                     ax.plot(times, values[:, 0], color=_style.COLOR.output)
                     ax.set_ylim(0, 1.1 * most)

@@ -74,12 +74,12 @@ def _rounded(graph: NirGraph, name: str, limits: ChipLimits, lines: list[Line]) 
     for label, row in rows:
         for source, column in columns:
             place = (row, column)
-            said = _round(weight, place, limits.weight_bits)
-            if said:
-                lines.append(Line(label, "connection", source, "approximated", f"weights of {said}"))
-        said = _round(bias, (row,), limits.bias_bits)
-        if said:
-            lines.append(Line(label, "parameter", "bias", "approximated", said))
+            rounded = _round(weight, place, limits.weight_bits)
+            if rounded:
+                lines.append(Line(label, "connection", source, "approximated", f"weights of {rounded}"))
+        rounded = _round(bias, (row,), limits.bias_bits)
+        if rounded:
+            lines.append(Line(label, "parameter", "bias", "approximated", rounded))
     return AffineNode(weight, bias)
 
 

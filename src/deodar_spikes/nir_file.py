@@ -46,9 +46,9 @@ def write_nir(graph: NirGraph) -> bytes:
         "deodar": codec.text(about),
     }
     nodes = {name: _nir_node(nir, node, name) for name, node in graph.nodes.items()}
-    made = nir.NIRGraph(nodes, list(graph.edges), metadata=metadata)
+    written = nir.NIRGraph(nodes, list(graph.edges), metadata=metadata)
     buffer = io.BytesIO()
-    nir.write(buffer, made)
+    nir.write(buffer, written)
     return buffer.getvalue()
 
 

@@ -16,7 +16,7 @@ sys.path.pop(0)  # the folder of this script has modules of deodar, with names t
 import numpy as np
 
 
-def main(file: str, given: str, out: str) -> None:
+def main(file: str, inputs_file: str, out: str) -> None:
     """Run the file and write the sums."""
     # this process alone has them
     import nir
@@ -24,7 +24,7 @@ def main(file: str, given: str, out: str) -> None:
     import torch
 
     torch.set_num_threads(1)
-    data = np.load(given)
+    data = np.load(inputs_file)
     net = norse.torch.from_nir(nir.read(file), dt=float(data["step"]), ignore_warnings=True)
     inputs, every = torch.from_numpy(data["inputs"]), int(data["every"])
     state, sums, total = None, [], 0

@@ -45,5 +45,5 @@ def read(args: argparse.Namespace) -> SpikingOptions:
     # start-up time: this brings JAX
     from deodar_spikes.prepare import SpikingOptions
 
-    given = {name: getattr(args, name, None) for name in NAMES}
-    return SpikingOptions(**{name: value for name, value in given.items() if value is not None})
+    typed = {name: getattr(args, name, None) for name in NAMES}
+    return SpikingOptions(**{name: value for name, value in typed.items() if value is not None})

@@ -73,19 +73,19 @@ def prepare(model: Model, name: str = "", options: SpikingOptions | None = None)
         TimeError: the step is not shorter than every time constant.
         TooLarge: the network has too many neurons or weights.
     """
-    given = SpikingOptions() if options is None else instance_of(SpikingOptions, options, "options")
-    limits = chip_limits(given.chip)
-    if given.mismatch is not None and not 0 <= given.mismatch < 1:
-        raise ParameterError(f"a mismatch of {given.mismatch:g}", fix="Give a share, for example 0.1")
+    settings = SpikingOptions() if options is None else instance_of(SpikingOptions, options, "options")
+    limits = chip_limits(settings.chip)
+    if settings.mismatch is not None and not 0 <= settings.mismatch < 1:
+        raise ParameterError(f"a mismatch of {settings.mismatch:g}", fix="Give a share, for example 0.1")
     spread = limits.mismatch
-    if given.mismatch is not None:
-        spread = {field: given.mismatch for field in DIFFERING}
-    translated = translate(model, name, given.neurons, given.step, tonic=given.tonic)
+    if settings.mismatch is not None:
+        spread = {field: settings.mismatch for field in DIFFERING}
+    translated = translate(model, name, settings.neurons, settings.step, tonic=settings.tonic)
     fitted = fit(build(translated.network), limits)
     network, cores = translated.network, fitted.cores
     size = (
         f"{network.neurons:,} neurons, {network.synapses:,} synapses, steps of {network.step * 1e3:g} ms,"
-        f" {cores} core{'s' if cores > 1 else ''} of {given.chip}"
+        f" {cores} core{'s' if cores > 1 else ''} of {settings.chip}"
     )
     lines = [*translated.report.lines, Line("", "file", "network", "carried", size), *fitted.lines]
     for what, share in spread.items():

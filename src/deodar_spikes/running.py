@@ -41,12 +41,12 @@ class SpikingTrials:
     seed: int = 0
 
 
-def simulated(graph: NirGraph, given: NetworkInput, trials: SpikingTrials) -> Rates:
+def simulated(graph: NirGraph, inputs: NetworkInput, trials: SpikingTrials) -> Rates:
     """Run a graph in the simulator of deodar.
 
     Args:
         graph: the graph.
-        given: its input.
+        inputs: its input.
         trials: number of trials, windows and chips.
     """
     number, every, chips, seed = trials.number, trials.every, trials.chips, trials.seed
@@ -57,7 +57,7 @@ def simulated(graph: NirGraph, given: NetworkInput, trials: SpikingTrials) -> Ra
     }
     simulator = SpikingSimulator(graph, copies=number, differing=parameters)
     state, found = simulator.start(), list[NDArray[np.float32]]()
-    whole = _whole(given, every)
+    whole = _whole(inputs, every)
     for piece in whole.pieces(number, seed, PIECE * every):
         sums, state = simulator.run(state, piece, every)
         found.append(sums)
@@ -78,12 +78,12 @@ def in_norse(
     if inputs.ndim == 2:
         inputs = np.repeat(inputs[:, None], number, axis=1)
     parts = [np.arange(k, number, chips) for k in range(min(chips, number))]
-    found = [
+    spikes = [
         run_norse(chip(graph, trials.spread, seed, k), inputs[:, part], every, python)
         for k, part in enumerate(parts)
     ]
-    sums = np.empty((steps // every, number, found[0].shape[-1]), np.float32)
-    for part, values in zip(parts, found, strict=True):
+    sums = np.empty((steps // every, number, spikes[0].shape[-1]), np.float32)
+    for part, values in zip(parts, spikes, strict=True):
         sums[:, part] = values
     return rates(graph, sums[whole.settling // every :], every)
 
@@ -98,10 +98,10 @@ def rates(graph: NirGraph, sums: NDArray[np.float32], every: int) -> Rates:
     }
 
 
-def _whole(given: NetworkInput, every: int) -> NetworkInput:
+def _whole(inputs: NetworkInput, every: int) -> NetworkInput:
     """Return the input with a number of settling steps and steps that are multiples of a window."""
-    settling = -(-given.settling // every) * every
-    steps = (len(given.analog) - given.settling) // every * every
-    before = np.zeros((settling - given.settling, *given.analog.shape[1:]), np.float32)
-    analog = np.concatenate([before, given.analog[: given.settling + steps]])
-    return NetworkInput(analog, settling, given.step, given.expected)
+    settling = -(-inputs.settling // every) * every
+    steps = (len(inputs.analog) - inputs.settling) // every * every
+    before = np.zeros((settling - inputs.settling, *inputs.analog.shape[1:]), np.float32)
+    analog = np.concatenate([before, inputs.analog[: inputs.settling + steps]])
+    return NetworkInput(analog, settling, inputs.step, inputs.expected)

@@ -126,26 +126,26 @@ class SpikingSimulator:
         self, parameters: dict[str, NodeValues], state: dict[str, NodeValues], x: Array
     ) -> tuple[dict[str, NodeValues], Array]:
         """Compute one step of all nodes."""
-        now: dict[str, Array] = {INPUT: x}
+        activities: dict[str, Array] = {INPUT: x}
         new: dict[str, NodeValues] = {}
         for e in self.plan:
-            read = [now[s] for s in e.now] + [state[s]["out"] for s in e.before]
+            read = [activities[s] for s in e.now] + [state[s]["out"] for s in e.before]
             total = jnp.asarray(sum(read[1:], read[0]))
             node = self.graph.nodes[e.name]
             if isinstance(node, AffineNode):
-                now[e.name] = jnp.asarray(self._factors[e.name](total) + parameters[e.name]["bias"])
-                new[e.name] = {"out": now[e.name]}
+                activities[e.name] = jnp.asarray(self._factors[e.name](total) + parameters[e.name]["bias"])
+                new[e.name] = {"out": activities[e.name]}
             elif isinstance(node, NeuronNode):
                 p, s = parameters[e.name], state[e.name]
                 current = s["current"] + p["to_syn"] * (-s["current"] + p["w_in"] * total)
                 v = s["potential"] + p["to_mem"] * ((p["v_leak"] - s["potential"]) + p["r"] * current)
                 spike = jnp.asarray(v > p["v_threshold"])
-                now[e.name] = spike.astype(jnp.float32)
+                activities[e.name] = spike.astype(jnp.float32)
                 potential = jnp.where(spike, p["v_reset"], v)
-                new[e.name] = {"current": current, "potential": potential, "out": now[e.name]}
+                new[e.name] = {"current": current, "potential": potential, "out": activities[e.name]}
             else:
-                now[e.name] = total
-        return new, now[OUTPUT]
+                activities[e.name] = total
+        return new, activities[OUTPUT]
 
 
 def _require_step(graph: NirGraph) -> None:

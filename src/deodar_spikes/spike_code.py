@@ -147,14 +147,14 @@ def _bounded(sigmoid: SigmoidFunction, neurons: int, step: float) -> SpikeCode:
     margin = max(spread / 2, 2 * middle)
     u = np.linspace(thresholds[0] - margin, thresholds[-1] + margin, POINTS)
     expected = _values(sigmoid, u)
-    found: list[SpikeCode] = []
+    codes: list[SpikeCode] = []
     for width in (w * middle for w in RAMPS):
         gain = (QUICK - 1) / width
         for shift in SHIFTS:
             offsets = 1 - gain * (thresholds - shift * width)
             code = SpikeCode(gain, offsets, most, QUICK * step, float(u[0]), float(u[-1]), most, 0.0, 0.0)
-            found.append(_measured(code, u, expected, step))
-    return min(found, key=lambda c: (c.rms, c.worst))
+            codes.append(_measured(code, u, expected, step))
+    return min(codes, key=lambda c: (c.rms, c.worst))
 
 
 def _measured(code: SpikeCode, u: Levels, expected: Levels, step: float) -> SpikeCode:

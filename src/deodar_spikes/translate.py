@@ -136,25 +136,29 @@ class _Translation:
     def _spiking(self, entry: Entry) -> None:
         """Add the populations of an element, and report its parameters."""
         try:
-            made = COUNTERPARTS[type(entry.element)](entry, self.setup)
+            counterpart = COUNTERPARTS[type(entry.element)](entry, self.setup)
         except NoSpikeCode as error:
             self.failed[entry.id] = str(error)
             self._all(entry, "dropped", str(error), "its element has no counterpart")
             return
         first = len(self.populations)
-        for p in made.populations:
+        for p in counterpart.populations:
             self.index[p.element, p.port] = len(self.populations)
             self.populations.append(p)
-        self.inner += [Projection(p.source + first, p.target + first, p.weights) for p in made.projections]
-        self._report(entry, made)
+        self.inner += [
+            Projection(p.source + first, p.target + first, p.weights) for p in counterpart.projections
+        ]
+        self._report(entry, counterpart)
 
-    def _report(self, entry: Entry, made: Counterpart) -> None:
+    def _report(self, entry: Entry, counterpart: Counterpart) -> None:
         kind = type(entry.element).__name__
-        counted = ", ".join(f"{p.cells} x {len(p.code.offsets)} neurons ({p.port})" for p in made.populations)
+        counted = ", ".join(
+            f"{p.cells} x {len(p.code.offsets)} neurons ({p.port})" for p in counterpart.populations
+        )
         self.lines.append(Line(entry.path, "element", kind, "approximated", counted))
         for p in parameters(type(entry.element)):
             if p.name != "name":
-                verdict, why = made.parameters.get(p.name, ("carried", ""))
+                verdict, why = counterpart.parameters.get(p.name, ("carried", ""))
                 self.lines.append(Line(entry.path, "parameter", p.name, verdict, why))
 
     def _other(self, entry: Entry) -> None:
@@ -210,11 +214,11 @@ class _Translation:
     def _projections(self) -> list[Projection]:
         """Return the projections of all couplings between populations."""
         out: list[Projection] = []
-        known: dict[Key, Mapping[int, WeightMatrix]] = {}
+        arriving: dict[Key, Mapping[int, WeightMatrix]] = {}
         for (ident, port), target in self.index.items():
             if port != "output":
                 continue
-            found = self._arriving(self.nodes[ident], "input", known, ())
+            found = self._arriving(self.nodes[ident], "input", arriving, ())
             out += [Projection(source, target, w) for source, w in found.items() if np.any(w)]
         return out
 
@@ -229,25 +233,25 @@ class _Translation:
         return total
 
     def _leaving(
-        self, ident: str, port: str, known: dict[Key, Mapping[int, WeightMatrix]], via: tuple[str, ...]
+        self, ident: str, port: str, arriving: dict[Key, Mapping[int, WeightMatrix]], via: tuple[str, ...]
     ) -> Mapping[int, WeightMatrix]:
         """Return, for each population, the matrix from its rates to an output port."""
-        if (ident, port) in known:
-            return known[ident, port]
-        found: Mapping[int, WeightMatrix] = {}
+        if (ident, port) in arriving:
+            return arriving[ident, port]
+        weights: Mapping[int, WeightMatrix] = {}
         node = self.nodes[ident]
         if (ident, port) in self.index:
             k = self.index[ident, port]
-            found = {k: np.eye(self.populations[k].cells)}
+            weights = {k: np.eye(self.populations[k].cells)}
         elif ident in self.reached and self._linear(node) and ident not in via:
-            before = self._arriving(node, "input", known, (*via, ident))
+            before = self._arriving(node, "input", arriving, (*via, ident))
             if isinstance(node.element, Delay) or not before:
-                found = before
+                weights = before
             else:
                 matrix = element_matrix(node, port)
-                found = {source: matrix @ w for source, w in before.items()}
-        known[ident, port] = found
-        return found
+                weights = {source: matrix @ w for source, w in before.items()}
+        arriving[ident, port] = weights
+        return weights
 
     def _connection(self, c: Connection) -> Line:
         """Report a connection."""

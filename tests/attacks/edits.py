@@ -150,11 +150,11 @@ class State:
         """Change all documents."""
 
         def changed(chain: Any) -> Any:
-            found: list[Document] = []
+            documents: list[Document] = []
             while chain is not None:
-                found.append(chain[0])
+                documents.append(chain[0])
                 chain = chain[1]
-            for doc in reversed(found):
+            for doc in reversed(documents):
                 chain = (how(doc), chain)
             return chain
 

@@ -89,8 +89,8 @@ class Outcome:
 
 def kinds() -> dict[str, tuple[str, ...]]:
     """Return the fields of every request that a page may send, by tag."""
-    found = [kind for kind in MESSAGES.values() if kind is not Drawn]  # it has no answer
-    return {str(kind.__struct_config__.tag): kind.__struct_fields__ for kind in found}
+    types = [kind for kind in MESSAGES.values() if kind is not Drawn]  # it has no answer
+    return {str(kind.__struct_config__.tag): kind.__struct_fields__ for kind in types}
 
 
 def drawn(random: random.Random, known: dict[str, tuple[str, ...]], ids: list[str]) -> dict[str, Any]:

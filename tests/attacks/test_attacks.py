@@ -63,7 +63,7 @@ def test_a_studio_that_stores_data_of_closed_pages_is_detected(more: dict[str, f
     early = soak.Held(500, 10, 300_000, 8, 20, 1, 0)
     (error,) = soak.beyond(
         early,
-        dc.replace(early, **{name: getattr(early, name) + value for name, value in more.items()}),
+        dc.replace(early, **{name: getattr(early, name) + increase for name, increase in more.items()}),
         visits,
     )
     assert next(iter(more)) in error and f"after {visits} visits" in error

@@ -157,10 +157,10 @@ KINDS = (*EDITS, AMENDED)
 
 
 def _comment(draw: Draw, doc: Document) -> str:
-    known: Any = doc.layout.get("comments")
-    if not known:
+    comments: Any = doc.layout.get("comments")
+    if not comments:
         raise dd.errors.ModelError("no comments")
-    return draw.choice(sorted(known))
+    return draw.choice(sorted(comments))
 
 
 def _with_tau(doc: Document) -> list[Entry]:
@@ -187,8 +187,8 @@ def _preset(draw: Draw, doc: Document) -> Document:
 
 
 def _kernel(draw: Draw) -> Any:
-    made = dd.Gaussian(draw.uniform(1, 9), sigma=draw.uniform(1, 3))
-    return draw.choice((made, dd.MexicanHat(5, draw.uniform(1, 2), 3, 4)))
+    kernel = dd.Gaussian(draw.uniform(1, 9), sigma=draw.uniform(1, 3))
+    return draw.choice((kernel, dd.MexicanHat(5, draw.uniform(1, 2), 3, 4)))
 
 
 def _window(draw: Draw, before: int) -> dd.Window:

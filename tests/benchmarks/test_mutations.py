@@ -25,8 +25,8 @@ def test_samples_contain_documents_and_files_of_cosivina() -> None:
 @pytest.mark.parametrize("name", TEXTS)
 def test_files_with_errors_open_or_are_refused(name: str, tmp_path: Path) -> None:
     assert mutations.opened(TEXTS[name].encode(), tmp_path) is not None
-    found = [mutations.opened(mutations.case(name, 1, number, TEXTS), tmp_path) for number in range(12)]
-    assert any(model is None for model in found)
+    outcomes = [mutations.opened(mutations.case(name, 1, number, TEXTS), tmp_path) for number in range(12)]
+    assert any(model is None for model in outcomes)
 
 
 @pytest.mark.parametrize(

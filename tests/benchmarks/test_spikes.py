@@ -15,17 +15,17 @@ from tests.deodar_spikes.scenes import DETECTOR, bistable, pairs, winner_take_al
 
 
 def test_the_page_has_the_stored_tables() -> None:
-    found, about = spikes.read()
+    table, about = spikes.read()
     text = spikes.PAGE.read_text(encoding="utf-8")
-    assert spikes.MARK.search(text) and spikes.filled(text, spikes.texts(found, about)) == text, (
+    assert spikes.MARK.search(text) and spikes.filled(text, spikes.texts(table, about)) == text, (
         "python benchmarks/spikes.py pages"
     )
 
 
 def test_the_stored_results_hold_what_is_required() -> None:
     """The limits that the translation was made for; controls fail."""
-    found, _ = spikes.read()
-    rows = {r["condition"]: r for r in found["selection"]}
+    table, _ = spikes.read()
+    rows = {r["condition"]: r for r in table["selection"]}
     for name, least in (
         ("5 to 30 %, mismatch 0", 0.99),
         ("5 to 30 %, mismatch 10 %", 0.99),
@@ -37,32 +37,32 @@ def test_the_stored_results_hold_what_is_required() -> None:
             assert rows[name][run] >= least * rows[name]["of"], (name, run)
     assert rows["control: mismatch 50 %"]["deodar"] < 0.95 * spikes.TRIALS
     assert rows["control: no inhibition"]["deodar"] < 0.95 * spikes.TRIALS
-    for r in found["thresholds"]:
+    for r in table["thresholds"]:
         if not r["mismatch"]:
             assert r["spikes"] == pytest.approx(r["rates"], rel=0.05 if r["what"] == "detection" else 0.1)
-    assert found["memory"][0]["stays"] >= 0.98 * found["memory"][0]["of"]
-    errors = {r["neurons"]: r for r in found["rates"]}
+    assert table["memory"][0]["stays"] >= 0.98 * table["memory"][0]["of"]
+    errors = {r["neurons"]: r for r in table["rates"]}
     assert max(v for k, v in errors[20].items() if k.endswith("mismatch 0%")) <= 0.05
-    assert all(r["differ"] <= 1e-3 * r["compared"] for r in found["readers"])
+    assert all(r["differ"] <= 1e-3 * r["compared"] for r in table["readers"])
 
 
 def test_20_trials_select_as_the_rates_do() -> None:
-    given = pairs(20)
-    inputs = spikes.constant(given.inputs)
-    expected = spikes.rate_winners(given)
-    graph = spikes.network(winner_take_all(given.inputs[0]))
+    competing = pairs(20)
+    inputs = spikes.constant(competing.inputs)
+    expected = spikes.rate_winners(competing)
+    graph = spikes.network(winner_take_all(competing.inputs[0]))
     for mismatch in (0.0, 0.2):
         counts = spikes.spikes(graph, inputs, mismatch, 20, 200)
         assert spikes._same(spikes.winners(graph, counts), expected) == 20
 
 
 def test_controls_fail() -> None:
-    given = pairs(20, 0.05, 0.05)
-    inputs = spikes.constant(given.inputs)
-    graph = spikes.network(winner_take_all(given.inputs[0]))
+    competing = pairs(20, 0.05, 0.05)
+    inputs = spikes.constant(competing.inputs)
+    graph = spikes.network(winner_take_all(competing.inputs[0]))
     counts = spikes.spikes(graph, inputs, 0.5, 20, 200)
-    assert spikes._same(spikes.winners(graph, counts), given.places) < 19
-    none = spikes.network(winner_take_all(given.inputs[0], 0.0))
+    assert spikes._same(spikes.winners(graph, counts), competing.places) < 19
+    none = spikes.network(winner_take_all(competing.inputs[0], 0.0))
     out = spikes.rates(none, spikes.spikes(none, inputs, 0.0, 1, 200)[2:], 200)["pool"].mean(0)
     assert ((out > 0.3 * out.max(1, keepdims=True)).sum(1) > 12).all()
 

@@ -71,8 +71,8 @@ def test_the_yardstick_follows_its_equation(cc: str, tmp_path: Path) -> None:
         program = steps.build(cc, tmp_path, "field", shape, sigmas, trials)
         expected = reference(shape, sigmas, 200)
         assert expected.max() > 0.3  # a peak has formed, kernels count
-        found = answer(program, "state", 200).reshape(trials, *shape)
-        assert np.abs(found - expected).max() <= 1e-4, shape
+        state = answer(program, "state", 200).reshape(trials, *shape)
+        assert np.abs(state - expected).max() <= 1e-4, shape
 
 
 @JUDGED
@@ -158,8 +158,8 @@ def test_a_workload_with_a_world_steps_beside_it(
         worlds.append(Ramp())
         return worlds[-1]
 
-    made = workloads.Workload(watched, "a field and a ramp", None, world=world, session=session)
-    monkeypatch.setitem(workloads.WORKLOADS, "ramp", made)
+    workload = workloads.Workload(watched, "a field and a ramp", None, world=world, session=session)
+    monkeypatch.setitem(workloads.WORKLOADS, "ramp", workload)
     timed = steps.Timed()
     steps_taken = []
     for _ in range(2):

@@ -112,12 +112,12 @@ def record(model: dd.Model, duration: float, ports: Sequence[str], **options: An
     return dd.simulate(model, duration, record=ports, world=Anything(), **options)
 
 
-def another(value: float, lower: float | None, upper: float | None) -> float:
+def another(number: float, lower: float | None, upper: float | None) -> float:
     """Return another value inside the bounds, far from the first."""
-    for new in (1.25 * value + 0.125, 0.75 * value, 0.5 * value - 0.125):
-        if new != value and (lower is None or new >= lower) and (upper is None or new <= upper):
+    for new in (1.25 * number + 0.125, 0.75 * number, 0.5 * number - 0.125):
+        if new != number and (lower is None or new >= lower) and (upper is None or new <= upper):
             return new
-    raise AssertionError(f"no other value between {lower} and {upper} than {value}")
+    raise AssertionError(f"no other value between {lower} and {upper} than {number}")
 
 
 def changes(element: Element) -> list[tuple[str, Any]]:

@@ -220,14 +220,14 @@ def test_custom_kinds_may_lack_all_descriptions(outside: None) -> None:
     class Hollow(Kernel):
         depth: float
 
-    found = {kind.name: kind for kind in descriptions()}
-    silent, hollow = found["Silent"], found["Hollow"]
+    described = {kind.name: kind for kind in descriptions()}
+    silent, hollow = described["Silent"], described["Hollow"]
     assert (silent.room, hollow.room) == ("own", "own")
     assert silent.equation == () and silent.reference == "" and silent.levels == {}
     assert silent.ports == {"input": ""}
     assert [p.name for p in silent.parameters] == ["need", "where"]
     assert hollow.example is None
-    assert "Hollow" in form(found["Field"], "kernel").of
+    assert "Hollow" in form(described["Field"], "kernel").of
 
 
 def test_range_and_default_of_a_parameter_are_valid_python() -> None:

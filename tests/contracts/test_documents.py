@@ -37,8 +37,8 @@ def test_values_other_than_defaults_are_saved_and_loaded(kind, tmp_path):
     back = dd.load(tmp_path / "a.json", trust=True)
     assert back.document == model.document
     for path, number in changes(any_example(kind)):
-        found = get(back["example"].element, path)
-        assert np.array_equal(found.data if isinstance(found, FrozenArray) else found, number), path
+        stored = get(back["example"].element, path)
+        assert np.array_equal(stored.data if isinstance(stored, FrozenArray) else stored, number), path
 
 
 @pytest.mark.parametrize("kind", ["Field", "Weights", "Project"])

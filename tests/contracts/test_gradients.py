@@ -20,12 +20,12 @@ STEPS, NUDGE = 6, 1e-6
 
 def numbers(model: dd.Model) -> list[str]:
     """Return the paths of all numbers and arrays that drive a program."""
-    found: list[str] = []
+    paths: list[str] = []
     for entry in model.document.entries:
         for leaf, number, parameter in leaves(entry.element):
             if np.size(number) and parameter.role not in ("moment", "duration"):
-                found.append(f"{entry.path}.{leaf}")
-    return found
+                paths.append(f"{entry.path}.{leaf}")
+    return paths
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
@@ -53,9 +53,9 @@ def test_gradients_are_those_of_finite_differences_or_are_refused(kind: str) -> 
             return
         value = jax.jit(total)
         for path, slope in slopes.items():
-            way = np.cos(np.arange(slope.size) + 0.5).reshape(slope.shape)
-            high, low = (float(value({**start, path: start[path] + e * way})) for e in (NUDGE, -NUDGE))
-            by = float(np.sum(np.asarray(slope) * way))
+            direction = np.cos(np.arange(slope.size) + 0.5).reshape(slope.shape)
+            high, low = (float(value({**start, path: start[path] + e * direction})) for e in (NUDGE, -NUDGE))
+            by = float(np.sum(np.asarray(slope) * direction))
             assert by == pytest.approx((high - low) / (2 * NUDGE), rel=1e-6, abs=1e-6), path
 
 

@@ -42,9 +42,9 @@ def test_axes_that_had_a_default_before_are_required_or_inferred_from_the_source
 
 @pytest.mark.parametrize(("kind", "name"), NEEDED)
 def test_a_missing_axis_is_an_error_that_states_what_to_write(kind: str, name: str) -> None:
-    for given in ({}, {name: None}):
+    for absence in ({}, {name: None}):
         with pytest.raises(ParameterError) as caught:
-            KINDS[kind](**given)
+            KINDS[kind](**absence)
         [problem] = caught.value.problems
         assert problem.where == f"{kind}.{name}" and problem.what == f"{kind} needs {name}"
         assert problem.fix.startswith(f"Write: {kind}(")

@@ -43,11 +43,11 @@ def test_finite_for_a_thousand_steps_from_init_also_in_a_hundred_trials(kind):
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
 def test_every_port_can_be_read_and_has_the_axes_it_declares(kind):
     model = around(any_example(kind))
-    here, s = node(model), session(model)
+    resolved, s = node(model), session(model)
     s.step(1)
     entry = model["example"]
     for port in find.readable(model.entry(entry.id)):
-        axes = here.outs[port] if port in here.outs else here.ins[port]
+        axes = resolved.outs[port] if port in resolved.outs else resolved.ins[port]
         assert s.read(f"example.{port}").shape == shape(axes), port
 
 
@@ -56,24 +56,24 @@ def test_every_port_can_be_read_and_has_the_axes_it_declares(kind):
 def test_one_copy_has_exactly_the_declared_outputs(kind, precision):
     """The element's own functions, outside a program: shapes and precision of outputs and of the state."""
     element = any_example(kind)
-    here = node(around(element))
-    at = Setting(here.ins, here.outs, np.dtype(precision))
+    resolved = node(around(element))
+    at = Setting(resolved.ins, resolved.outs, np.dtype(precision))
     with jax.enable_x64(precision == "float64"):
-        zeros = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
+        zeros = {port: np.zeros(shape(axes), at.dtype) for port, axes in resolved.ins.items()}
         if element.external:
-            zeros[element.external] = np.zeros(shape(here.outs["output"]), at.dtype)
-        zeros |= {p: np.zeros(shape(here.outs[p]), at.dtype) for p in element.reads_own_output}
+            zeros[element.external] = np.zeros(shape(resolved.outs["output"]), at.dtype)
+        zeros |= {p: np.zeros(shape(resolved.outs[p]), at.dtype) for p in element.reads_own_output}
         noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
         time = Time.at(0.0, 1.0, at.dtype)
         state = element.init(at)
-        functions = Functions(here, {})
+        functions = Functions(resolved, {})
         constants = functions.hoist(element, at, functions.prepare(element, at))
         read = StepArguments(state, zeros, constants, noise)
         out = jax.eval_shape(lambda: functions.output(element, at, read, time))
         assert {port: np.shape(v) for port, v in out.items()} == {
-            port: shape(axes) for port, axes in here.outs.items()
+            port: shape(axes) for port, axes in resolved.outs.items()
         }
-        assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(here.outs, at.dtype)
+        assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(resolved.outs, at.dtype)
         assert element.stateful == bool(state)
         new = jax.eval_shape(lambda: functions.advance(element, at, read, time))
         assert {k: (np.shape(v), v.dtype) for k, v in new.items()} == {
@@ -90,7 +90,7 @@ def depending(kind: str) -> set[tuple[str, str]]:
     s = session(model)
     s.step(3)
     before = {port: s.read(f"example.{port}") for port in node(model).outs}
-    found: set[tuple[str, str]] = set()
+    pairs: set[tuple[str, str]] = set()
     for port in element.ports():
         source = f'"to {port}"'
         probes: list[tuple[str, object]] = [("amplitude", 0.2), ("amplitude", -2.0)]
@@ -100,9 +100,9 @@ def depending(kind: str) -> set[tuple[str, str]]:
             path = f"{source}.{name}"
             kept = s.get(path)
             s.set(path, value)
-            found |= {(p, port) for p, b in before.items() if not np.array_equal(s.read(f"example.{p}"), b)}
+            pairs |= {(p, port) for p, b in before.items() if not np.array_equal(s.read(f"example.{p}"), b)}
             s.set(path, kept)
-    return found
+    return pairs
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if any_example(kind).ports()])

@@ -90,10 +90,10 @@ def test_the_script_links_a_group_to_its_template() -> None:
     model = dd.Model("two units")
     for name in ("one", "two"):
         model.insert(template, name, link=True)
-    again = made(assert_same(model.document))
+    rebuilt = made(assert_same(model.document))
     template["u"].tau = 33
-    again.refresh(template)
-    assert again["two.u"].tau == 33
+    rebuilt.refresh(template)
+    assert rebuilt["two.u"].tau == 33
 
 
 def test_arrays_travel_in_the_script() -> None:

@@ -42,8 +42,8 @@ def test_an_unknown_paper_suggests_the_nearest():
 
 
 def test_the_story_and_each_paper_of_deodar_with_a_file_demo_are_demonstrations():
-    found = [n for n, p in papers.PAPERS.items() if Path(str(p.__file__)).with_name("demo.py").is_file()]
-    assert list(papers.demos()) == ["story", *found] and "spa" in found
+    with_demo = [n for n, p in papers.PAPERS.items() if Path(str(p.__file__)).with_name("demo.py").is_file()]
+    assert list(papers.demos()) == ["story", *with_demo] and "spa" in with_demo
     assert all(demo.HELP and demo.run and demo.arguments for demo in papers.demos().values())
 
 

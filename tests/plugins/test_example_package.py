@@ -41,24 +41,11 @@ def test_nothing_is_imported_before_a_kind_is_looked_up() -> None:
     assert "deodar_change.lamp" not in sys.modules and "deodar_change.command" not in sys.modules
 
 
-def test_check_and_run_find_the_kind_and_the_world(
-    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["check", str(file)]) == 0
-    out = tmp_path / "run.zarr"
-    given = [
-        "--duration",
-        "200",
-        "--record",
-        "change.output",
-        "eye.output",
-        "--world",
-        "lamp:100",
-        "--out",
-        str(out),
-        "--no-progress",
-    ]
-    assert main(["run", str(file), *given]) == 0, capsys.readouterr().err
+def test_check_and_run_find_the_kind_and_the_world(file: Path, tmp_path: Path) -> None:
+    assert typed("check", file).status == 0
+    options = "--duration 200 --record change.output eye.output --world lamp:100 --no-progress --out"
+    command = typed("run", file, options, out := tmp_path / "run.zarr")
+    assert command.status == 0, command.err
     record = dd.load_record(out)
     # Euler's z after 50 steps of 1 ms
     np.testing.assert_allclose(record["change.output"].values[50], (1 - 1 / 50) ** 50, rtol=1e-4)

@@ -79,17 +79,17 @@ def run(args: argparse.Namespace) -> int:
     doc = model.document
     duration = args.duration or 1.0 / _seconds(doc.time_unit)
     norse = False if args.no_norse else args.norse or True
-    found = compare_spikes(
+    comparison = compare_spikes(
         model, duration, args.trials, options.read(args), _options.world(args.world), norse
     )
     if args.out is not None:
-        first = {run: {k: v[:, 0] for k, v in r.items()} for run, r in found.runs.items()}
-        figure = spikes_figure(first, found.times, doc.time_unit)
+        first = {run: {k: v[:, 0] for k, v in r.items()} for run, r in comparison.runs.items()}
+        figure = spikes_figure(first, comparison.times, doc.time_unit)
         _files.save_figure(figure, args.out, force=args.force)
     if args.json:
-        print(codec.text({**found.data(), "out": None if args.out is None else str(args.out)}))
+        print(codec.text({**comparison.data(), "out": None if args.out is None else str(args.out)}))
         return 0
-    _show(found, doc.time_unit, args)
+    _show(comparison, doc.time_unit, args)
     return 0
 
 
@@ -100,21 +100,21 @@ def _seconds(unit: str) -> float:
     return unit_seconds(unit)
 
 
-def _show(found: SpikingComparison, unit: str, args: argparse.Namespace) -> None:
+def _show(comparison: SpikingComparison, unit: str, args: argparse.Namespace) -> None:
     """Print a table for each element."""
-    network = found.prepared.translated.network
+    network = comparison.prepared.translated.network
     lines = [
         f"{network.neurons:,} neurons, {network.synapses:,} synapses, steps of {network.step * 1e3:g} ms,"
-        f" {found.prepared.limits.name}; {args.trials} trials"
+        f" {comparison.prepared.limits.name}; {args.trials} trials"
     ]
-    lines += [f"  {line}" for line in found.prepared.report.losses if line.verdict == "dropped"]
-    for label, runs in found.estimates.items():
+    lines += [f"  {line}" for line in comparison.prepared.report.losses if line.verdict == "dropped"]
+    for label, runs in comparison.estimates.items():
         lines += ["", f"{label:36}" + "".join(f"{run:>30}" for run in runs)]
         for name, (title, kind) in ROWS.items():
             cells = [_cell(runs[r][name], kind, unit) for r in runs]
             if any(cells):
                 lines.append(f"  {title:34}" + "".join(f"{c or 'none':>30}" for c in cells))
-    if not found.norse and not args.no_norse:
+    if not comparison.norse and not args.no_norse:
         lines += ["", "norse is not installed here: --norse PYTHON names an environment that has it."]
     if args.out is not None:
         lines += ["", f"Drawn: {_options.shown(args.out)}"]
@@ -145,8 +145,8 @@ def _chips(args: argparse.Namespace) -> int:
     for c in chips:
         lines.append(f"{c.name}: {c.meaning}")
         for name, source in c.sources.items():
-            value = getattr(c, name)
-            shown = ", ".join(f"{k} {v:g}" for k, v in value.items()) if isinstance(value, Mapping) else value
+            limit = getattr(c, name)
+            shown = ", ".join(f"{k} {v:g}" for k, v in limit.items()) if isinstance(limit, Mapping) else limit
             lines.append(f"  {name:24}{shown!s:28}{source}")
     print("\n".join(lines))
     return 0

@@ -138,10 +138,10 @@ def same(sim, plain):
         for name, expected in plain.out[label].items():
             if name == "h" or not sim.getElement(label).isComponent(name):
                 continue
-            found = sim.getComponent(label, name)
+            component = sim.getComponent(label, name)
             # the plain simulator keeps a number where a size expands it
-            assert expected.shape in (found.shape, (1, 1))
-            far = max(far, float(abs(found - expected).max()))
+            assert expected.shape in (component.shape, (1, 1))
+            far = max(far, float(abs(component - expected).max()))
     return far
 
 
@@ -244,11 +244,11 @@ def test_settings_are_loaded_by_label_and_class_without_sizes(tmp_path):
 def test_saved_settings_build_the_same_simulator(tmp_path):
     sim = three_layers()
     sim.saveSettings(tmp_path / "a.json")
-    again = Simulator(file=tmp_path / "a.json")
+    reopened = Simulator(file=tmp_path / "a.json")
     struct = Simulator(struct=json.loads((tmp_path / "a.json").read_text())["simulator"])
-    for s in (sim, again, struct):
+    for s in (sim, reopened, struct):
         s.run(20)
-    for s in (again, struct):
+    for s in (reopened, struct):
         assert s.elementLabels == sim.elementLabels and s.nElements == 18
         assert np.array_equal(
             s.getComponent("field w", "activation"), sim.getComponent("field w", "activation")

@@ -24,9 +24,9 @@ def test_a_document_is_written_and_the_report_shown(tmp_path, capsys):
         and "0 dropped" in printed
         and "Written:" in printed
     )
-    made, report = dd.load(out).document, dd.read(SAMPLE).report
-    assert stored_report.without_report(made) == dd.load(SAMPLE).document
-    kept = stored_report.report_of(made)
+    document, report = dd.load(out).document, dd.read(SAMPLE).report
+    assert stored_report.without_report(document) == dd.load(SAMPLE).document
+    kept = stored_report.report_of(document)
     assert kept is not None and kept.summary() == report.summary()
     assert main(["import", str(SAMPLE), "-o", str(out)]) == 1
     assert "exists already" in capsys.readouterr().err
@@ -45,8 +45,8 @@ def test_json_contains_every_line_of_the_report(capsys):
     assert answer["tool"] == "cosivina" and answer["counts"]["dropped"] == 0 and not answer["problems"]
     assert {"where", "part", "what", "verdict", "why"} == set(answer["lines"][0])
     assert sum(answer["counts"].values()) == len(answer["lines"])
-    found = {line["where"]: line["element"] for line in answer["lines"] if line["part"] == "element"}
-    assert found["field u"] == dd.load(SAMPLE)["field u"].id
+    elements = {line["where"]: line["element"] for line in answer["lines"] if line["part"] == "element"}
+    assert elements["field u"] == dd.load(SAMPLE)["field u"].id
 
 
 def test_strict_fails_on_anything_that_is_not_carried(tmp_path, capsys):

@@ -119,8 +119,8 @@ def test_an_element_with_the_path_of_a_group_has_the_lines() -> None:
     [entry] = [e for e in doc.entries if e.names == ("a",)]
     doc = edit.group(doc, ("a.b",))
     lines = [Line("a", "element", "x", "carried"), Line("a.b", "connection", "x", "dropped")]
-    found = stored_report.located(ImportReport("cedar", "memory.json", lines), doc).lines
-    assert [(line.element, line.group) for line in found] == [(entry.id, ()), ("", ("a.b",))]
+    located = stored_report.located(ImportReport("cedar", "memory.json", lines), doc).lines
+    assert [(line.element, line.group) for line in located] == [(entry.id, ()), ("", ("a.b",))]
 
 
 def test_a_group_of_cedar_with_a_broken_connection_has_its_line() -> None:

@@ -6,6 +6,7 @@ import errno
 import io
 import json
 import os
+import shlex
 import sys
 from pathlib import Path
 from typing import Any
@@ -52,19 +53,7 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-RUN = [
-    "run",
-    "small.json",
-    "--duration",
-    "20",
-    "--every",
-    "5",
-    "--record",
-    "u.activation",
-    "--out",
-    "result",
-    "--no-progress",
-]
+RUN = shlex.split("run small.json --duration 20 --every 5 --record u.activation --out result --no-progress")
 
 
 def test_a_run_on_a_full_disk_ends_before_its_first_sample_and_leaves_nothing(
@@ -118,11 +107,11 @@ def test_without_a_terminal_a_repetition_is_written_to_the_user_data_folder(
     assert main(recorded) == 1
     printed = capsys.readouterr()
     assert "No space left on device" in printed.err and not printed.out
-    found = sorted((workspace.parent / "data").rglob("record.zarr"))
-    assert len(found) == 1 and str(found[0].parent) in printed.err and "deodar plot" in printed.err
+    stored = sorted((workspace.parent / "data").rglob("record.zarr"))
+    assert len(stored) == 1 and str(stored[0].parent) in printed.err and "deodar plot" in printed.err
     expected = dd.simulate(model(), 20, record=["u.activation"], every=5)
-    assert files.load_record(found[0].parent)["u.activation"].equals(expected["u.activation"])
-    assert dd.load(found[0].parent / "model.json").document == model().document
+    assert files.load_record(stored[0].parent)["u.activation"].equals(expected["u.activation"])
+    assert dd.load(stored[0].parent / "model.json").document == model().document
     assert [p.name for p in workspace.iterdir()] == ["small.json"]
 
 
@@ -191,8 +180,8 @@ def test_a_demo_that_cannot_be_written_is_written_to_the_user_data_folder(
     workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     claims = [Claim("arrives", 1, "1", True, "required", n=1, origin="ours")]
-    found = Demonstration(claims, {}, "spa.png", "The robot arrived.", lambda folder: None)
-    monkeypatch.setattr(demo, "run", lambda args, show: found)
+    demonstration = Demonstration(claims, {}, "spa.png", "The robot arrived.", lambda folder: None)
+    monkeypatch.setattr(demo, "run", lambda args, show: demonstration)
     assert main(["demo", "spa", "--out", "planned"]) == 1
     printed = capsys.readouterr()
     (place,) = (workspace.parent / "data").rglob("planned-001")

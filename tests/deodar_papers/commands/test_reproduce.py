@@ -149,7 +149,7 @@ def test_durations_are_printed_in_words():
 
 
 def test_a_report_on_a_full_disk_is_written_to_the_user_data_folder(toy, monkeypatch, capsys, tmp_path):
-    full, data = tmp_path / "toy-001", tmp_path / "data"
+    full, data_folder = tmp_path / "toy-001", tmp_path / "data"
     sync = output.sync
 
     def refuse(path):
@@ -158,10 +158,10 @@ def test_a_report_on_a_full_disk_is_written_to_the_user_data_folder(toy, monkeyp
         sync(path)
 
     monkeypatch.setattr(output, "sync", refuse)
-    monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: data)
+    monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: data_folder)
     assert call() == 1
     printed = capsys.readouterr()
-    (second,) = (data / "results").iterdir()
+    (second,) = (data_folder / "results").iterdir()
     assert {p.name for p in second.iterdir()} == {"runs.jsonl", "results.json", "table.md", "nothing.png"}
     assert (second / "runs.jsonl").read_bytes() == (full / "runs.jsonl").read_bytes()
     assert str(second.relative_to(tmp_path)) in printed.out

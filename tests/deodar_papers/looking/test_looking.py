@@ -156,6 +156,6 @@ def test_wrong_options_of_the_demonstration_are_refused(
 def test_the_claims_of_the_demonstration_can_fail() -> None:
     start = gazes.Learned({5: true_map()}, np.zeros(5, int), np.zeros(5), {}, 5.0)
     tests = [np.full(100, 4.0), np.full(100, 90.0)]
-    result = narrative.Looked("correcting", 0, (0, narrative.GAZES), tests, start)
-    assert [c.holds for c in narrative.claims(result)] == [False, False]
-    assert narrative.sentence(result).startswith("Gazes that end within 12 pixels of the target: 100 %")
+    looked = narrative.Looked("correcting", 0, (0, narrative.GAZES), tests, start)
+    assert [c.holds for c in narrative.claims(looked)] == [False, False]
+    assert narrative.sentence(looked).startswith("Gazes that end within 12 pixels of the target: 100 %")

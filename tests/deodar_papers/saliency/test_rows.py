@@ -40,8 +40,8 @@ def inside(holds: Callable[[tuple[float, float]], bool], scene: CueScene) -> tup
 def rows(monkeypatch: pytest.MonkeyPatch) -> dict[str, Row]:
     """Return the rows of three photographs, read from a file."""
     monkeypatch.setattr(trials, "run_scene", ideal)
-    made = [row for job in PAPER.jobs(True) for row in job.run()]
-    return {row["key"]: row for row in json.loads(json.dumps(made))}
+    quick_rows = [row for job in PAPER.jobs(True) for row in job.run()]
+    return {row["key"]: row for row in json.loads(json.dumps(quick_rows))}
 
 
 def test_claims_of_rows_are_those_of_the_runs(rows: dict[str, Row]) -> None:

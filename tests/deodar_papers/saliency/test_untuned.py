@@ -54,8 +54,8 @@ def test_every_photograph_has_its_author_and_licence() -> None:
 def test_a_strong_peak_moves_the_motor_variable_to_it_and_a_weak_one_does_not_in_time() -> None:
     scenes = {scene.name: scene for scene in photographs(untuned=True)}
     bird, clock = run_scene(scenes["bird"]), run_scene(scenes["clock"])
-    for result in (bird, clock):
-        present, absent = result.outcomes
+    for outcome in (bird, clock):
+        present, absent = outcome.outcomes
         assert present.right and absent.right and absent.converged
     assert bird.outcomes[0].converged
     gap = clock.outcomes[0].gap

@@ -65,14 +65,14 @@ def test_the_second_lesson_follows_the_first_one() -> None:
 def test_each_run_of_a_batch_gets_its_own_cues() -> None:
     batch = [on_the_ring(("GBY", "RVY"), cue, position) for cue, position in ((1, 2), (2, 2), (1, 3), (2, 3))]
     shorter = replace(batch[0], taught=batch[0].taught - 1000.0, second=batch[0].second - 1000.0)
-    given = [(a.time(k), a.path, a.value, a.when) for a in cued.cues([*batch, shorter]) for k in range(5)]
+    timed = [(a.time(k), a.path, a.value, a.when) for a in cued.cues([*batch, shorter]) for k in range(5)]
     produced = runs.end_of_lessons(batch)
-    lessons = [t for t, _, value, when in given if value == 2.0 and not when]
+    lessons = [t for t, _, value, when in timed if value == 2.0 and not when]
     assert len(set(lessons)) == 1 and abs(lessons[0] - (produced - 10_000.0)) <= COARSE
-    begun = [t for t, _, value, when in given if value == 1.0 and not when]
+    begun = [t for t, _, value, when in timed if value == 1.0 and not when]
     assert begun == [produced, NEVER, produced, NEVER, produced]
     for position, cue, row in ((2, 2.0, (0, 4)), (2, 1.0, (1,)), (3, 2.0, (2,)), (3, 1.0, (3,))):
-        times = [t for t, _, value, when in given if when == f"looks for {position}" and value == cue]
+        times = [t for t, _, value, when in timed if when == f"looks for {position}" and value == cue]
         assert times == [AFTER if k in row else NEVER for k in range(5)]
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import json
 from pathlib import Path
 
@@ -12,7 +10,6 @@ import pytest
 import xarray
 from PIL import Image
 
-from deodar.cli import main
 from deodar.experiments.trial import Trial
 from deodar_papers.figures.sequence import sequence_figure
 from deodar_papers.serial_order import narrative
@@ -20,6 +17,7 @@ from deodar_papers.serial_order.arenas import Block, SearchArena
 from deodar_papers.serial_order.colours import hue_of
 from deodar_papers.serial_order.runs import ABSENT, COARSE, TaughtRun
 from deodar_papers.serial_order.teaching import brief_lesson
+from tests.command_line import typed
 
 BEGINS = 2000.0
 SEARCH = 2000.0
@@ -103,22 +101,19 @@ def test_a_run_that_ends_early_says_why(recalled: str, satisfying: str, blocks: 
     ],
 )
 def test_a_wrong_sequence_is_refused_before_the_run(
-    sequence: str, what: str, fix: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    sequence: str, what: str, fix: str, tmp_path: Path
 ) -> None:
-    out = tmp_path / "out"
-    assert main(["demo", "serial-order", "--sequence", sequence, "--out", str(out), "--no-progress"]) == 1
-    message = capsys.readouterr().err
-    assert "--sequence: " in message and what in message and fix in message
-    assert not out.exists()
+    command = typed(f"demo serial-order --sequence '{sequence}' --out", out := tmp_path / "out")
+    assert command.status == 1 and not out.exists()
+    assert "--sequence: " in command.err and what in command.err and fix in command.err
 
 
 @pytest.fixture(scope="module")
 def demonstration(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """Return the folder of a demonstration with two colours, and what the command printed."""
-    out, printed = tmp_path_factory.mktemp("demo") / "order", io.StringIO()
-    with contextlib.redirect_stdout(printed):
-        assert main(["demo", "serial-order", "--sequence", "gr", "--out", str(out), "--no-progress"]) == 0
-    return out, printed.getvalue()
+    command = typed("demo serial-order --sequence gr --out", out := tmp_path_factory.mktemp("demo") / "order")
+    assert command.status == 0, command.err
+    return out, command.out
 
 
 def test_the_command_teaches_and_produces_a_sequence(demonstration: tuple[Path, str]) -> None:
@@ -141,7 +136,7 @@ def test_the_command_teaches_and_produces_a_sequence(demonstration: tuple[Path, 
 def test_the_record_of_the_command_can_be_plotted(demonstration: tuple[Path, str], tmp_path: Path) -> None:
     for path in ("item 1.node.activation", "action.activation", "pose.output"):
         picture = tmp_path / f"{path}.png"
-        assert main(["plot", str(demonstration[0] / "serial-order.zarr"), path, "--out", str(picture)]) == 0
+        assert typed("plot", demonstration[0] / "serial-order.zarr", f"'{path}' --out", picture).status == 0
         with Image.open(picture) as drawn:
             assert min(drawn.size) > 300 and len(set(drawn.convert("L").tobytes())) > 20
 

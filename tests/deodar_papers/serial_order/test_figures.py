@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from deodar.cli import main
 from deodar_papers.figures.ordinal_dynamics import OrdinalMoment, OrdinalTransition
 from deodar_papers.figures.perception import ColourPerception
 from deodar_papers.serial_order import figures
+from tests.command_line import typed
 from tests.deodar_papers.serial_order.test_demo import made
 
 
@@ -65,7 +65,7 @@ def test_the_command_draws_the_figures(
     assert [c.holds for c in figures.claims(wrong)] == [True, False, False]
     monkeypatch.setattr(figures, "run", lambda *_: done)
     out = tmp_path / "out"
-    assert main(["demo", "serial-order", "--figures", "--out", str(out), "--no-progress"]) == 0
+    assert typed("demo serial-order --figures --out", out).status == 0
     for name in ("figure-3", "figure-8", "figure-12"):
         with Image.open(out / f"{name}.png") as picture:
             assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 50
@@ -91,7 +91,6 @@ def test_letters_of_moments_are_inside_their_panel() -> None:
     assert len(letters) == 3 and all(text.get_va() == "top" and text.xyann[1] < 0 for text in letters)
 
 
-def test_figures_and_a_sequence_are_not_asked_for_together(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        main(["demo", "serial-order", "--figures", "--sequence", "RG"])
-    assert "not allowed with" in capsys.readouterr().err
+def test_figures_and_a_sequence_are_not_asked_for_together() -> None:
+    command = typed("demo serial-order --figures --sequence RG")
+    assert command.status == 2 and "not allowed with" in command.err

@@ -46,11 +46,11 @@ def test_quick_takes_the_first_trials_of_each_condition():
 
 @pytest.mark.parametrize("quick", [True, False])
 def test_the_conditions_with_the_shortest_runs_come_first(quick):
-    found = list(cases.conditions(quick).values())
-    short = [c.method == "carrot" or c.name.startswith(("free", "narrative", "moved")) for c in found]
+    designs = list(cases.conditions(quick).values())
+    short = [c.method == "carrot" or c.name.startswith(("free", "narrative", "moved")) for c in designs]
     first = short.index(False)
     assert first > 15 and not any(short[first:])
-    assert {c.name.partition("/")[0] for c in found[:first]} == {"z", "large", "free", "narrative", "moved"}
+    assert {c.name.partition("/")[0] for c in designs[:first]} == {"z", "large", "free", "narrative", "moved"}
 
 
 @pytest.mark.parametrize("maze", ["z", "large"])
@@ -109,7 +109,9 @@ def test_obstacles_are_at_the_positions_of_the_paper(what, rows, columns):
 
 
 def test_the_design_contains_the_planner_with_other_settings():
-    found = {name: c for name, c in cases.conditions(False).items() if c.terms and c.method == "planner"}
+    designs_with_terms = {
+        name: c for name, c in cases.conditions(False).items() if c.terms and c.method == "planner"
+    }
     kinds = [
         "sticking-planner/low",
         "sticking-planner/high",
@@ -117,13 +119,13 @@ def test_the_design_contains_the_planner_with_other_settings():
         "reflection-0.8-planner/low",
         "reflection-1.0-planner/low",
     ]
-    assert list(found) == [f"{maze}/{kind}" for maze in ("z", "large") for kind in kinds]
-    assert [len(c.trials) for c in found.values()] == [96] * 5 + [40] * 5
-    assert cases.design(False)["planners"] == {name: c.terms for name, c in found.items()}
-    assert found["z/sticking-planner/low"].terms == {"contact": "stick"} and found[
+    assert list(designs_with_terms) == [f"{maze}/{kind}" for maze in ("z", "large") for kind in kinds]
+    assert [len(c.trials) for c in designs_with_terms.values()] == [96] * 5 + [40] * 5
+    assert cases.design(False)["planners"] == {name: c.terms for name, c in designs_with_terms.items()}
+    assert designs_with_terms["z/sticking-planner/low"].terms == {"contact": "stick"} and designs_with_terms[
         "large/reflection-1.0-planner/low"
     ].terms == {"reflection": 1.0}
-    assert found["z/factor-1.0-planner/high"].terms == {"factor": 1.0}
+    assert designs_with_terms["z/factor-1.0-planner/high"].terms == {"factor": 1.0}
 
 
 def test_settings_of_a_condition_change_the_world_and_the_model():

@@ -13,9 +13,9 @@ import xarray
 from PIL import Image
 
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze
-from deodar.cli import main
 from deodar_papers.figures import animation
 from deodar_papers.spa import narrative
+from tests.command_line import typed
 
 INFERRED_WAVE = "the wave reaches location 2, in the motivation to go west, at step"
 
@@ -117,15 +117,11 @@ def test_a_frame_of_the_video_shows_robot_goal_and_step_at_their_positions() -> 
         assert middle == pytest.approx((column, row), abs=1.5)
 
 
-def test_the_command_writes_the_printed_files(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_writes_the_printed_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrative, "DURATION", 300)
     out = tmp_path / "planned"
-    assert main(["demo", "spa", "--out", str(out), "--no-progress"]) == 1, (
-        "in 300 steps it does not arrive, which is a required claim"
-    )
-    printed = capsys.readouterr().out
+    command = typed("demo spa --no-progress --out", out)
+    assert command.status == 1, "in 300 steps it does not arrive, which is a required claim"
     claims = json.loads((out / "results.json").read_text())["claims"]
     plan = next(c for c in claims if c["name"].startswith("the plan is complete"))
     assert (
@@ -135,7 +131,7 @@ def test_the_command_writes_the_printed_files(
         and plan["kind"] == "reported"
     )
     assert [c["holds"] for c in claims if "arrives within" in c["name"]] == [False]
-    assert "never at the goal" in printed.splitlines()[-1]
+    assert "never at the goal" in command.out.splitlines()[-1]
     with Image.open(out / "spa.gif") as film:
         assert film.n_frames == 31 and film.size == (400, 400)
         frame = np.asarray(film.convert("RGB"))
@@ -146,9 +142,9 @@ def test_the_command_writes_the_printed_files(
     assert (out / "spa.zarr").is_dir()
 
 
-def test_options_of_another_demo_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["demo", "spa", "--cue", "30"]) != 0
-    assert "--cue belongs to the demo saliency" in capsys.readouterr().err
+def test_options_of_another_demo_are_refused() -> None:
+    command = typed("demo spa --cue 30")
+    assert command.status != 0 and "--cue belongs to the demo saliency" in command.err
 
 
 MAZE = {
@@ -160,30 +156,13 @@ MAZE = {
 }
 
 
-def test_a_maze_of_the_user_is_planned_and_driven(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_maze_of_the_user_is_planned_and_driven(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrative, "LONGEST", 500)
     file = tmp_path / "maze.json"
     file.write_text(json.dumps(MAZE))
     out = tmp_path / "out"
-    status = main(
-        [
-            "demo",
-            "spa",
-            "--maze",
-            str(file),
-            "--goal",
-            "48",
-            "34",
-            "--noise",
-            "low",
-            "--out",
-            str(out),
-            "--no-progress",
-        ]
-    )
-    assert status == 0 and sorted(p.name for p in out.iterdir()) == [
+    command = typed("demo spa --maze", file, "--goal 48 34 --noise low --no-progress --out", out)
+    assert command.status == 0 and sorted(p.name for p in out.iterdir()) == [
         "results.json",
         "spa.gif",
         "spa.png",
@@ -193,4 +172,4 @@ def test_a_maze_of_the_user_is_planned_and_driven(
     assert report["settings"]["maze"]["goal"] == [[48, 34]] and "obstacle_at" not in report["settings"]
     arrived = next(c for c in report["claims"] if c["name"].startswith("it arrives"))
     assert arrived["kind"] == "reported" and arrived["holds"] is True
-    assert "at the goal at step" in capsys.readouterr().out
+    assert "at the goal at step" in command.out

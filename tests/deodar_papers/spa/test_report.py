@@ -247,7 +247,7 @@ def test_each_sentence_fails_for_rows_that_contradict_it(change, name):
 
 def test_every_sentence_with_a_target_has_a_contradicting_case():
     names = tuple(name for _, _, name in FAILS)
-    rest = [
+    undecided = [
         c.name
         for c in claims_after(lambda c, k: {}).values()
         if c.kind == "reported" and c.origin != "none" and not c.name.startswith(names)
@@ -255,7 +255,7 @@ def test_every_sentence_with_a_target_has_a_contradicting_case():
     alike = ("Z-maze", "large maze")  # the same claim for another maze, level of noise or setting
     assert [
         name
-        for name in rest
+        for name in undecided
         if not name.startswith(alike) and not name.startswith("5.1: ") and "plan is complete" not in name
     ] == []
 
@@ -397,9 +397,11 @@ def test_runs_with_an_obstacle_on_the_robot_are_left_out_and_counted():
 
 def test_every_sentence_has_a_number_and_all_figures_are_drawn():
     report = spa.report(all_rows(False), False)
-    told = [c for c in report.claims if c.kind == "reported"]
-    assert len(told) > 60 and all(c.source.startswith(("Billing", "no sentence of the paper")) for c in told)
-    silent = [c.name for c in told if c.value is None]
+    reported = [c for c in report.claims if c.kind == "reported"]
+    assert len(reported) > 60 and all(
+        c.source.startswith(("Billing", "no sentence of the paper")) for c in reported
+    )
+    silent = [c.name for c in reported if c.value is None]
     # these have no number if nothing failed and all values are equal
     assert all(
         "failures" in name or "what sticks" in name or "ANOVA" in name or "F of" in name for name in silent

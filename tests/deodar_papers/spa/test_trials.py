@@ -66,11 +66,11 @@ def test_jobs_cover_the_design():
 def test_the_second_location_is_where_the_stored_run_is_at_step_500():
     """Figures 10 and 11 of the paper; positions of a stored run, samples of the fields 1 cm apart."""
     with lzma.open(ROOT / "evidence" / "spa" / "runs.jsonl.xz", "rt") as rows:
-        found = next(r for r in map(json.loads, rows) if r.get("condition") == "narrative/planner/low")
-    assert found["trial"] == 0
+        row = next(r for r in map(json.loads, rows) if r.get("condition") == "narrative/planner/low")
+    assert row["trial"] == 0
     model = dd.Model("field")
     axes = [dd.Axis("x", -104, -5, samples=100), dd.Axis("y", 5, 104, samples=100)]
     model.add(dd.Field("motivation", axes))
     grids = np.meshgrid(*(axis.points for axis in axes), indexing="ij")
-    for grid, robot in zip(grids, found["path"][500 // trials.KEPT], strict=True):
+    for grid, robot in zip(grids, row["path"][500 // trials.KEPT], strict=True):
         assert trials._at(model, "motivation.activation", grid[None]) == pytest.approx(robot, abs=1.0)

@@ -47,10 +47,10 @@ def around(kind: str) -> dd.Model:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_kind_is_written_or_left_out(kind: str) -> None:
-    made = write(around(kind), "file.json")
-    (line,) = (line for line in made.report.lines if (line.where, line.part) == ("example", "element"))
+    exported = write(around(kind), "file.json")
+    (line,) = (line for line in exported.report.lines if (line.where, line.part) == ("example", "element"))
     assert line.what == kind and (line.verdict == "carried" or line.why)
-    reading = read(made.content, "file.json")
+    reading = read(exported.content, "file.json")
     assert problems(reading.model.document) == []
     labels = {e.path for e in reading.model.document.entries}
     assert ("example" in labels) == (line.verdict != "dropped")

@@ -170,9 +170,9 @@ def test_a_published_file_is_the_same_after_import_export_and_import(path):
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
 def test_the_order_classes_and_inputs_of_a_published_file_are_kept(path):
     first = read(path.read_bytes(), path.name)
-    found = elements(write(first.model, path.name).content)
+    elements_again = elements(write(first.model, path.name).content)
     listed = [(line.where, line.what) for line in first.report.lines if line.part == "element"]
-    assert [(label, kind) for label, kind, _, _ in found] == listed
+    assert [(label, kind) for label, kind, _, _ in elements_again] == listed
 
 
 @pytest.mark.parametrize(

@@ -10,112 +10,36 @@ from typing import Any
 DROP = 4294967295
 
 TYPES = {
-    kind.rsplit(".", 1)[-1]: kind
-    for kind in (
-        *(
-            f"cedar.dynamics.{name}"
-            for name in (
-                "NeuralField",
-                "Preshape",
-                "HebbianConnection",
-                "SpaceToRateCode",
-                "RateMatrixToSpaceCode",
-                "RateToSpaceCode",
-                "SpaceCodeToRateMatrix",
-                "HarmonicOscillator",
-                "SerialOrder",
-            )
+    name: f"{place}.{name}"
+    for place, names in {
+        "cedar.dynamics": (
+            "NeuralField Preshape HebbianConnection SpaceToRateCode RateMatrixToSpaceCode "
+            "RateToSpaceCode SpaceCodeToRateMatrix HarmonicOscillator SerialOrder"
         ),
-        *(
-            f"cedar.processing.{name}"
-            for name in (
-                "AbsoluteValue",
-                "ComponentMultiply",
-                "ConstVector",
-                "ConvertToValueRange",
-                "DivideElementwise",
-                "Flip",
-                "Mask",
-                "MatrixMultiply",
-                "MatrixPadding",
-                "MatrixSlice",
-                "Norm",
-                "Nullspace",
-                "Normalization",
-                "Projection",
-                "PseudoInverse",
-                "RemoveMean",
-                "Resize",
-                "ScalarDivision",
-                "ScalarsToVector",
-                "StaticGain",
-                "SubtractElementwise",
-                "SynapticConnection",
-                "TransferFunction",
-                "Transpose",
-                "VectorToScalars",
-            )
+        "cedar.processing": (
+            "AbsoluteValue ComponentMultiply ConstVector ConvertToValueRange DivideElementwise Flip "
+            "Mask MatrixMultiply MatrixPadding MatrixSlice Norm Nullspace Normalization Projection "
+            "PseudoInverse RemoveMean Resize ScalarDivision ScalarsToVector StaticGain "
+            "SubtractElementwise SynapticConnection TransferFunction Transpose VectorToScalars"
         ),
-        *(
-            f"cedar.processing.steps.{name}"
-            for name in (
-                "AddConstant",
-                "Clamp",
-                "ConcatVertically",
-                "Convolution",
-                "Count",
-                "CrossProduct",
-                "Delay",
-                "ExponentialSmoothing",
-                "HarmonicOscillatorRHS",
-                "Histogram",
-                "HopfOscillatorRHS",
-                "InnerProduct",
-                "LinearFunction",
-                "Logarithm",
-                "Maximum",
-                "Minimum",
-                "NumericalDifferentiation",
-                "NumericalIntegration",
-                "OuterProduct",
-                "OverTime",
-                "PositionOfMaximum",
-                "Sinus",
-                "Stack",
-                "Sum",
-                "Switch",
-                "Timer",
-                "VariableBox",
-                "VariableGauss",
-            )
+        "cedar.processing.steps": (
+            "AddConstant Clamp ConcatVertically Convolution Count CrossProduct Delay "
+            "ExponentialSmoothing HarmonicOscillatorRHS Histogram HopfOscillatorRHS InnerProduct "
+            "LinearFunction Logarithm Maximum Minimum NumericalDifferentiation NumericalIntegration "
+            "OuterProduct OverTime PositionOfMaximum Sinus Stack Sum Switch Timer VariableBox "
+            "VariableGauss"
         ),
-        *(
-            f"cedar.processing.sources.{name}"
-            for name in (
-                "Boost",
-                "BoxInput",
-                "ConstMatrix",
-                "GaussInput",
-                "LinearSpatialTemplate",
-                "SinusSignal",
-                "SpatialTemplate",
-                "StepSignal",
-            )
+        "cedar.processing.sources": (
+            "Boost BoxInput ConstMatrix GaussInput LinearSpatialTemplate SinusSignal SpatialTemplate "
+            "StepSignal"
         ),
-    )
+    }.items()
+    for name in names.split()
 }
 LOOPED = {
-    "NeuralField",
-    "Preshape",
-    "HebbianConnection",
-    "SpaceToRateCode",
-    "HarmonicOscillator",
-    "SerialOrder",
-    "NumericalIntegration",
-    "NumericalDifferentiation",
-    "ExponentialSmoothing",
-    "SinusSignal",
-    "StepSignal",
+    *("NeuralField", "Preshape", "HebbianConnection", "SpaceToRateCode", "HarmonicOscillator", "SerialOrder"),
+    *("NumericalIntegration", "NumericalDifferentiation", "ExponentialSmoothing"),
+    *("SinusSignal", "StepSignal"),
 }
 OUT = "sigmoided activation"
 
@@ -405,12 +329,12 @@ def _projection(rng: random.Random, m: Model, name: str, end: str, a: Any, b: An
 
     A line between 1-D and 2-D may lie along the second dimension of the plane; it is then resized.
     """
-    way, cells = rng.choice(("SUM", "AVERAGE", "MAXIMUM", "MINIMUM")), 1
+    reduction, cells = rng.choice(("SUM", "AVERAGE", "MAXIMUM", "MINIMUM")), 1
     mapping = {k: k if k < len(b) else DROP for k in range(len(a))}
     across = {len(a), len(b)} == {1, 2} and rng.random() < 0.5
     if across:
         mapping = {0: 1} if len(a) == 1 else {0: DROP, 1: 0}
-    if way == "SUM":
+    if reduction == "SUM":
         for k, n in enumerate(a):
             cells *= n if mapping[k] == DROP else 1
     resized = {"interpolation": rng.choice(("LINEAR", "LINEAR", "NEAREST"))}
@@ -422,7 +346,7 @@ def _projection(rng: random.Random, m: Model, name: str, end: str, a: Any, b: An
         "output dimensionality": len(b),
         "output dimension sizes": list(b),
     }
-    m.add("Projection", f"{name} projection", {**settings, "compression type": way})
+    m.add("Projection", f"{name} projection", {**settings, "compression type": reduction})
     m.wire(end, f"{name} projection.input")
     end = f"{name} projection.output"
     if across and len(a) == 2:

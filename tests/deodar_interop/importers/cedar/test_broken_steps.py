@@ -65,8 +65,8 @@ def test_a_step_that_cedar_does_not_run_states_the_reason(kind, more, reads, put
 
 @pytest.mark.parametrize(("more", "size", "why"), UNKNOWN)
 def test_rates_without_a_documented_code_are_a_placeholder(more, size, why):
-    found, model = why_of(between("RateMatrixToSpaceCode", more, {"bin map": size}, "output", CUBE))
-    assert why in found
+    reason, model = why_of(between("RateMatrixToSpaceCode", more, {"bin map": size}, "output", CUBE))
+    assert why in reason
     assert isinstance(model["step"].element, dd.Placeholder)
 
 
@@ -90,8 +90,8 @@ def test_a_rate_between_two_bins_is_in_the_upper_one_and_beyond_the_last_in_none
 def test_the_null_space_of_a_robot_states_what_takes_its_place():
     steps = {"cedar.processing.steps.Jacobian": {"name": "J"}, TYPES["Nullspace"]: {"name": "step"}}
     wires = [{"source": "J.jacobian", "target": "step.jacobian"}]
-    found, _ = why_of(written({"steps": steps, "connections": wires}))
-    assert "its size is that of 'J'" in found and "tool_velocity of dd.MuJoCo" in found
+    reason, _ = why_of(written({"steps": steps, "connections": wires}))
+    assert "its size is that of 'J'" in reason and "tool_velocity of dd.MuJoCo" in reason
 
 
 def test_the_largest_bins_are_found_in_single_precision():

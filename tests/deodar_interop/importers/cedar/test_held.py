@@ -32,18 +32,18 @@ def synapse(**options):
 
 
 @pytest.mark.parametrize(
-    ("name", "parameter", "leaf", "sign", "value"),
+    ("name", "parameter", "leaf", "sign", "number"),
     [
         ("u", "time scale", "tau", 1, 80),
         ("u", "global inhibition", "global_inhibition", -1, -0.3),
         ("step", "static gain.Synapse Weight", "factor", 1, -0.7),
     ],
 )
-def test_a_parameter_holds_the_number_with_its_unit_and_sign(name, parameter, leaf, sign, value):
+def test_a_parameter_holds_the_number_with_its_unit_and_sign(name, parameter, leaf, sign, number):
     steps, entries = parts(synapse())
     found = held(steps[name,], entries[name,], parameter)
     assert found is not None
-    assert (found.leaf, found.sign, found.value) == (leaf, sign, pytest.approx(value))
+    assert (found.leaf, found.sign, found.value) == (leaf, sign, pytest.approx(number))
 
 
 @pytest.mark.parametrize(

@@ -40,18 +40,18 @@ def test_the_traces_of_cedar_are_reproduced(name):
     reference = stored(name)
     assert len(reference) > 50
     for (n, slot), expected in reference.items():
-        found = done[slot][AT.index(n)]
-        assert found.shape == expected.shape, slot
+        slot_values = done[slot][AT.index(n)]
+        assert slot_values.shape == expected.shape, slot
         if slot != KNOWN_BUG:
-            assert np.abs(found - expected).max() < (1e-4 if n <= 5 else 1e-3), (slot, n)
+            assert np.abs(slot_values - expected).max() < (1e-4 if n <= 5 else 1e-3), (slot, n)
 
 
 def test_where_cedar_leaves_slices_empty_the_reference_fills_them():
-    found = run(DATA / "projection_steps.json", 1, 10)[KNOWN_BUG][1]
+    computed = run(DATA / "projection_steps.json", 1, 10)[KNOWN_BUG][1]
     expected = stored("projection_steps")[1, KNOWN_BUG]
-    wrong = np.abs(found - expected).max(axis=(0, 2)) > 1e-4
+    wrong = np.abs(computed - expected).max(axis=(0, 2)) > 1e-4
     assert wrong.tolist() == [False] * 10 + [True] * 2
-    assert np.abs(found[:, 10:] - found[:, :1]).max() == 0
+    assert np.abs(computed[:, 10:] - computed[:, :1]).max() == 0
 
 
 def test_the_listeners_of_a_group_are_its_looped_steps():
@@ -269,9 +269,9 @@ def test_connectors_of_nested_groups_only_pass_values_on():
 def test_every_scalar_of_a_written_model_is_a_text():
     kinds = set()
 
-    def note(value):
-        kinds.add(type(value))
-        for inner in value if isinstance(value, list | tuple) else ():
+    def note(node):
+        kinds.add(type(node))
+        for inner in node if isinstance(node, list | tuple) else ():
             note(inner)
 
     note(json.loads(random_models(3), object_pairs_hook=list))

@@ -71,8 +71,8 @@ def values(text: str, *names: str) -> list[Any]:
 
 def pins(done: Imported) -> dict[str, dict[str, Any]]:
     """Return the pins of a document by their labels."""
-    found: Any = done.model.document.layout.get("pins", [])
-    return {pin.get("label", pin["parameter"]): pin for pin in found}
+    pins: Any = done.model.document.layout.get("pins", [])
+    return {pin.get("label", pin["parameter"]): pin for pin in pins}
 
 
 def told(done: Imported, part: str) -> dict[str, tuple[str, str]]:

@@ -251,9 +251,9 @@ def test_the_buttons_of_the_window_have_their_counterparts_in_the_studio():
             "RobotArenaControlPanel('robot', [1 2 3 4])",
         )
     )
-    found = told(done, "control")
-    assert found["Pause"] == ("carried", "Pause in the studio")
-    assert found["Fast"][0] == "dropped" and found["robot"][0] == "dropped"
+    losses = told(done, "control")
+    assert losses["Pause"] == ("carried", "Pause in the studio")
+    assert losses["Fast"][0] == "dropped" and losses["robot"][0] == "dropped"
 
 
 @pytest.mark.parametrize(
@@ -325,8 +325,8 @@ def test_visualizations_are_the_plots_that_are_shown_first():
         {"element": done.model["line"].id, "port": "activation"},
         {"element": done.model["line -> line"].id, "port": "total"},
     ]
-    found = [(line.what, line.verdict) for line in done.report.lines if line.part == "visualization"]
-    assert found == [
+    verdicts = [(line.what, line.verdict) for line in done.report.lines if line.part == "visualization"]
+    assert verdicts == [
         ("MultiPlot", "approximated"),
         ("ScaledImage", "approximated"),
         ("SlicePlot", "approximated"),

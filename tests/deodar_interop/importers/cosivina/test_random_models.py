@@ -125,5 +125,5 @@ def test_a_random_model_agrees_with_the_oracle(seed, tmp_path):
         plain.step()
         for label in labels:
             expected = plain.out[label]["activation"]
-            found = record[f"{label}.activation"].isel(time=step).values.reshape(expected.shape)
-            assert (abs(found - expected) < 1e-9 * (1 + abs(expected))).all(), (label, step)
+            activations = record[f"{label}.activation"].isel(time=step).values.reshape(expected.shape)
+            assert (abs(activations - expected) < 1e-9 * (1 + abs(expected))).all(), (label, step)

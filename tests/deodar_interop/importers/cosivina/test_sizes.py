@@ -36,5 +36,5 @@ from tests.deodar_interop.importers.cosivina.files import element, text
 def test_the_size_of_an_output_follows_from_the_parameters(
     kind: str, param: dict[str, object], component: str, size: tuple[int, ...]
 ) -> None:
-    (found,) = file.parse(text([element("e", kind, param)]).encode()).elements
-    assert output_size(found, component) == size
+    (parsed,) = file.parse(text([element("e", kind, param)]).encode()).elements
+    assert output_size(parsed, component) == size

@@ -62,8 +62,8 @@ def dropped(parts, folder):
     ],
 )
 def test_a_connection_that_is_not_made_is_reported(parts, where, what, says, tmp_path):
-    done, found = dropped(parts, tmp_path)
-    assert list(found) == [(where, what)] and says in found[where, what]
+    done, losses = dropped(parts, tmp_path)
+    assert list(losses) == [(where, what)] and says in losses[where, what]
     dd.simulate(done.model, 2, every=2)
 
 
