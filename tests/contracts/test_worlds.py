@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 
 import numpy as np
@@ -13,13 +14,20 @@ from deodar.elements.sensor import Sensor
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axis, shape
 from deodar.session.port_reader import port_reader
+from deodar.worlds._base import World
 from deodar.worlds._pure import PureWorld
 from tests.contracts.embodied import WORLDS, everything, example_axes, step_of
 
 
+@functools.cache
+def shared(kind: str) -> World:
+    """Return a world of a kind, the same one for all tests that reset it: its sensors compile once."""
+    return WORLDS[kind].example()
+
+
 @pytest.mark.parametrize("kind", WORLDS)
 def test_every_sensor_reads_its_axes(kind):
-    world = WORLDS[kind].example()
+    world = shared(kind)
     assert world.sensors
     for sensor, signal in world.sensors.items():
         axes = example_axes(kind, sensor)
@@ -33,7 +41,7 @@ def test_every_sensor_reads_its_axes(kind):
 
 @pytest.mark.parametrize("kind", WORLDS)
 def test_sensors_read_together_have_the_readings_of_each_alone(kind):
-    world = WORLDS[kind].example()
+    world = shared(kind)
     world.reset(3, [0, 5])
     requests = [(sensor, example_axes(kind, sensor)) for sensor in world.sensors]
     for (sensor, axes), reading in zip(requests, world.sense_all(requests, 0.0), strict=True):
@@ -42,7 +50,7 @@ def test_sensors_read_together_have_the_readings_of_each_alone(kind):
 
 @pytest.mark.parametrize("kind", WORLDS)
 def test_a_sensor_of_the_example_has_a_varying_reading(kind):
-    world = WORLDS[kind].example()
+    world = shared(kind)
     world.reset(3)
     times = (0.0, world.period or 0.0)
     assert any(np.ptp(world.sense(s, example_axes(kind, s), t)) > 0 for s in world.sensors for t in times)
@@ -69,8 +77,9 @@ def test_the_scene_lies_inside_its_border(kind):
 
 @pytest.mark.parametrize("kind", WORLDS)
 def test_a_sensor_in_a_model_has_the_reading_of_the_world(kind):
-    for sensor, signal in WORLDS[kind].example().sensors.items():
-        world, axes = WORLDS[kind].example(), example_axes(kind, sensor)
+    world = shared(kind)
+    for sensor, signal in world.sensors.items():
+        axes = example_axes(kind, sensor)
         model = dd.Model("sensing")
         model.add(Sensor("eye", axes, sensor))
         session = dd.Session(model, world=world)

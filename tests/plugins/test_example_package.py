@@ -14,6 +14,7 @@ import deodar as dd
 from deodar import registry
 from deodar.cli import main
 from deodar_studio.views.view import kinds
+from tests.command_line import typed
 from tests.deodar.experiments.calls import run_alone
 
 pytestmark = pytest.mark.usefixtures("example")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import functools
 import re
 import sys
 from pathlib import Path
@@ -12,6 +14,12 @@ from tests.house.source import ROOT
 
 sys.path.insert(0, str(ROOT / "tools"))
 import measure
+
+
+@functools.cache
+def sources() -> dict[str, ast.Module]:
+    """Return every module of the packages, read once."""
+    return measure.trees(*measure.packages())
 
 
 def package(folder: Path, **files: str) -> Path:
@@ -49,7 +57,7 @@ def test_any_is_counted_through_aliases_and_not_in_metadata(tmp_path: Path) -> N
 
 
 def test_at_most_8_per_cent_of_the_annotations_hold_any_or_object() -> None:
-    held, total, _ = measure.loose(measure.trees(*measure.packages()))
+    held, total, _ = measure.loose(sources())
     assert held <= 0.08 * total, "give them types: python tools/measure.py --where lists the places"
 
 
@@ -103,7 +111,7 @@ def test_the_command_prints_every_limit_and_marks_those_exceeded(
 
 
 def test_only_public_calls_of_scripts_have_eight_and_more_parameters() -> None:
-    found = {" ".join(line.split()[:2]) for line in measure.crowded(measure.trees(*measure.packages()))}
+    found = {" ".join(line.split()[:2]) for line in measure.crowded(sources())}
     assert {re.sub(r":\d+", "", place) for place in found} == {
         "deodar/analysis/continuation/continuation.py continuation",
         "deodar/batch/simulate.py simulate",
@@ -125,11 +133,11 @@ def test_conditions_of_expressions_count_as_branches(tmp_path: Path) -> None:
 
 
 def test_no_class_or_alias_of_the_package_shares_its_name() -> None:
-    assert measure.doubled(measure.trees(*measure.packages())) == []
+    assert measure.doubled(sources()) == []
 
 
 def test_every_import_in_a_function_states_its_reason() -> None:
-    assert measure.inner_imports(measure.SOURCE, measure.trees(*measure.packages())) == []
+    assert measure.inner_imports(measure.SOURCE, sources()) == []
 
 
 def test_lines_are_counted_without_blank_lines_comments_and_docstrings(tmp_path: Path) -> None:

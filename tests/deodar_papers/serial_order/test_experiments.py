@@ -39,9 +39,9 @@ def test_an_experiment_can_be_run_and_teaches_the_sequence_of_its_condition(fold
 
 
 def test_a_robot_that_is_carried_elsewhere_completes_its_sequence(folder: Path) -> None:
-    experiment = dataclasses.replace(dd.Experiment.load(folder / "carried.json"), trials=2)
+    experiment = dataclasses.replace(dd.Experiment.load(folder / "carried.json"), trials=1)
     rows = experiment.run()
-    assert rows.outcome.values.tolist() == ["complete", "complete"]
+    assert rows.outcome.values.tolist() == ["complete"]
     sequence = conditions(False)["carried"].sequence(0)
     for k, letter in enumerate(sequence, 1):
-        assert max(away(float(hue), hue_of(letter)) for hue in rows[f"colour {k}"].values) <= 5
+        assert away(float(rows[f"colour {k}"].item()), hue_of(letter)) <= 5
