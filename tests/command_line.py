@@ -44,6 +44,6 @@ def typed(*words: str | Path) -> Typed:
         try:
             status = main(line)
         except SystemExit as ended:
-            status = 2 if ended.code is None else int(ended.code)
+            status = ended.code if isinstance(ended.code, int) else int(ended.code is not None)
     out.seek(0)
     return Typed(status, out.read(), err.getvalue())

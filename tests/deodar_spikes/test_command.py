@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import nir
 import pytest
 
 import deodar as dd
-from deodar.cli import main
+from tests.command_line import typed
 
 
 def neurons(path: Path) -> int:
@@ -28,48 +27,45 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_model_is_written_as_a_file_of_nir(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    call = ["export", "nir", "small.json", "-o", "small.nir", "--neurons", "4", "--chip", "digital-8-bit"]
-    assert main([*call, "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
-    assert neurons(workspace / "small.nir") == 40 and answer["tool"] == "nir"
-    assert any("8 bits" in line["why"] for line in answer["lines"])
-    assert main([*call, "--force", "--tonic"]) == 0
-    assert neurons(workspace / "small.nir") == 44
-    assert "40 neurons" not in capsys.readouterr().err
+def test_a_model_is_written_as_a_file_of_nir(workspace: Path) -> None:
+    call = "export nir small.json -o small.nir --neurons 4 --chip digital-8-bit"
+    command = typed(call, "--json")
+    assert command.status == 0 and command.json["tool"] == "nir"
+    assert neurons(workspace / "small.nir") == 40
+    assert any("8 bits" in line["why"] for line in command.json["lines"])
+    tonic = typed(call, "--force --tonic")
+    assert tonic.status == 0 and neurons(workspace / "small.nir") == 44
+    assert "40 neurons" not in command.err + tonic.err
 
 
-def test_options_of_neurons_are_refused_elsewhere(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(SystemExit):
-        main(["export", "cosivina", "small.json", "--neurons", "4"])
-    assert "--neurons is about spiking neurons" in capsys.readouterr().err
-    assert main(["export", "cosivina", "small.json"]) == 0, "the default of --tonic is no option"
-    assert main(["export", "nir", "small.json", "--chip", "digital"]) == 1
-    assert "there is no chip 'digital'" in capsys.readouterr().err
+@pytest.mark.usefixtures("workspace")
+def test_options_of_neurons_are_refused_elsewhere() -> None:
+    refused = typed("export cosivina small.json --neurons 4")
+    assert refused.status == 2 and "--neurons is about spiking neurons" in refused.err
+    assert typed("export cosivina small.json").status == 0, "the default of --tonic is no option"
+    unknown = typed("export nir small.json --chip digital")
+    assert unknown.status == 1 and "there is no chip 'digital'" in unknown.err
 
 
-def test_a_comparison_prints_a_table_and_draws(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    call = ["neuromorphic", "compare", "small.json", "--trials", "3", "--duration", "100", "--no-norse"]
-    assert main([*call, "-o", "both.png"]) == 0
-    printed = capsys.readouterr().out
-    assert "200 neurons" in printed and "detection after" in printed and "forgetting after" in printed
+def test_a_comparison_prints_a_table_and_draws(workspace: Path) -> None:
+    call = "neuromorphic compare small.json --trials 3 --duration 100 --no-norse"
+    drawn = typed(call, "-o both.png")
+    assert drawn.status == 0
+    assert all(words in drawn.out for words in ("200 neurons", "detection after", "forgetting after"))
     assert (workspace / "both.png").stat().st_size > 5000
-    assert main([*call, "--json", "--mismatch", "0.1", "--seed", "3"]) == 0
-    answer = json.loads(capsys.readouterr().out)
-    assert answer["elements"]["u"]["spikes"]["winner"]["value"] == 1.0 and answer["neurons"] == 200
+    command = typed(call, "--json --mismatch 0.1 --seed 3")
+    assert command.status == 0 and command.json["neurons"] == 200
+    assert command.json["elements"]["u"]["spikes"]["winner"]["value"] == 1.0
 
 
-def test_chips_are_listed_with_sources(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["neuromorphic", "chips"]) == 0
-    printed = capsys.readouterr().out
-    assert "digital-8-bit" in printed and "MAX_COMPARTMENTS" in printed
-    assert main(["neuromorphic", "chips", "--json"]) == 0
-    assert len(json.loads(capsys.readouterr().out)["chips"]) == 3
+@pytest.mark.usefixtures("workspace")
+def test_chips_are_listed_with_sources() -> None:
+    chips = typed("neuromorphic chips")
+    assert chips.status == 0 and "digital-8-bit" in chips.out and "MAX_COMPARTMENTS" in chips.out
+    command = typed("neuromorphic chips --json")
+    assert command.status == 0 and len(command.json["chips"]) == 3
 
 
-def test_a_comparison_without_a_file_is_an_invalid_call(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        main(["neuromorphic", "compare"])
-    assert "the model is missing" in capsys.readouterr().err
+def test_a_comparison_without_a_file_is_an_invalid_call() -> None:
+    command = typed("neuromorphic compare")
+    assert command.status == 2 and "the model is missing" in command.err

@@ -11,6 +11,7 @@ import deodar as dd
 from deodar import plugins, registry
 from deodar.cli import main
 from deodar.errors import UnknownName
+from tests.command_line import typed
 from tests.plugins.conftest import Install
 
 KIND = """
@@ -60,7 +61,6 @@ def test_a_package_that_cannot_be_used_is_a_line_of_doctor_and_the_rest_works(
     requires: tuple[str, ...],
     problem: str,
     install: Install,
-    capsys: pytest.CaptureFixture[str],
 ) -> None:
     install(package, {package: text}, {"deodar.kinds": {kind: f"{package}:{kind}"}}, requires=requires)
     install(
@@ -79,9 +79,7 @@ def test_a_package_that_cannot_be_used_is_a_line_of_doctor_and_the_rest_works(
             str(caught.value)
             == f"'Odd' cannot be used: the package {package} 0.1.0 {problem}. Type: deodar doctor"
         )
-    assert main(["doctor"]) == 0
-    page = [line for line in capsys.readouterr().out.splitlines() if line.startswith("plug-in")]
-    assert sorted(page) == sorted(
+    assert sorted(_doctor()) == sorted(
         [f"plug-in    {package} 0.1.0: PROBLEM: {kind} {problem}", "plug-in    whole 2.5: kinds Whole"]
     )
 
@@ -105,18 +103,14 @@ def test_a_misspelt_kind_of_a_package_suggests_it_without_importing_it(install: 
         registry.kind("Detectr")
 
 
-def test_a_command_of_a_package_that_raises_is_an_error_that_names_it(
-    install: Install, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_command_of_a_package_that_raises_is_an_error_that_names_it(install: Install) -> None:
     install(
         "raising", {"raising": "raise RuntimeError('no licence')"}, {"deodar.commands": {"solve": "raising"}}
     )
-    assert main(["examples"]) == 0
-    assert main(["solve"]) == 2
-    assert (
-        "'solve' cannot be used: the package raising 0.1.0 raises RuntimeError when it is imported: no"
-        " licence" in capsys.readouterr().err
-    )
+    assert typed("examples").status == 0
+    command = typed("solve")
+    message = "'solve' cannot be used: the package raising 0.1.0 raises RuntimeError when it is imported"
+    assert command.status == 2 and f"{message}: no licence" in command.err
 
 
 def test_a_paper_and_an_importer_of_a_package_are_found(install: Install) -> None:
@@ -169,9 +163,11 @@ GROUPS = {
 """For each group a module, the value of its entry point, its name, and a name of deodar, if it has any."""
 
 
-def _doctor(capsys: pytest.CaptureFixture[str]) -> list[str]:
-    assert main(["doctor"]) == 0
-    return [line for line in capsys.readouterr().out.splitlines() if line.startswith("plug-in")]
+def _doctor() -> list[str]:
+    """Return what `deodar doctor` says of packages."""
+    command = typed("doctor")
+    assert command.status == 0
+    return [line for line in command.out.splitlines() if line.startswith("plug-in")]
 
 
 def test_a_module_of_any_group_that_raises_is_a_line_of_doctor(
@@ -183,7 +179,7 @@ def test_a_module_of_any_group_that_raises_is_a_line_of_doctor(
         package = group.replace(".", "-")
         module = group.replace("deodar.", "odd_")
         install(package, {module: text + RAISES}, {group: {name: value.replace("odd", module, 1)}})
-    found = _doctor(capsys)
+    found = _doctor()
     assert sorted(found) == sorted(
         f"plug-in    {group.replace('.', '-')} 0.1.0: PROBLEM: {name} raises RuntimeError when it is"
         " imported: no licence"
@@ -197,7 +193,7 @@ def test_an_entry_with_a_name_of_deodar_is_a_line_of_doctor(
     names = {group: taken for group, (_, _, _, taken) in GROUPS.items() if taken}
     for group, taken in names.items():
         install(group.replace(".", "-"), {}, {group: {taken: "nowhere"}})
-    assert sorted(_doctor(capsys)) == sorted(
+    assert sorted(_doctor()) == sorted(
         f"plug-in    {group.replace('.', '-')} 0.1.0: PROBLEM: {taken} takes the name {taken!r}, which deodar"
         " has"
         for group, taken in names.items()
@@ -210,7 +206,7 @@ def test_a_package_for_another_version_is_a_line_of_doctor_for_each_group(
     entries = {group: {name: "nowhere"} for group, (_, _, name, _) in GROUPS.items()}
     install("later", {}, entries, requires=("numpy", "deodar>=7"))
     problem = f"is made for deodar >=7, and this is {dd.__version__}"
-    assert sorted(_doctor(capsys)) == sorted(
+    assert sorted(_doctor()) == sorted(
         f"plug-in    later 0.1.0: PROBLEM: {name} {problem}" for _, _, name, _ in GROUPS.values()
     )
 
@@ -233,7 +229,7 @@ def test_an_entry_that_is_not_a_measure_or_figure_is_a_line_of_doctor(
 ) -> None:
     value = "odd:Odd" if group == "measures" else "odd"
     install("odd", {"odd": text}, {f"deodar.{group}": {"Odd": value}})
-    assert _doctor(capsys) == [f"plug-in    odd 0.1.0: PROBLEM: Odd {problem}"]
+    assert _doctor() == [f"plug-in    odd 0.1.0: PROBLEM: Odd {problem}"]
 
 
 def test_a_broken_measure_is_an_error_only_of_experiments_that_name_it(install: Install) -> None:

@@ -12,7 +12,6 @@ import pytest
 
 import deodar as dd
 from deodar import registry
-from deodar.cli import main
 from deodar_studio.views.view import kinds
 from tests.command_line import typed
 from tests.deodar.experiments.calls import run_alone
@@ -36,7 +35,7 @@ def file(tmp_path: Path) -> Path:
 
 def test_nothing_is_imported_before_a_kind_is_looked_up() -> None:
     assert registry.kind("Field") is dd.Field
-    assert main(["examples"]) == 0
+    assert typed("examples").status == 0
     assert not [name for name in sys.modules if name.startswith("deodar_change")]
     assert registry.kind("Change").__module__ == "deodar_change.change"
     assert "deodar_change.lamp" not in sys.modules and "deodar_change.command" not in sys.modules
@@ -61,11 +60,9 @@ def test_check_and_run_find_the_kind_and_the_world(file: Path, tmp_path: Path) -
     ],
     ids=["no argument", "a wrong argument"],
 )
-def test_a_world_that_cannot_be_opened_states_what_to_type(
-    world: str, message: str, file: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["run", str(file), "--duration", "1", "--world", world]) == 1
-    assert capsys.readouterr().err.strip() == f"deodar run: {message}"
+def test_a_world_that_cannot_be_opened_states_what_to_type(world: str, message: str, file: Path) -> None:
+    command = typed("run", file, f"--duration 1 --world {world}")
+    assert command.status == 1 and command.err.strip() == f"deodar run: {message}"
 
 
 @pytest.fixture
@@ -100,12 +97,9 @@ def experiment(tmp_path: Path) -> Path:
     return path
 
 
-def test_an_experiment_with_the_kind_the_world_and_the_measure_runs(
-    experiment: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["experiment", str(experiment), "--out", str(tmp_path / "out"), "--no-progress"]) == 0, (
-        capsys.readouterr().err
-    )
+def test_an_experiment_with_the_kind_the_world_and_the_measure_runs(experiment: Path, tmp_path: Path) -> None:
+    command = typed("experiment", experiment, "--no-progress --out", tmp_path / "out")
+    assert command.status == 0, command.err
     table = dd.load_results(tmp_path / "out")
     trial = run_alone(
         dd.load(tmp_path / "model.json"), 30, watch=["field"], world=registry.kind("Lamp")(10), dt=1
@@ -147,22 +141,18 @@ def test_a_misspelt_measure_suggests_that_of_the_package(experiment: Path) -> No
         dd.Experiment.load(experiment)
 
 
-def test_the_figure_of_the_package_is_a_kind_of_plot(
-    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_figure_of_the_package_is_a_kind_of_plot(file: Path, tmp_path: Path) -> None:
     record = tmp_path / "run.zarr"
     run = dd.simulate(
         dd.load(file), 20, record=["change.output", "step.output"], world=registry.kind("Lamp")()
     )
     dd.save_record(run, record)
-    out = tmp_path / "plot.svg"
-    drawn = ["--out", str(out), "--json"]
-    assert main(["plot", str(record), "change.output", "--kind", "histogram", *drawn]) == 0
-    assert json.loads(capsys.readouterr().out)["kinds"] == {"change.output": "histogram"}
-    assert "number of values" in out.read_text()
-    assert main(["plot", str(record), "--kind", "histogram", "--out", str(tmp_path / "both.svg")]) == 0
-    assert main(["plot", str(record), "--kind", "histogran", "--out", str(tmp_path / "no.svg")]) == 1
-    assert "Did you mean 'histogram'?" in capsys.readouterr().err
+    drawn = typed("plot", record, "change.output --kind histogram --json --out", tmp_path / "plot.svg")
+    assert drawn.status == 0 and drawn.json["kinds"] == {"change.output": "histogram"}
+    assert "number of values" in (tmp_path / "plot.svg").read_text()
+    assert typed("plot", record, "--kind histogram --out", tmp_path / "both.svg").status == 0
+    misspelt = typed("plot", record, "--kind histogran --out", tmp_path / "no.svg")
+    assert misspelt.status == 1 and "Did you mean 'histogram'?" in misspelt.err
 
 
 def test_a_figure_of_a_package_is_drawn_only_by_its_name() -> None:
@@ -177,32 +167,22 @@ def test_the_studio_lists_the_kind_and_the_world() -> None:
     assert rooms["Change"] == "own" and rooms["Lamp"] == "worlds"
 
 
-def test_the_list_of_elements_shows_the_kind_and_the_world(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["elements", "--json"]) == 0
-    listed = json.loads(capsys.readouterr().out)
-    assert list(listed["own"]) == ["Change"] and "Lamp" in listed["worlds"]
+def test_the_list_of_elements_shows_the_kind_and_the_world() -> None:
+    command = typed("elements --json")
+    assert command.status == 0
+    assert list(command.json["own"]) == ["Change"] and "Lamp" in command.json["worlds"]
 
 
-def test_the_command_of_the_package_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["change", "--tau", "200"]) == 0
-    assert capsys.readouterr().out.splitlines()[:2] == ["0 ms: 1.000", "100 ms: 0.606"]
-    with pytest.raises(SystemExit):
-        main(["--help"])
-    assert "print how the detector of change answers" in capsys.readouterr().out
+def test_the_command_of_the_package_runs() -> None:
+    command = typed("change --tau 200")
+    assert command.status == 0 and command.out.splitlines()[:2] == ["0 ms: 1.000", "100 ms: 0.606"]
+    assert "print how the detector of change answers" in typed("--help").out
 
 
-def test_doctor_lists_what_the_package_adds(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["doctor"]) == 0
-    page = capsys.readouterr().out.splitlines()
-    lines = [line for line in page if line.startswith("plug-in")]
-    assert lines == [
-        f"plug-in    deodar-change 0.1.0: {what}"
-        for what in (
-            "kinds Change",
-            "worlds Lamp",
-            "measures Width",
-            "figures histogram",
-            "plots polar",
-            "commands change",
-        )
+def test_doctor_lists_what_the_package_adds() -> None:
+    command = typed("doctor")
+    assert command.status == 0
+    added = ("kinds Change", "worlds Lamp", "measures Width", "figures histogram")
+    assert [line for line in command.out.splitlines() if line.startswith("plug-in")] == [
+        f"plug-in    deodar-change 0.1.0: {part}" for part in (*added, "plots polar", "commands change")
     ]

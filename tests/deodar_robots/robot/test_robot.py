@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.cli import main
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axis
 from deodar.recording.opened import again, named
@@ -18,6 +17,7 @@ from deodar.worlds._motor_rule import MotorRule
 from deodar_robots.robot import robot_file, schema
 from deodar_robots.robot.robot import Robot
 from deodar_robots.zenoh.served_world import ServedWorld
+from tests.command_line import typed
 
 EPUCK = {"robot": 1, "name": "mine", "kind": "arena", "settings": {"layout": "blocks", "unit": "cm"}}
 
@@ -186,19 +186,17 @@ def test_the_server_keeps_the_limits_whatever_the_model_sends(written):
     served.close()
 
 
-def test_the_command_lists_robots_and_checks_one_without_moving_it(written, capsys, monkeypatch, tmp_path):
-    assert main(["robots"]) == 0
-    assert "epuck  arena; places: simulated, network" in capsys.readouterr().out
+def test_the_command_lists_robots_and_checks_one_without_moving_it(written, monkeypatch, tmp_path):
+    listing = typed("robots")
+    assert listing.status == 0 and "epuck  arena; places: simulated, network" in listing.out
     written(motors={"left": {"limits": [-100, 100], "slew": 50}, "right": {}})
     monkeypatch.setattr(Robot, "act", lambda *args: pytest.fail("a motor was moved"))
-    assert main(["robots", "check", str(tmp_path / "mine.json")]) == 0
-    printed = capsys.readouterr().out
-    assert "mine is there: arena, repeatable" in printed
-    assert "sensor heading: heading; 0 along x, counter-clockwise; one number rad; 15.6 Hz" in printed
-    assert "step/s; -100 to 100, at most 50 per s; at rest 0 after 200 ms" in printed
-    assert main(["robots", "check", str(tmp_path / "mine.json"), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["robot"] == "mine"
-    with pytest.raises(SystemExit):
-        main(["robots", "check"])
-    assert main(["robots", "check", "nowhere"]) == 1
-    assert "no robot file 'nowhere'" in capsys.readouterr().err
+    command = typed("robots check", tmp_path / "mine.json")
+    assert command.status == 0 and "mine is there: arena, repeatable" in command.out
+    assert "sensor heading: heading; 0 along x, counter-clockwise; one number rad; 15.6 Hz" in command.out
+    assert "step/s; -100 to 100, at most 50 per s; at rest 0 after 200 ms" in command.out
+    as_json = typed("robots check", tmp_path / "mine.json", "--json")
+    assert as_json.status == 0 and as_json.json["robot"] == "mine"
+    assert typed("robots check").status == 2
+    absent = typed("robots check nowhere")
+    assert absent.status == 1 and "no robot file 'nowhere'" in absent.err

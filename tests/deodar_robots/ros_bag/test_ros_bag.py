@@ -11,10 +11,10 @@ from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 import deodar as dd
-from deodar.cli import main
 from deodar.errors import RecordError, WorldError
 from deodar_robots.ros_bag import bag_file
 from deodar_robots.ros_bag import records as rosbag
+from tests.command_line import typed
 from tests.deodar_robots.ros2.fake import distance, scan
 
 TYPES = {
@@ -194,13 +194,13 @@ def test_other_programs_read_topics_types_times_and_shapes(tmp_path, seen):
     assert np.array_equal(message.data, seen["eyes.output"].values[3])
 
 
-def test_the_command_writes_a_bag(tmp_path, seen, monkeypatch, capsys):
+def test_the_command_writes_a_bag(tmp_path, seen, monkeypatch):
     monkeypatch.chdir(tmp_path)
     dd.save_record(seen, "run.zarr")
-    assert main(["export", "run.zarr", "eyes.output", "--to", "rosbag", "--out", "bag"]) == 0
-    assert "Wrote eyes.output to bag" in capsys.readouterr().out
+    command = typed("export run.zarr eyes.output --to rosbag --out bag")
+    assert command.status == 0 and "Wrote eyes.output to bag" in command.out
     assert sorted(p.name for p in Path("bag").iterdir()) == ["bag.db3", "metadata.yaml"]
-    assert main(["export", "run.zarr", "--to", "rosbag", "--out", "bag"]) == 1
+    assert typed("export run.zarr --to rosbag --out bag").status == 1
     assert list(dd.ROSBag("bag").sensors) == ["infrared"]
     file = Path("replay.json")
     file.write_text(json.dumps({"robot": 1, "name": "old", "kind": "rosbag", "settings": {"file": "bag"}}))

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.cli import main
 from deodar.errors import WorldError
 from deodar.recording.opened import again
 from deodar_robots.robot.robot import Robot
@@ -20,6 +19,7 @@ from deodar_robots.zenoh import link
 from deodar_robots.zenoh.served_world import ServedWorld, free_endpoint
 from deodar_robots.zenoh.tls_files import TlsFiles
 from deodar_robots.zenoh.zenoh import Zenoh
+from tests.command_line import typed
 from tests.deodar_robots.zenoh.wheel import Wheel
 
 FILES = Path(__file__).parent / "certificates"
@@ -165,14 +165,13 @@ def test_a_robot_file_names_certificates_in_its_folder(served, tmp_path: Path):
         Robot(file)
 
 
-def test_the_command_line_names_certificates(served, capsys: pytest.CaptureFixture[str]):
+def test_the_command_line_names_certificates(served):
     world = Zenoh.open(f"robot, at={served()}, patience=5, authority={AUTHORITY}")
     world.close()
-    assert main(["serve", "arena:blocks", "--at", "tls/127.0.0.1:1", "--certificate", "none.pem"]) != 0
-    assert "needs a certificate and its private key" in capsys.readouterr().err
-    both = ["--certificate", "none.pem", "--key", "none.key"]
-    assert main(["serve", "arena:blocks", "--at", "tls/0.0.0.0:1", *both]) != 0
-    assert "none.pem: there is no such file of the certificate" in capsys.readouterr().err
+    keyless = typed("serve arena:blocks --at tls/127.0.0.1:1 --certificate none.pem")
+    assert keyless.status != 0 and "needs a certificate and its private key" in keyless.err
+    absent = typed("serve arena:blocks --at tls/0.0.0.0:1 --certificate none.pem --key none.key")
+    assert absent.status != 0 and "none.pem: there is no such file of the certificate" in absent.err
 
 
 class Relay:
