@@ -47,8 +47,8 @@ import mutate
     ],
 )
 def test_a_mutant_changes_one_expression(text: str, kind: str, changed: str) -> None:
-    found = [m.applied(text) for m in mutate.mutants("a.py", text) if m.kind == kind]
-    assert changed in found
+    places = [m.applied(text) for m in mutate.mutants("a.py", text) if m.kind == kind]
+    assert changed in places
 
 
 @pytest.mark.parametrize(
