@@ -12,6 +12,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeVar
 
+from deodar.summary import Summarised, Summary
+
 T = TypeVar("T")
 
 Severity = Literal["problem", "warning"]
@@ -76,8 +78,8 @@ def joined(first: str, second: str) -> str:
     return f"{first.rstrip('.')}. {second}" if first and second else first or second
 
 
-@dataclass(frozen=True)
-class Problem:
+@dataclass(frozen=True, repr=False)
+class Problem(Summarised):
     """One problem or warning: where, what, and what to type instead.
 
     A `problem` prevents a run. A `warning` does not: the model runs, but probably not as intended.
@@ -99,6 +101,9 @@ class Problem:
     def fix_at(self, place: Place) -> str:
         """Return what to do at a place."""
         return self.fix.at(place) if isinstance(self.fix, Fix) else self.fix
+
+    def _summary(self) -> Summary:
+        return Summary(f"{self.severity}: {self}")
 
 
 class DeodarError(Exception):

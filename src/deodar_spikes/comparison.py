@@ -16,6 +16,7 @@ from deodar.errors import ParameterError, instance_of, option
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes
 from deodar.resources import Resources
+from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
 from deodar_spikes.drive import NetworkInput, network_input
 from deodar_spikes.norse import norse_version
@@ -41,8 +42,8 @@ class Estimate:
     n: int
 
 
-@dc.dataclass(frozen=True)
-class SpikingComparison:
+@dc.dataclass(frozen=True, repr=False)
+class SpikingComparison(Summarised):
     """The result of a comparison.
 
     Attributes:
@@ -91,6 +92,16 @@ class SpikingComparison:
                 for label, estimates in self.estimates.items()
             },
         }
+
+    def _summary(self) -> Summary:
+        network = self.prepared.translated.network
+        rows = [
+            (label, run, name, e.value)
+            for label, runs in self.estimates.items()
+            for run, each in runs.items()
+            for name, e in each.items()
+        ]
+        return Summary(f"Spikes beside rates: {network.neurons} neurons, {network.synapses} synapses", rows)
 
 
 def compare_spikes(

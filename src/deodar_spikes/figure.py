@@ -25,9 +25,7 @@ def spikes_figure(
     """
     labels = list(next(iter(runs.values())))
     with _style.style():
-        figure = Figure(
-            figsize=(_style.DOUBLE, (_style.PANEL - 0.3) * len(labels) + 0.3), layout="constrained"
-        )
+        figure = _style.figure(_style.DOUBLE, (_style.PANEL - 0.3) * len(labels) + 0.3)
         grid = figure.subplots(len(labels), len(runs), squeeze=False, sharex=True, sharey="row")
         for row, label in enumerate(labels):
             most = max(float(np.max(r[label])) for r in runs.values()) or 1.0

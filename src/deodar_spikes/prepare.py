@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from deodar.errors import ParameterError, instance_of
 from deodar.importers.report import ImportReport, Line
 from deodar.model.model import Model
+from deodar.summary import Summarised, Summary
 from deodar_spikes.build import build
 from deodar_spikes.chip_limits import ChipLimits, chip_limits
 from deodar_spikes.fitting import Fitted, fit
@@ -40,8 +41,8 @@ class SpikingOptions:
     tonic: bool = False
 
 
-@dc.dataclass(frozen=True)
-class Prepared:
+@dc.dataclass(frozen=True, repr=False)
+class Prepared(Summarised):
     """A model as a graph for a chip.
 
     Attributes:
@@ -56,6 +57,10 @@ class Prepared:
     fitted: Fitted
     spread: Mapping[str, float]
     report: ImportReport
+
+    def _summary(self) -> Summary:
+        network, chip = self.translated.network, self.limits.name
+        return Summary(f"{network.neurons} neurons and {network.synapses} synapses for {chip}")
 
 
 def prepare(model: Model, name: str = "", options: SpikingOptions | None = None) -> Prepared:

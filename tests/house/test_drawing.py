@@ -10,7 +10,7 @@ from deodar.diagrams import wires
 from deodar.figures import _style
 from tests.house.source import MODULES, at, module, tree
 
-DIAGRAMS = {"diagrams.paper", "diagrams.text"}
+DIAGRAMS = {"diagrams.paper", "diagrams.shown_figure", "diagrams.text"}
 """Modules for pictures of architectures: shapes, and widths of names."""
 
 

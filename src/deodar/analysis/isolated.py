@@ -29,6 +29,7 @@ from deodar.numerics.axes import Axes, shape
 from deodar.numerics.processor import on_cpu
 from deodar.session.session import Session
 from deodar.session.session_snapshot import SessionSnapshot
+from deodar.summary import Summarised, Summary
 
 InputKind = Literal["input", "boost"]
 """The input that is varied: the strength of the localised input, or a homogeneous boost (on a node the two
@@ -40,8 +41,8 @@ WHOLE = 0.75
 """Share of a field's volume above which a region is not a peak: excitation has spread to the borders."""
 
 
-@dataclass(frozen=True)
-class Isolated:
+@dataclass(frozen=True, repr=False)
+class Isolated(Summarised):
     """A copy of one field with its own inputs.
 
     Attributes:
@@ -118,6 +119,14 @@ class Isolated:
     def restore(self, snapshot: SessionSnapshot) -> None:
         """Restore a snapshot."""
         self.session.restore(snapshot)
+
+    def _summary(self) -> Summary:
+        rows = [
+            ("input at", ", ".join(f"{c:g}" for c in self.center) or "the node"),
+            ("its width", ", ".join(f"{s:g}" for s in self.sigma)),
+            ("constant inputs", ", ".join(self.background) or "none"),
+        ]
+        return Summary(f"Isolated field {self.path}", rows)
 
 
 class Isolation(TypedDict, total=False):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from scipy import ndimage
 
 from deodar.errors import AnalysisError
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape
+from deodar.summary import Summarised, Summary, counted
 
 if TYPE_CHECKING:
     import xarray
@@ -48,8 +48,8 @@ class Peak:
         )
 
 
-@dataclass(frozen=True)
-class Peaks(Sequence[Peak]):
+@dataclass(frozen=True, repr=False)
+class Peaks(Summarised, Sequence[Peak]):
     """The peaks of one activation pattern, in descending order of amplitude."""
 
     found: tuple[Peak, ...]
@@ -76,19 +76,12 @@ class Peaks(Sequence[Peak]):
             + ">"
         )
 
-    def _repr_html_(self) -> str:
-        units = [f" ({html.escape(a.unit)})" if a.unit else "" for a in self.axes]
-        names = [html.escape(a.name) for a in self.axes]
-        heads = [f"{n}{u}" for n, u in zip(names, units, strict=True)] + [
-            f"width of {n}{u}" for n, u in zip(names, units, strict=True)
-        ]
-        rows = [[*p.position, *p.width, p.amplitude, p.size] for p in self]
-        head = "".join(f"<th>{h}</th>" for h in [*heads, "amplitude", "size"])
-        body = "".join("<tr>" + "".join(f"<td>{v:.4g}</td>" for v in row) + "</tr>" for row in rows)
-        caption = (
-            f"<caption>{len(self)} peak{'' if len(self) == 1 else 's'} above {self.threshold:g}</caption>"
-        )
-        return f"<table>{caption}<tr>{head}</tr>{body}</table>"
+    def _summary(self) -> Summary:
+        units = [f" ({a.unit})" if a.unit else "" for a in self.axes]
+        places = [f"{a.name}{unit}" for a, unit in zip(self.axes, units, strict=True)]
+        heads = [*places, *(f"width of {place}" for place in places), "amplitude", "size"]
+        rows = [[f"{v:.4g}" for v in (*p.position, *p.width, p.amplitude, p.size)] for p in self]
+        return Summary(f"{counted(len(self), 'peak')} above {self.threshold:g}", rows, heads)
 
 
 def peaks(

@@ -12,13 +12,14 @@ from deodar.elements.field import Field
 from deodar.errors import AnalysisError
 from deodar.numerics import interaction
 from deodar.numerics.processor import on_cpu
+from deodar.summary import Summarised, Summary, counted
 
 COARSE = 2001
 MOST_DOUBLINGS = 12
 
 
-@dataclass(frozen=True)
-class FixedPoint:
+@dataclass(frozen=True, repr=False)
+class FixedPoint(Summarised):
     """An activation at which the rate of change passes through zero.
 
     Attributes:
@@ -32,9 +33,13 @@ class FixedPoint:
     stable: bool
     at_jump: bool = False
 
+    def _summary(self) -> Summary:
+        kind = "Attractor" if self.stable else "Repeller"
+        return Summary(f"{kind} at {self.u:.6g}{', at a jump' if self.at_jump else ''}")
 
-@dataclass(frozen=True)
-class Phase:
+
+@dataclass(frozen=True, repr=False)
+class Phase(Summarised):
     """The rate of change du/dt of a node against u, for one constant input.
 
     Attributes:
@@ -53,6 +58,13 @@ class Phase:
     def bistable(self) -> bool:
         """Whether the node has more than one stable fixed point."""
         return sum(p.stable for p in self.fixed_points) > 1
+
+    def _summary(self) -> Summary:
+        rows = [
+            ("stable" if p.stable else "unstable", p.u, "at a jump" if p.at_jump else "")
+            for p in self.fixed_points
+        ]
+        return Summary(f"Phase plot at input {self.input:g}: {counted(len(rows), 'fixed point')}", rows)
 
 
 def phase(node: Field, input: float = 0.0, span: tuple[float, float] | None = None) -> Phase:

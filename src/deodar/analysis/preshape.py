@@ -8,13 +8,14 @@ from deodar.analysis.isolated import Isolated
 from deodar.analysis.peaks import Peaks
 from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import ascend
+from deodar.summary import Summarised, Summary
 
 SHARES = (0.25, 0.5, 0.75)
 """Strengths of the pre-shapes that are measured, relative to the detection threshold."""
 
 
-@dataclass(frozen=True)
-class Boosted:
+@dataclass(frozen=True, repr=False)
+class Boosted(Summarised):
     """A pre-shape, and the boost at which it becomes a peak.
 
     Attributes:
@@ -28,6 +29,11 @@ class Boosted:
     boost: float | None
     peaks: Peaks | None
     localised: bool
+
+    def _summary(self) -> Summary:
+        what = "none up to the limit" if self.boost is None else f"{self.boost:.4g}"
+        where = "at the pre-shape" if self.localised else "not at the pre-shape alone"
+        return Summary(f"Detection by a boost of {what}", [("pre-shape", self.preshape), ("peak", where)])
 
 
 def boosted(isolated: Isolated, preshape: float, accuracy: float = 0.01, limit: float = LIMIT) -> Boosted:

@@ -9,10 +9,11 @@ import numpy as np
 
 from deodar.analysis.isolated import InputKind, Isolated
 from deodar.analysis.settle import LIMIT
+from deodar.summary import Summarised, Summary
 
 
-@dataclass(frozen=True)
-class Branch:
+@dataclass(frozen=True, repr=False)
+class Branch(Summarised):
     """The settled states of a field at each value of a ramp, in one direction.
 
     Attributes:
@@ -28,9 +29,16 @@ class Branch:
     width: np.ndarray
     settled: np.ndarray
 
+    def _summary(self) -> Summary:
+        some = np.flatnonzero(self.count)
+        return Summary(
+            f"Branch of {len(self.count)} settled states, {len(some)} with a peak",
+            [("activation", f"{self.activation.min():.4g} to {self.activation.max():.4g}")],
+        )
 
-@dataclass(frozen=True)
-class SettledRamp:
+
+@dataclass(frozen=True, repr=False)
+class SettledRamp(Summarised):
     """The settled states of a field over increasing, then decreasing values of its input.
 
     Attributes:
@@ -49,6 +57,14 @@ class SettledRamp:
     def bistable(self) -> np.ndarray:
         """The values at which the two branches differ in the number of peaks."""
         return self.values[self.up.count != self.down.count]
+
+    def _summary(self) -> Summary:
+        both = self.bistable
+        rows = [
+            (self.by, f"{self.values[0]:.4g} to {self.values[-1]:.4g}"),
+            ("bistable", f"{both[0]:.4g} to {both[-1]:.4g}" if len(both) else "nowhere"),
+        ]
+        return Summary(f"Ramp of {len(self.values)} values, up and down", rows)
 
 
 def ramp(

@@ -23,6 +23,7 @@ from deodar.codec import JsonObject
 from deodar.elements.field import Field
 from deodar.model.model import Model
 from deodar.resources import Resources, use_resources
+from deodar.summary import Summarised, Summary
 
 ABOVE = 1.02
 """Input just above detection, relative to the threshold."""
@@ -34,8 +35,8 @@ NOT_ASKED = "not asked for"
 """Reason why the discretisation error was not measured, where `finer` was not given."""
 
 
-@dataclass(frozen=True)
-class Regimes:
+@dataclass(frozen=True, repr=False)
+class Regimes(Summarised):
     """The response of a field to its input, measured in isolation and without noise.
 
     Attributes:
@@ -209,14 +210,10 @@ class Regimes:
             },
         }
 
-    def __repr__(self) -> str:
-        def show(value: float | None) -> str:
-            return "none" if value is None else f"{value:.4g}"
-
-        return (
-            f"<Regimes of {self.isolated.path}: {'; '.join(self.words)}; detection {show(self.detection)},"
-            f" reverse {show(self.reverse)}>"
-        )
+    def _summary(self) -> Summary:
+        numbers = ("detection", "reverse", "forgetting", "suppression")
+        rows = [(n, "none" if (v := getattr(self, n)) is None else f"{v:.4g}") for n in numbers]
+        return Summary(f"Regimes of {self.isolated.path}: {'; '.join(self.words)}", rows)
 
 
 def regimes(

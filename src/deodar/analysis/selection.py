@@ -10,6 +10,7 @@ from deodar.analysis.isolated import Isolated
 from deodar.analysis.peaks import Peaks
 from deodar.analysis.settle import LIMIT
 from deodar.errors import AnalysisError, ParameterError
+from deodar.summary import Summarised, Summary, counted
 
 HEAD_START = 0.01
 DISTANCE = 0.5
@@ -20,8 +21,8 @@ periodic axis.
 """
 
 
-@dataclass(frozen=True)
-class Selection:
+@dataclass(frozen=True, repr=False)
+class Selection(Summarised):
     """The response of a field to two inputs.
 
     Attributes:
@@ -40,6 +41,15 @@ class Selection:
     right: bool | None
     left: Peaks
     activation: np.ndarray
+
+    def _summary(self) -> Summary:
+        place = {True: "at the stronger input", False: "not at the stronger input", None: ""}[self.right]
+        rows = [
+            ("two equal inputs", counted(len(self.equal), "peak"), ""),
+            ("two different inputs", counted(len(self.different), "peak"), place),
+            ("after both", counted(len(self.left), "peak"), ""),
+        ]
+        return Summary("Selection" if self.selects else "No selection", rows)
 
 
 def selection(

@@ -10,6 +10,7 @@ import numpy as np
 from deodar.elements.field import Field
 from deodar.errors import AnalysisError
 from deodar.session.session import Session
+from deodar.summary import Summarised, Summary
 
 LIMIT = 2000.0
 """Longest settling, in time constants.
@@ -20,8 +21,8 @@ sqrt(d) time constants: 200 for a distance of a hundredth of a percent of an act
 LEAST_STEPS = 50
 
 
-@dataclass(frozen=True)
-class Settled:
+@dataclass(frozen=True, repr=False)
+class Settled(Summarised):
     """The result of settling.
 
     Attributes:
@@ -36,6 +37,11 @@ class Settled:
 
     def __bool__(self) -> bool:
         return self.settled
+
+    def _summary(self) -> Summary:
+        outcome = "Settled" if self.settled else "Not settled"
+        rows = [("last change per time constant", f"{self.change:.2g}")]
+        return Summary(f"{outcome} after {self.time_constants:.4g} time constants", rows)
 
 
 def settle(session: Session, tolerance: float = 1e-3, limit: float = LIMIT) -> Settled:

@@ -13,13 +13,14 @@ import numpy.typing as npt
 
 from deodar.analysis.robot_paths import clearance
 from deodar.errors import AnalysisError
+from deodar.summary import Summarised, Summary
 
 SLACK = 1e-6
 """Tolerance of the clearance, as a share of a cell, for rounding of walls that are given in metres."""
 
 
-@dataclass(frozen=True)
-class Grid:
+@dataclass(frozen=True, repr=False)
+class Grid(Summarised):
     """Positions that the middle of a robot may have, on a square grid.
 
     Attributes:
@@ -54,6 +55,10 @@ class Grid:
 
         labelled: Any = label(self.free, np.ones((3, 3)))
         return np.asarray(labelled[0])
+
+    def _summary(self) -> Summary:
+        n, m = self.free.shape
+        return Summary(f"Grid of {n} x {m} positions, {self.free.mean():.0%} free")
 
 
 def arena_grid(boxes: npt.ArrayLike, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:

@@ -11,6 +11,7 @@ import numpy as np
 from deodar.analysis.isolated import InputKind, Isolated
 from deodar.analysis.settle import LIMIT
 from deodar.session.session_snapshot import SessionSnapshot
+from deodar.summary import Summarised, Summary
 
 MOST_DOUBLINGS = 8
 JUMP = 20.0
@@ -31,8 +32,8 @@ are rounding errors.
 """
 
 
-@dataclass(frozen=True)
-class Transition:
+@dataclass(frozen=True, repr=False)
+class Transition(Summarised):
     """The input at which a peak appears or vanishes while the input changes slowly.
 
     Attributes:
@@ -52,15 +53,13 @@ class Transition:
     jump: bool
     state: SessionSnapshot
 
-    def __repr__(self) -> str:
-        return (
-            f"Transition({self.value:.4g} +- {abs(self.interval[1] - self.interval[0]) / 2:.2g},"
-            f" {'jump' if self.jump else 'gradual'})"
-        )
+    def _summary(self) -> Summary:
+        half, how = abs(self.interval[1] - self.interval[0]) / 2, "a jump" if self.jump else "gradual"
+        return Summary(f"Transition at {self.value:.4g} +- {half:.2g}, {how}")
 
 
-@dataclass(frozen=True)
-class Thresholds:
+@dataclass(frozen=True, repr=False)
+class Thresholds(Summarised):
     """Both thresholds of a field for one kind of input.
 
     Attributes:
@@ -76,6 +75,13 @@ class Thresholds:
     reverse: Transition | None
     active_at_rest: bool
     searched: float
+
+    def _summary(self) -> Summary:
+        rows = [
+            (name, *(("none",) if t is None else (f"{t.value:.4g}", "a jump" if t.jump else "gradual")))
+            for name, t in (("detection", self.detection), ("reverse", self.reverse))
+        ]
+        return Summary("Thresholds" + (", active without input" if self.active_at_rest else ""), rows)
 
 
 def thresholds(

@@ -12,6 +12,7 @@ from deodar.analysis.peaks import Peaks
 from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import Transition, descend
 from deodar.errors import AnalysisError
+from deodar.summary import Summarised, Summary, counted
 
 BOOSTS = 16
 LEAST = 64
@@ -21,8 +22,8 @@ BESIDE = 0.1
 """Distance of the localised inhibition from the peak, relative to its width."""
 
 
-@dataclass(frozen=True)
-class Memory:
+@dataclass(frozen=True, repr=False)
+class Memory(Summarised):
     """The state of a field after the input of a peak is removed.
 
     Attributes:
@@ -38,6 +39,13 @@ class Memory:
     left: Peaks
     activation: np.ndarray
     settled: bool
+
+    def _summary(self) -> Summary:
+        rows = [
+            ("with the input", counted(len(self.driven), "peak")),
+            ("after the input", counted(len(self.left), "peak")),
+        ]
+        return Summary("A peak outlives its input" if self.outlives else "No peak outlives its input", rows)
 
 
 def outlives(isolated: Isolated, amplitude: float, boost: float = 0.0, limit: float = LIMIT) -> Memory:

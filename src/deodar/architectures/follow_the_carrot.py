@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from deodar.errors import ParameterError
 from deodar.numerics.axes import Axis
+from deodar.summary import Summarised, Summary, counted
 from deodar.worlds.arena.arena import Arena
 
 PLACE, POSE = (Axis("of", 0, 1, 2),), (Axis("of", 0, 2, 3),)
@@ -71,8 +72,8 @@ class Carrot:
         return np.stack([self.speed - turn / 2, self.speed + turn / 2], axis=-1)
 
 
-@dataclass(frozen=True)
-class Followed:
+@dataclass(frozen=True, repr=False)
+class Followed(Summarised):
     """The paths that a batch of vehicles drove.
 
     Attributes:
@@ -84,6 +85,10 @@ class Followed:
     pose: np.ndarray
     touching: np.ndarray
     steps: np.ndarray
+
+    def _summary(self) -> Summary:
+        collisions = int(self.touching.any(0).sum())
+        return Summary(f"{counted(len(self.steps), 'path')}, {collisions} with a collision")
 
 
 @dataclass(frozen=True)

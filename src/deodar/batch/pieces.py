@@ -143,6 +143,7 @@ def joined(
     import xarray
 
     from deodar.recording import diverged
+    from deodar.recording.shown_dataset import ShownDataset
 
     begun = [part for part in parts if part is not None]
     whole = [part for part in begun if part.complete]
@@ -152,7 +153,7 @@ def joined(
     records = diverged.alike(complete or _abreast(all_begun), copies)
     record = records[0] if records else xarray.Dataset()
     if len(records) > 1:
-        record = xarray.concat(
+        joined = xarray.concat(
             records,
             pieces.dimension,
             data_vars="all",
@@ -161,6 +162,7 @@ def joined(
             join="override",
             combine_attrs="override",
         )
+        record = ShownDataset.of(joined)
     if KEY in record.attrs:
         description = (
             codec.parse(record.attrs[KEY])

@@ -60,6 +60,7 @@ from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW
 from deodar.parameters import FrozenArray
+from deodar.summary import Summarised, Summary
 
 ONE = Batch()
 """One copy without an axis for copies."""
@@ -96,8 +97,8 @@ class PreparedStep(NamedTuple):
     chunk: Chunk
 
 
-@dc.dataclass(frozen=True)
-class Dynamics:
+@dc.dataclass(frozen=True, repr=False)
+class Dynamics(Summarised):
     """The dynamics of a document in a precision, on a device, with a world inside the step or without.
 
     All runs get their programs here: those of sessions, records, trials and environments.
@@ -426,3 +427,7 @@ class Dynamics:
     def _arrays_of(self, ident: str, state: ProgramState) -> Sequence[str]:
         row = self.executable.plan.row
         return list(state["groups"][row[ident][0]]) if ident in row else []
+
+    def _summary(self) -> Summary:
+        rows = [("parameters", ", ".join(self.drives) or "none")]
+        return Summary(f"Dynamics of {self.doc.name!r}, {self.precision}", rows)

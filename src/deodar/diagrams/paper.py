@@ -21,15 +21,16 @@ INCH = 72.0
 def figure(scene: Drawing, width: float | None = None) -> Figure:
     """Return a figure of the scene; `width` is in inches, None: the size of the scene."""
     # start-up time: matplotlib is needed for figures only
-    from matplotlib.figure import Figure
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
     from matplotlib.text import Text
     from matplotlib.transforms import Affine2D
 
+    from deodar.diagrams.shown_figure import ShownFigure
+
     codes = {"M": Path.MOVETO, "L": Path.LINETO, "C": Path.CURVE4, "Z": Path.CLOSEPOLY}
     scale = 1.0 if width is None else width * INCH / scene.width
-    made = Figure(figsize=(scene.width * scale / INCH, scene.height * scale / INCH), dpi=300)
+    made = ShownFigure(figsize=(scene.width * scale / INCH, scene.height * scale / INCH), dpi=300)
     place = Affine2D().scale(1, -1).translate(0, scene.height).scale(scale / INCH) + made.dpi_scale_trans
     for one in scene:
         if isinstance(one, TextLine):

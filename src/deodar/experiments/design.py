@@ -21,6 +21,7 @@ from deodar.experiments.trial import TrialPlan
 from deodar.model import output
 from deodar.model.model import Model, load, save
 from deodar.parameters import Part, Recompile, show
+from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
 
 VERSION = 3
@@ -53,8 +54,8 @@ OWN = ("trial", "key", "outcome", "awaited", "diverged", "duration", "time")
 """Names of columns that every table has."""
 
 
-@dataclass(frozen=True)
-class Design(Part):
+@dataclass(frozen=True, repr=False)
+class Design(Summarised, Part):
     """An experiment as data, which `Experiment` runs.
 
     Attributes:
@@ -271,6 +272,19 @@ class Design(Part):
             "required": ["experiment", "name", "model", "limit"],
             "additionalProperties": False,
         }
+
+    def _summary(self) -> Summary:
+        model = self.model.name if isinstance(self.model, Model) else str(self.model)
+        rows = [
+            ("model", model),
+            ("trials", f"{len(self.cells)} ({self.design})"),
+            *((f.name, ", ".join(str(level) for level in f.labels)) for f in self.factors),
+            ("limit of a trial", f"{self.plan.limit:g}"),
+            ("conditions", ", ".join(e.name for e in self.plan.events) or "none"),
+            ("measures", ", ".join(m.name for m in self.plan.measures) or "none"),
+            ("seed", self.seed),
+        ]
+        return Summary(f"{type(self).__name__} {self.name!r}", rows)
 
 
 def by_key(of_experiment: Mapping[str, Any], of_plan: Mapping[str, Any]) -> dict[str, Any]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Experiment(Design):
     """An unattended experiment: many trials of a model, each ended by a condition, and a table of the
     results.

@@ -95,8 +95,8 @@ def dataset(rows: Iterable[Row], about: Mapping[str, Any]) -> xarray.Dataset:
         rows: the rows in any order; each is read once and not kept.
         about: the identity of the experiment.
     """
-    # start-up time
-    import xarray
+    # start-up time: this brings xarray
+    from deodar.experiments.results_table import ResultsTable
 
     columns = _TableColumns(about)
     for row in rows:
@@ -128,7 +128,7 @@ def dataset(rows: Iterable[Row], about: Mapping[str, Any]) -> xarray.Dataset:
             out[name] = (("trial", f"{name}.axis"), values[order])
         else:
             out[name] = ("trial", np.asarray([_or_nan(v) for v in measured], float)[order])
-    return xarray.Dataset(out, coords, attributes)
+    return ResultsTable(out, coords, attributes)
 
 
 class _TableColumns:

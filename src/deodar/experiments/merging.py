@@ -17,13 +17,14 @@ from deodar.experiments.record_target import PLACE, RECORD, stored_place
 from deodar.experiments.rows import KEY, Row, Rows, claim, different
 from deodar.model import output
 from deodar.recording import files, writer_lock
+from deodar.summary import Summarised, Summary, counted
 
 if TYPE_CHECKING:
     import xarray
 
 
-@dataclass(frozen=True)
-class MergedResults:
+@dataclass(frozen=True, repr=False)
+class MergedResults(Summarised):
     """The rows of several folders.
 
     Attributes:
@@ -33,6 +34,10 @@ class MergedResults:
 
     data: xarray.Dataset
     gaps: tuple[tuple[int, int], ...]
+
+    def _summary(self) -> Summary:
+        gaps = [(f"{first} to {after - 1}",) for first, after in self.gaps]
+        return Summary(f"{self.data.sizes['trial']} merged trials, {counted(len(gaps), 'gap')}", gaps)
 
 
 def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResults:

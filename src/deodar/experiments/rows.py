@@ -13,6 +13,7 @@ from deodar.codec import Json, JsonObject
 from deodar.errors import OutputExists, RecordError
 from deodar.model import output
 from deodar.recording import places
+from deodar.summary import Summarised, Summary, counted
 
 Row = dict[str, Any]
 """The results of one trial as plain data; `key` identifies the trial."""
@@ -83,7 +84,7 @@ def _places(file: IO[bytes]) -> Iterator[tuple[int, bytes]]:
         at += len(line)
 
 
-class Rows:
+class Rows(Summarised):
     """A file of JSON lines: first the identity of the experiment, then a row for each trial that has ended.
 
     An existing file is resumed if it contains the same experiment, or the same experiment with fewer
@@ -195,6 +196,9 @@ class Rows:
 
     def _no_rows(self) -> RecordError:
         return RecordError("holds no rows of an experiment", where=str(self.path), fix="Choose another name")
+
+    def _summary(self) -> Summary:
+        return Summary(f"Rows in {self.path}: {counted(len(self.found), 'row')}")
 
 
 def different(new: Mapping[str, Any], old: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:

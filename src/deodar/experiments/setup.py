@@ -30,6 +30,7 @@ from deodar.recording import provenance
 from deodar.recording.opened import named
 from deodar.session import memory
 from deodar.session.exchange import embodied
+from deodar.summary import Summarised, Summary, counted
 from deodar.worlds._base import World
 from deodar.worlds._pure import PureWorld
 
@@ -44,8 +45,8 @@ machine).
 """
 
 
-@dataclass
-class Setup:
+@dataclass(repr=False)
+class Setup(Summarised):
     """An experiment that is ready to run.
 
     Attributes:
@@ -286,3 +287,7 @@ class Setup:
         size = memory.copy_bytes(self._nodes, self.experiment.precision)
         recorded = int(RECORD_BYTES // max(1.0, self.record_bytes))
         return max(1, min(MOST_COPIES, BATCH_BYTES // max(1, size), recorded))
+
+    def _summary(self) -> Summary:
+        trials = counted(self.trials, "trial")
+        return Summary(f"Setup of {self.experiment.name!r}: {trials} of {self.model.name!r}")

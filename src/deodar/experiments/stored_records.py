@@ -26,6 +26,7 @@ from deodar.experiments.record_target import (
 from deodar.recording.archive import Archive
 from deodar.recording.record_store import RecordStore
 from deodar.recording.store_address import StoreAddress
+from deodar.summary import Summarised, Summary, counted
 
 if TYPE_CHECKING:
     import xarray
@@ -59,7 +60,7 @@ class _Opened:
             archive.close()
 
 
-class StoredRecords:
+class StoredRecords(Summarised):
     """The records of an experiment by their trials, as `dd.open_records` returns them.
 
     `records[12]` reads the record of trial 12, as `dd.load_record` reads a file; of its object only the parts
@@ -90,9 +91,8 @@ class StoredRecords:
         """Return whether the store has a trial."""
         return trial in self._objects
 
-    def __repr__(self) -> str:
-        """Return the store and the number of trials."""
-        return f"<records of {len(self)} trials in {self._store.shown}>"
+    def _summary(self) -> Summary:
+        return Summary(f"Records of {counted(len(self), 'trial')} in {self._store.shown}")
 
     def __enter__(self) -> Self:
         """Return these records."""

@@ -17,6 +17,7 @@ from deodar.experiments.observations import TIME as TIME
 from deodar.experiments.running_trial import Kept
 from deodar.parameters import Part, Recompile, show
 from deodar.session.run import whole
+from deodar.summary import Summarised, Summary, counted
 
 Value = float | list[float] | None
 
@@ -79,8 +80,8 @@ class TrialPlan(Part):
         return any(isinstance(action, kind) for action in self.actions)
 
 
-@dataclass(frozen=True)
-class Trial:
+@dataclass(frozen=True, repr=False)
+class Trial(Summarised):
     """The result of one trial.
 
     Attributes:
@@ -109,3 +110,7 @@ class Trial:
     def duration(self) -> float:
         """Document time from the first sample to the last."""
         return float(self.times[-1] - self.times[0]) if len(self.times) else 0.0
+
+    def _summary(self) -> Summary:
+        rows = [("duration", self.duration), *self.events.items(), *self.measures.items()]
+        return Summary(f"Trial that ended by {self.outcome}, {counted(len(self.times), 'sample')}", rows)

@@ -24,11 +24,12 @@ from deodar.session import agreement, memory
 from deodar.session.exchange import embodied
 from deodar.session.run import require_step
 from deodar.session.session import require_model, require_seed
+from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 
 
-class Trials:
+class Trials(Summarised):
     """Trials of one model by one plan.
 
     What they have in common is prepared and compiled once: for repeated calls with other trials, seeds and
@@ -215,6 +216,10 @@ class Trials:
             trial.do()
             if trial.outcome:
                 samples.end(trial, self._stops.sampled(tick))
+
+    def _summary(self) -> Summary:
+        doc, how = self._model.document, "in one batch" if self.together else "one by one"
+        return Summary(f"Trials of {doc.name!r}, {how}, each up to {self.plan.limit:g} {doc.time_unit}")
 
 
 @contextlib.contextmanager

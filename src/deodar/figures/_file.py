@@ -24,6 +24,7 @@ from deodar.recording import files
 from deodar.recording.provenance import KEY
 from deodar.recording.repeat import world_of
 from deodar.resources import Resources, use_resources
+from deodar.summary import Summarised, Summary, counted
 
 LETTERS = {"none": "", "a": "{}", "(a)": "({})", "a)": "{})", "A": "{}", "(A)": "({})", "A)": "{})"}
 """The letters of panels: how the first one is written."""
@@ -102,8 +103,8 @@ class FigurePanel:
         return View(data[self.variable], **given, world=world_of(data) if in_arena else None)
 
 
-@dc.dataclass(frozen=True)
-class FigureFile:
+@dc.dataclass(frozen=True, repr=False)
+class FigureFile(Summarised):
     """A figure as data: panels, ranges, labels and sizes, in a file that a person can edit.
 
     `FigureFile.read("figure.toml").draw()` and `deodar plot figure.toml` draw the same figure:
@@ -365,9 +366,12 @@ class FigureFile:
             _shared(height / _journals.INCH, self.row_heights or grid.heights),
         )
 
+    def _summary(self) -> Summary:
+        rows = [(panel.variable, panel.kind or "the kind that suits") for panel in self.panels]
+        return Summary(f"FigureFile of {counted(len(rows), 'panel')}", rows)
+
 
 # ----------------------------------------------------------------------------------------------------- checks
-
 
 Check = Callable[[Any], Any]
 """Returns the value of a key; raises a ValueError that says what it expects."""

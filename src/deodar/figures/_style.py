@@ -16,6 +16,8 @@ from matplotlib import font_manager
 from matplotlib.figure import Figure
 from matplotlib.rcsetup import cycler
 
+from deodar.diagrams.shown_figure import ShownFigure
+
 SINGLE = 3.5
 DOUBLE = 7.2
 """Widths of figures over one and two columns, in inches."""
@@ -194,4 +196,6 @@ def style(size: float | None = None, font: str | None = None) -> Generator[None]
 
 def figure(width: float, height: float) -> Figure:
     """Return an empty figure, with width and height in inches and a layout without overlaps."""
-    return Figure(figsize=(width, height), dpi=150, layout="constrained")
+    made = ShownFigure(figsize=(width, height), dpi=150, layout="constrained")
+    made.settings = TIGHT
+    return made

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from deodar.codec import JsonObject
+from deodar.summary import Summarised, Summary
 
 Verdict = Literal["carried", "approximated", "dropped"]
 VERDICTS: tuple[Verdict, ...] = ("carried", "approximated", "dropped")
@@ -48,8 +49,8 @@ class Line:
         return {key: value for key, value in found.items() if value or key not in ("element", "group")}
 
 
-@dc.dataclass(frozen=True)
-class ImportReport:
+@dc.dataclass(frozen=True, repr=False)
+class ImportReport(Summarised):
     """The lines of one file, and the known errors of the other tool that the file touches.
 
     Attributes:
@@ -120,3 +121,7 @@ class ImportReport:
             "bugs": list(self.bugs),
             "lines": [line.data() for line in self.lines],
         }
+
+    def _summary(self) -> Summary:
+        lost = [(line.verdict, line.where, line.what) for line in self.losses]
+        return Summary(f"{self.file} ({self.tool}): {self.summary()}", lost)

@@ -74,6 +74,13 @@ class Diagram:
         else:
             output.write(where, paper.content(self._scene, format, width))
 
+    def inside(self, most: int) -> str:
+        """Return the picture as HTML for a notebook, in the colours of its theme; "" for more than `most`
+        characters.
+        """
+        drawn = svg.write_inside(self._scene)
+        return f'<div style="overflow-x:auto">{drawn}</div>' if len(drawn) <= most else ""
+
     def __repr__(self) -> str:
         return f"<Diagram of {self._scene.title!r}, {self.size[0]:.1f} x {self.size[1]:.1f} inches>"
 

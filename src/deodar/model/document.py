@@ -10,6 +10,7 @@ from typing import Any
 from deodar.codec import Json
 from deodar.element import Element
 from deodar.model.paths import Index, PathNames, display
+from deodar.summary import Summarised, Summary, counted
 
 VERSION = 3
 READS = ("", "previous", "current", "delayed")
@@ -34,8 +35,8 @@ KEYS = (
 """Keys of a document file, in their order."""
 
 
-@dc.dataclass(frozen=True)
-class Entry:
+@dc.dataclass(frozen=True, repr=False)
+class Entry(Summarised):
     """One element of a document.
 
     `id` is its stored identity, `names` its path (groups, then its own name), `every` the length of its step
@@ -56,6 +57,9 @@ class Entry:
     def group(self) -> PathNames:
         """Names of the groups that contain it."""
         return self.names[:-1]
+
+    def _summary(self) -> Summary:
+        return Summary(f"{type(self.element).__name__} {self.path}")
 
 
 @dc.dataclass(frozen=True)
@@ -94,8 +98,8 @@ class Use:
     elements: tuple[tuple[str, str], ...] = ()
 
 
-@dc.dataclass(frozen=True)
-class Document:
+@dc.dataclass(frozen=True, repr=False)
+class Document(Summarised):
     """An architecture as immutable data. Only `deodar.model.edit` makes new documents.
 
     Attributes:
@@ -197,3 +201,7 @@ class Document:
     def step(self) -> float:
         """The Euler step of runs that state none: the document's own, else 1."""
         return 1.0 if self.dt is None else self.dt
+
+    def _summary(self) -> Summary:
+        elements = counted(len(self.entries), "element")
+        return Summary(f"Document {self.name!r}: {elements}, {counted(len(self.connections), 'connection')}")

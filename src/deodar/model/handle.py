@@ -12,6 +12,7 @@ from deodar.model.part_handle import Owner, brief, inside, links_of
 from deodar.model.paths import quote
 from deodar.numerics.axes import describe
 from deodar.parameters import parameters
+from deodar.summary import Summarised, Summary
 
 _OWN = frozenset({"model", "id", "port", "path", "element"})
 
@@ -28,7 +29,7 @@ class Builder(Owner, Protocol):
         ...
 
 
-class Handle:
+class Handle(Summarised):
     """An element of a model or one of its ports, as `add` returns it and `>>` connects it.
 
     A parameter is an attribute: `u.tau` reads its present value in the model, `u.tau = 30` changes it as
@@ -141,17 +142,18 @@ class Handle:
         return hash((self.model, self.id, self.port))
 
     def __repr__(self) -> str:
+        title, rows = self._summary()[:2]
+        others = ", ".join("=".join(row) for row in rows)
+        return f"<{title}{': ' if others else ''}{others}>"
+
+    def _summary(self) -> Summary:
         try:
             entry = self.model.entry(self.id)
         except UnknownName:
-            return f"<Handle of a removed element, id {self.id}>"
-        element = entry.element
-        kind = type(element).__name__
+            return Summary(f"Handle of a removed element, id {self.id}")
+        kind = type(entry.element).__name__
         if self.port:
-            return f"<{kind} {entry.path}.{quote(self.port)}>"
-        axes = getattr(element, "axes", ())
-        over, others = (
-            f" {describe(axes)}" if axes else "",
-            ", ".join(brief(element, links_of(self.model, self.id))),
-        )
-        return f"<{kind} {entry.path}{over}{': ' if others else ''}{others}>"
+            return Summary(f"{kind} {entry.path}.{quote(self.port)}")
+        axes = getattr(entry.element, "axes", ())
+        rows = [other.split("=", 1) for other in brief(entry.element, links_of(self.model, self.id))]
+        return Summary(f"{kind} {entry.path}{f' {describe(axes)}' if axes else ''}", rows)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import dataclasses as dc
-import html
 import sys
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -19,9 +18,13 @@ from deodar.model.handle import Handle as Handle
 from deodar.model.paths import PathNames, display, quote, readings, split
 from deodar.model.script import script
 from deodar.parameters import show
+from deodar.summary import Summarised, Summary, counted
+
+LARGEST_PICTURE = 17_000
+"""Most characters of the picture of a model in a notebook, which stores each of its outputs."""
 
 
-class Model:
+class Model(Summarised):
     """An architecture under construction.
 
     Args:
@@ -309,29 +312,25 @@ class Model:
         return script(self.document, path)
 
     def __repr__(self) -> str:
-        d = self.document
-        return f"<Model {d.name!r}: {len(d.entries)} elements, {len(d.connections)} connections>"
+        return f"<{self._summary().title}>"
 
     def _repr_html_(self) -> str:
-        # start-up time: these bring JAX
+        # start-up time: these bring matplotlib
         from deodar.model.diagram import Diagram
 
-        by = self.document.by_id()
-        rows = "".join(
-            f"<tr><td>{html.escape(e.path)}</td><td>{type(e.element).__name__}</td><td>"
-            + html.escape(", ".join(by[c.source].path for c in self.document.connections if c.target == e.id))
-            + "</td></tr>"
-            for e in self.document.entries
-        )
-        head = "<tr><th>element</th><th>kind</th><th>reads from</th></tr>"
-        table = (
-            f"<details><summary>{len(self.document.entries)}"
-            f" elements</summary><table>{head}{rows}</table></details>"
-        )
-        return (
-            f"<b>{html.escape(self.name)}</b><div"
-            f' style="overflow-x:auto">{Diagram(self.document).svg}</div>{table}'
-        )
+        summary = self._summary()
+        inside = Diagram(self.document, legend=False).inside(LARGEST_PICTURE)
+        return summary.html(inside or "<div>Too large for a picture here: dd.draw(model)</div>")
+
+    def _summary(self) -> Summary:
+        doc = self.document
+        by, sources = doc.by_id(), dict[str, list[str]]()
+        for connection in doc.connections:
+            sources.setdefault(connection.target, []).append(by[connection.source].path)
+        rows = [(e.path, type(e.element).__name__, ", ".join(sources.get(e.id, ()))) for e in doc.entries]
+        elements = counted(len(doc.entries), "element")
+        title = f"Model {doc.name!r}: {elements}, {counted(len(doc.connections), 'connection')}"
+        return Summary(title, rows, ("element", "kind", "reads from"), elements)
 
     # ------------------------------------------------------------------------------------------------- inside
 

@@ -10,6 +10,7 @@ from deodar.leaves import get
 from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.parameters import Part, Reference, normal, parameter, parameters, show
+from deodar.summary import Summarised, Summary
 
 
 class Owner(Protocol):
@@ -29,7 +30,7 @@ class Owner(Protocol):
         ...
 
 
-class PartHandle(Reference):
+class PartHandle(Summarised, Reference):
     """A kernel, a sigmoid or another part inside an element of a model.
 
     `u.kernel[0].sigma` reads the present value, `u.kernel[0].sigma = 3` changes it in the model. Where a part
@@ -76,11 +77,11 @@ class PartHandle(Reference):
     def __dir__(self) -> list[str]:
         return sorted(_names(self.__value__()))
 
-    def __repr__(self) -> str:
+    def _summary(self) -> Summary:
         return _described(self._model, self._id, self._leaf, self.__value__)
 
 
-class PartsHandle(Reference):
+class PartsHandle(Summarised, Reference):
     """The kernels, windows or other parts inside an element of a model, in order; items are handles of
     parts.
     """
@@ -155,7 +156,7 @@ class PartsHandle(Reference):
     def __dir__(self) -> list[str]:
         return []
 
-    def __repr__(self) -> str:
+    def _summary(self) -> Summary:
         return _described(self._model, self._id, self._leaf, self.__value__)
 
 
@@ -204,11 +205,12 @@ def _is_default(p: Any, value: Any) -> bool:
         return False
 
 
-def _described(model: Owner, ident: str, leaf: str, current: Any) -> str:
+def _described(model: Owner, ident: str, leaf: str, current: Any) -> Summary:
     try:
-        return f"<{model.entry(ident).path}.{leaf}: {_value(current(), links_of(model, ident), leaf)}>"
+        value = _value(current(), links_of(model, ident), leaf)
+        return Summary(f"{model.entry(ident).path}.{leaf}: {value}")
     except UnknownName:
-        return f"<{leaf} of a removed element, id {ident}>"
+        return Summary(f"{leaf} of a removed element, id {ident}")
 
 
 def links_of(model: Owner, ident: str) -> dict[str, str]:

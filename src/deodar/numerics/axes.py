@@ -12,6 +12,7 @@ import numpy as np
 from deodar.errors import AxesError, Problem, UnknownName, did_you_mean
 from deodar.numerics import units
 from deodar.parameters import FrozenArray, is_text, real, show
+from deodar.summary import Summarised, Summary
 
 MOST_SAMPLES = 1_000_000
 """Most samples on one axis; more are probably a typo (a guess; a field this long would run at 0.01 of real
@@ -30,8 +31,8 @@ origin (a guess).
 """
 
 
-@dataclass(frozen=True)
-class Axis:
+@dataclass(frozen=True, repr=False)
+class Axis(Summarised):
     """A metric dimension with its sampling.
 
     Samples are at `lower + i * step`. On a periodic axis `step = (upper - lower) / samples` (upper is the
@@ -145,6 +146,9 @@ class Axis:
             f"{self.name} {self.lower:g}..{self.upper:g}{unit}, {self.samples}"
             f" samples{', periodic' if self.periodic else ''}"
         )
+
+    def _summary(self) -> Summary:
+        return Summary(f"Axis {self}")
 
 
 Axes = tuple[Axis, ...]

@@ -23,6 +23,7 @@ from deodar.recording import growing, lazy, netcdf, places, portable, sound, tab
 from deodar.recording.chunks import COMPRESSORS, ChunkedArray
 from deodar.recording.provenance import KEY
 from deodar.recording.record import time_dimension
+from deodar.recording.shown_dataset import ShownDataset
 from deodar.recording.slabs import slabs
 
 SUFFIXES = {"zarr": ".zarr", "netcdf": ".nc", "csv": ".csv"}
@@ -90,9 +91,9 @@ def claim(path: Path, format: str, force: bool = False) -> None:
         if format == "csv":
             output.claim(table.beside(path), force)
         return
-    if force and path.is_dir() and not path.is_symlink() and not is_zarr(path):
-        raise OutputExists("exists and is not a record", where=str(path), fix="Choose another name")
     places.claim_folder(path, force)
+    if path.is_dir() and not is_zarr(path):
+        raise OutputExists("exists and is not a record", where=str(path), fix="Choose another name")
 
 
 def load_record(path: str | Path) -> xarray.Dataset:
@@ -133,7 +134,7 @@ def open_record(path: str | Path) -> xarray.Dataset:
     """
     with _reading(path := Path(path)):
         place, kind = locate(path)
-        record = portable.unpack_lazily(_require_record(_opened(place, kind)))
+        record = ShownDataset.of(portable.unpack_lazily(_require_record(_opened(place, kind))))
         record.encoding["source"] = str(place)
         return record
 

@@ -18,6 +18,7 @@ import xarray
 
 from deodar import codec
 from deodar.errors import RecordError
+from deodar.recording.shown_dataset import ShownDataset
 from deodar.recording.slabs import slabs
 
 KEY = "deodar_layout"
@@ -128,7 +129,7 @@ def unpack(stored: xarray.Dataset) -> xarray.Dataset:
     attributes = {
         k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in layout["attributes"].items()
     }
-    return xarray.Dataset(variables, coords, attributes)
+    return ShownDataset(variables, coords, attributes)
 
 
 def unpack_lazily(stored: xarray.Dataset) -> xarray.Dataset:

@@ -14,6 +14,7 @@ from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, Axis
 from deodar.recording.probe import TIME, Series, is_time
 from deodar.recording.provenance import KEY
+from deodar.recording.shown_dataset import ShownDataset
 
 Variable = tuple[Entry, str, Axes, np.ndarray]
 """Element, port, axes of the port, and the array: sweep points, trials, time, axes."""
@@ -71,7 +72,7 @@ def dataset(
         if port == "activation" and isinstance(threshold, float):
             attributes["threshold"] = threshold
         out[f"{entry.path}.{port}"] = ([*lead, *dims], shaped, attributes)
-    return xarray.Dataset(out, coords, {KEY: codec.line(about), "title": doc.name})
+    return ShownDataset(out, coords, {KEY: codec.line(about), "title": doc.name})
 
 
 def with_times(record: xarray.Dataset, series: Sequence[Series]) -> xarray.Dataset:
@@ -89,7 +90,7 @@ def with_times(record: xarray.Dataset, series: Sequence[Series]) -> xarray.Datas
         variables[name] = (dims, variable.values, variable.attrs)
     for dimension in dimensions.values():
         coords[dimension] = (dimension, times.values, times.attrs)
-    return xarray.Dataset(variables, coords, record.attrs)
+    return ShownDataset(variables, coords, record.attrs)
 
 
 def about(record: xarray.Dataset) -> JsonObject:

@@ -29,6 +29,7 @@ from deodar.errors import TimeError
 from deodar.model.document import Document
 from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
+from deodar.summary import Summarised, Summary
 
 if TYPE_CHECKING:
     from deodar.session.run import Run
@@ -43,8 +44,8 @@ REPEATS = 3
 """Least number of timings of each part; the fastest counts, because disturbances only make a call slower."""
 
 
-@dc.dataclass(frozen=True)
-class ElementCost:
+@dc.dataclass(frozen=True, repr=False)
+class ElementCost(Summarised):
     """Cost of one element.
 
     Attributes:
@@ -63,9 +64,13 @@ class ElementCost:
     alike: int
     once: bool
 
+    def _summary(self) -> Summary:
+        cost = "once a chunk" if self.once else f"{self.us:.3f} us a step"
+        return Summary(f"{self.kind} {self.path}: {cost}")
 
-@dc.dataclass(frozen=True)
-class StepCost:
+
+@dc.dataclass(frozen=True, repr=False)
+class StepCost(Summarised):
     """Cost of a step, element by element.
 
     Attributes:
@@ -116,6 +121,18 @@ class StepCost:
                 f"Sum {self.sum:.3f} us, each measured alone; the whole step takes {self.step:.3f} us.",
             ]
         )
+
+    def _summary(self) -> Summary:
+        rows = [
+            (
+                c.path,
+                c.kind,
+                *(("once a chunk", "") if c.once else (f"{c.us:.3f}", f"{100 * self.share(c):.1f} %")),
+            )
+            for c in self.elements
+        ]
+        title = f"Step of {self.step:.3f} us; its elements, each measured alone, take {self.sum:.3f} us"
+        return Summary(title, rows, ("element", "kind", "us a step", "share"))
 
 
 GroupCarry = tuple[Array, ProgramState, tuple[Array, ...]]

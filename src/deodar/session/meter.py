@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import dataclasses as dc
 
+from deodar.summary import Summarised, Summary
 
-@dc.dataclass(frozen=True)
-class Meter:
+
+@dc.dataclass(frozen=True, repr=False)
+class Meter(Summarised):
     """Lag and overruns of a run that is paced to the wall clock, since it began.
 
     Wall times are in milliseconds unless said otherwise. After Lomp, Richter, Zibner and Schoener (2016),
@@ -64,3 +66,12 @@ class Meter:
         if self.lengthened:
             parts.append(f"{self.lengthened} steps lengthened, up to {self.step:g}")
         return "; ".join(parts)
+
+    def _summary(self) -> Summary:
+        speed = "as fast as possible" if self.speed is None else f"asked for {self.speed:g}"
+        rows: list[tuple[str, object]] = [("steps", self.steps), ("wall time", f"{self.wall:.3f} s")]
+        if self.speed is not None:
+            rows.append(("behind at the end", f"{self.lag:.2f} ms"))
+            rows.append(("behind at most", f"{self.worst:.2f} ms"))
+            rows.append(("overruns", self.overruns))
+        return Summary(f"{self.factor:.4g} times real time ({speed})", rows)

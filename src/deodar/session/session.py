@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import html
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -40,6 +39,7 @@ from deodar.session.recorder import Recorder
 from deodar.session.run import Run, host, require_duration, require_step, whole
 from deodar.session.run_live import run_live
 from deodar.session.session_snapshot import SessionSnapshot, fill, rows
+from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._scene import Scene, SceneBox
@@ -47,7 +47,7 @@ from deodar.worlds._scene import Scene, SceneBox
 LARGEST_SEED = 2**32 - 1
 
 
-class Session:
+class Session(Summarised):
     """A running model.
 
     Args:
@@ -541,17 +541,15 @@ class Session:
         """Precision, float32 or float64."""
         return self._run.dynamics.precision
 
-    def __repr__(self) -> str:
-        return (
-            f"<Session of {self.document.name!r} at {self.time:g} {self.document.time_unit}, dt {self.dt:g},"
-            f" seed {self.seed}>"
-        )
-
-    def _repr_html_(self) -> str:
-        d, settings = self.document, f"dt {self.dt:g}, seed {self.seed}, {self.precision}"
-        return (
-            f"<b>{html.escape(d.name)}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), {settings}"
-        )
+    def _summary(self) -> Summary:
+        rows = [
+            ("tick", self.tick),
+            ("dt", f"{self.dt:g}"),
+            ("seed", self.seed),
+            ("precision", self.precision),
+        ]
+        title = f"Session of {self.document.name!r} at {self.time:g} {self.document.time_unit}"
+        return Summary(title, rows)
 
     # ------------------------------------------------------------------------------------------------- inside
 

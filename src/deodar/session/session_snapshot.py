@@ -14,13 +14,14 @@ from deodar.model.document import Document
 from deodar.session.clock import Clock
 from deodar.session.exchange import WorldState
 from deodar.session.run import Run, host
+from deodar.summary import Summarised, Summary
 
 StateRow = Mapping[str, np.ndarray]
 """The state of one element: its arrays by name."""
 
 
-@dc.dataclass(frozen=True)
-class SessionSnapshot:
+@dc.dataclass(frozen=True, repr=False)
+class SessionSnapshot(Summarised):
     """The whole state of a session at one moment.
 
     Attributes:
@@ -39,6 +40,10 @@ class SessionSnapshot:
     seed: int
     precision: str
     world: WorldState | None = None
+
+    def _summary(self) -> Summary:
+        doc = self.document
+        return Summary(f"Snapshot of {doc.name!r} at {self.clock.time:g} {doc.time_unit}, seed {self.seed}")
 
 
 def rows(

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from deodar.errors import UnknownName, WorldError, did_you_mean
 from deodar.parameters import real, show
+from deodar.summary import Summarised, Summary
 from deodar.worlds._solids import Solid
 
 TOUCH = 1e-5
@@ -82,8 +83,8 @@ class ScenePicture:
     pixels: bytes
 
 
-@dataclass(frozen=True)
-class Scene:
+@dataclass(frozen=True, repr=False)
+class Scene(Summarised):
     """View of a world from above, at one moment; a world with bodies in three dimensions has its solids too.
 
     Attributes:
@@ -142,6 +143,10 @@ class Scene:
         for piece, radius in (*((b, b.radius) for b in self.bodies), *((m, 0.0) for m in self.marks)):
             if piece.name != name and covered.gap(*piece.center) < max(radius - slack, slack):
                 raise WorldError(f"at {at} it would cover {piece.name!r}", where=name)
+
+    def _summary(self) -> Summary:
+        rows = [(name, len(getattr(self, name))) for name in ("boxes", "marks", "bodies", "solids")]
+        return Summary(f"Scene in {self.unit}", rows)
 
 
 def pair(label: str, x_y: Sequence[float]) -> tuple[float, float]:

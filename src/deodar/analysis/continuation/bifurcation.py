@@ -14,12 +14,13 @@ from deodar.codec import JsonObject
 from deodar.compiler.plan import Leaf
 from deodar.errors import AnalysisError
 from deodar.leaves import leaves
+from deodar.summary import Summarised, Summary
 
 BifurcationKind = Literal["fold", "branch point", "Hopf"]
 
 
-@dataclass(frozen=True)
-class Bifurcation:
+@dataclass(frozen=True, repr=False)
+class Bifurcation(Summarised):
     """A bifurcation of steady states.
 
     Attributes:
@@ -120,6 +121,9 @@ class Bifurcation:
             "made_by_the_grid": self.by_grid,
             "words": self.words,
         }
+
+    def _summary(self) -> Summary:
+        return Summary(self.words, [("value of the parameter", self.value)])
 
 
 def live_numbers(of: RightHandSide) -> list[str]:

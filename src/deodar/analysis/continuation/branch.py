@@ -16,13 +16,14 @@ from deodar.analysis.continuation.walk import Walk, growing, with_step_values
 from deodar.analysis.saved import SavedAnalysis
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError
+from deodar.summary import Summarised, Summary
 
 if TYPE_CHECKING:
     import xarray
 
 
-@dataclass(frozen=True)
-class SteadyBranch(SavedAnalysis):
+@dataclass(frozen=True, repr=False)
+class SteadyBranch(Summarised, SavedAnalysis):
     """Steady states of a model, stable or not, in the order in which they were found.
 
     Attributes:
@@ -128,11 +129,11 @@ class SteadyBranch(SavedAnalysis):
             "bifurcations": [found.data() for found in self.bifurcations],
         }
 
-    def __repr__(self) -> str:
+    def _summary(self) -> Summary:
         low, high = self.values.min(), self.values.max()
-        bifurcations = "".join(f"\n  {b!r}" for b in self.bifurcations)
         span = f"from {low:.4g} to {high:.4g}"
-        return f"<{len(self.values)} steady states over {self.parameter} {span}{bifurcations}>"
+        rows = [(b.kind, b.instability, f"{b.value:.6g}") for b in self.bifurcations]
+        return Summary(f"{len(self.values)} steady states over {self.parameter} {span}", rows)
 
 
 def branch(parameter: str, walked: tuple[ParameterLine, Walk], begin: str = "start") -> SteadyBranch:

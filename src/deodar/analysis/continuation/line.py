@@ -12,6 +12,7 @@ from scipy.linalg import lapack
 from scipy.sparse import linalg as sparse
 
 from deodar.analysis.continuation.right_hand_side import RightHandSide
+from deodar.summary import Summarised, Summary
 
 DENSE = 600
 """Largest number of states whose matrices are stored; above, only products with them are computed."""
@@ -49,8 +50,8 @@ class Linearisation(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class ParameterLine:
+@dataclass(frozen=True, repr=False)
+class ParameterLine(Summarised):
     """A model in one of its parameters; a point is z = (w x, value / length).
 
     With w = 1 / sqrt(n) the length of a step is a root mean square of activation.
@@ -98,6 +99,9 @@ class ParameterLine:
     def at(self, z: np.ndarray) -> Linearisation:
         """Return the equations at a point."""
         return _Dense(self, z) if self.right_hand_side.size <= DENSE else _Krylov(self, z)
+
+    def _summary(self) -> Summary:
+        return Summary(f"Model along parameter {self.index}, with {self.right_hand_side.size} states")
 
 
 class _Dense:

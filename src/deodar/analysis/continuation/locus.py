@@ -21,13 +21,14 @@ from deodar.analysis.saved import SavedAnalysis
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError, ParameterError
 from deodar.parameters import show
+from deodar.summary import Summarised, Summary
 
 if TYPE_CHECKING:
     import xarray
 
 
-@dataclass(frozen=True)
-class Locus(SavedAnalysis):
+@dataclass(frozen=True, repr=False)
+class Locus(Summarised, SavedAnalysis):
     """Where a bifurcation lies in the plane of two parameters.
 
     Attributes:
@@ -47,9 +48,9 @@ class Locus(SavedAnalysis):
     line: ParameterLine | None = field(default=None, repr=False, compare=False)
     frequencies: np.ndarray = field(default_factory=lambda: np.zeros(0), repr=False)
 
-    def __repr__(self) -> str:
-        points = "".join(f"\n  {p.kind} {p.values[0]:.6g}, {p.values[1]:.6g}" for p in self.points)
-        return f"<{self.of} over {' and '.join(self.parameters)}, {len(self.values)} points{points}>"
+    def _summary(self) -> Summary:
+        points = [(p.kind, *(f"{value:.6g}" for value in p.values)) for p in self.points]
+        return Summary(f"{self.of} over {' and '.join(self.parameters)}, {len(self.values)} points", points)
 
     def over(self, first: str, second: str) -> Locus:
         """Return the same line with its parameters in this order.

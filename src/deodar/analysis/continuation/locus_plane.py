@@ -12,6 +12,7 @@ from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.line import solved
 from deodar.analysis.continuation.right_hand_side import RightHandSide
 from deodar.analysis.continuation.walk import zero
+from deodar.summary import Summarised, Summary
 
 ACCURACY = 1e-9
 """Largest residual of a point of a line."""
@@ -23,8 +24,8 @@ MOST = 600
 """Largest number of points in each direction."""
 
 
-@dataclass(frozen=True)
-class LocusPoint:
+@dataclass(frozen=True, repr=False)
+class LocusPoint(Summarised):
     """A point at which the locus itself changes.
 
     Attributes:
@@ -34,6 +35,9 @@ class LocusPoint:
 
     kind: str
     values: tuple[float, float]
+
+    def _summary(self) -> Summary:
+        return Summary(f"{self.kind} at {self.values[0]:.6g}, {self.values[1]:.6g}")
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from deodar.errors import RecordError
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Model
+from deodar.summary import Summarised, Summary
 
 if TYPE_CHECKING:
     import xarray
@@ -27,8 +28,8 @@ KIND = "regime_map"
 """Name of the labels in a file, and of the arguments in its provenance."""
 
 
-@dataclass(frozen=True)
-class RegimeMap(SavedAnalysis):
+@dataclass(frozen=True, repr=False)
+class RegimeMap(Summarised, SavedAnalysis):
     """What a field does with its input, in each cell of a grid over two parameters.
 
     Attributes:
@@ -158,7 +159,7 @@ class RegimeMap(SavedAnalysis):
             stored_provenance,
         )
 
-    def __repr__(self) -> str:
+    def _summary(self) -> Summary:
         (a, b), (n, m) = self.parameters, self.labels.shape
-        shares = "".join(f"\n  {share:6.1%} {word}" for word, share in self.shares.items())
-        return f"<RegimeMap of {self.about['field']}: {n} x {m} cells over {a} and {b}{shares}>"
+        shares = [(f"{share:6.1%}", word) for word, share in self.shares.items()]
+        return Summary(f"RegimeMap of {self.about['field']}: {n} x {m} cells over {a} and {b}", shares)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from deodar.analysis.tuning.judge import CandidateJudge
+from deodar.summary import Summarised, Summary
 
 POINTS = 96
 """Random points of a step of centring."""
@@ -85,8 +86,8 @@ def centred(
     return values
 
 
-@dataclass(frozen=True)
-class RegionSize:
+@dataclass(frozen=True, repr=False)
+class RegionSize(Summarised):
     """How far parameters may move while all requirements stay met.
 
     Attributes:
@@ -98,6 +99,10 @@ class RegionSize:
     together: float
     alone: tuple[tuple[float, float], ...]
     points: int
+
+    def _summary(self) -> Summary:
+        tried = [("random points within, all meet the requirements", self.points)]
+        return Summary(f"All parameters may move by {self.together:.1%} at once", tried)
 
 
 def region_size(judge: CandidateJudge, values: np.ndarray) -> RegionSize:

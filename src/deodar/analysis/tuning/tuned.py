@@ -18,13 +18,14 @@ from deodar.analysis.tuning.requirement import Requirement
 from deodar.codec import JsonObject
 from deodar.model import edit
 from deodar.model.model import Model
+from deodar.summary import Summarised, Summary
 
 EXACT = 1e-6
 """Largest error of a value that counts as exact, in units of its tolerance."""
 
 
-@dataclass(frozen=True)
-class Tuned:
+@dataclass(frozen=True, repr=False)
+class Tuned(Summarised):
     """Parameters of one field at which it meets requirements, or the best that was found.
 
     Attributes:
@@ -120,22 +121,20 @@ class Tuned:
             **dict(self.about),
         }
 
-    def __repr__(self) -> str:
+    def _summary(self) -> Summary:
         state = "meets all requirements" if self.met else "does not meet all requirements"
         if self.interrupted:
             state += ", interrupted"
-        lines = [f"<Tuned {self.field}: {state}"]
+        rows: list[tuple[str, ...]] = []
         for name, margin in self.margins.items():
-            reached = f", at {self.reached[name]:.6g}" if name in self.reached else ""
-            exactly = " exactly" if name in self.exact else ""
-            lines.append(
-                f"  {'met' if margin >= 0 else 'NOT MET'}{exactly}: {name}{reached}, margin {margin:.2g}"
-            )
-        lines += [f"  {path} = {number:.6g}" for path, number in self.values.items()]
+            reached = f"at {self.reached[name]:.6g}" if name in self.reached else ""
+            met = ("met" if margin >= 0 else "NOT MET") + (" exactly" if name in self.exact else "")
+            rows.append((met, name, reached, f"margin {margin:.2g}"))
+        rows += [("value", path, f"{number:.6g}") for path, number in self.values.items()]
         if self.met and self.size:
-            lines.append(f"  all may move by {self.tolerated:.1%} at once ({self.size.points} random points)")
-        lines += [f"  {sentence}" for sentence in self.reasons]
-        return "\n".join(lines) + ">"
+            rows.append((f"all may move by {self.tolerated:.1%} at once ({self.size.points} random points)",))
+        rows += [(sentence,) for sentence in self.reasons]
+        return Summary(f"Tuned {self.field}: {state}", rows)
 
     @property
     def reasons(self) -> tuple[str, ...]:

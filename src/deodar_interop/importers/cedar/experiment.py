@@ -14,17 +14,21 @@ from deodar.importers.opening import require
 from deodar.importers.report import ImportReport
 from deodar.model.document_files import MOST_BYTES
 from deodar.model.model import Model
+from deodar.summary import Summarised, Summary
 from deodar_interop.importers.cedar import translate
 from deodar_interop.importers.cedar.experiment_reading import ExperimentReading
 from deodar_interop.importers.cedar.file import members, text
 
 
-@dc.dataclass(frozen=True)
-class ImportedExperiment:
+@dc.dataclass(frozen=True, repr=False)
+class ImportedExperiment(Summarised):
     """An experiment made from a file of cedar, and the report of the conversion."""
 
     experiment: Experiment
     report: ImportReport
+
+    def _summary(self) -> Summary:
+        return Summary(f"{self.experiment.name!r} from {self.report.file}", [(self.report.summary(),)])
 
 
 def load_cedar_experiment(path: str | Path, architecture: str | Path) -> ImportedExperiment:
