@@ -19,6 +19,7 @@ from deodar.batch.piece_record import (
 from deodar.batch.pieces import Pieces
 from deodar.batch.points import SweepPoints
 from deodar.errors import DeodarError, NotFinite, RecordError, instance_of
+from deodar.model import output
 from deodar.recording import probe
 from deodar.session import checkpoint
 
@@ -249,6 +250,7 @@ class RunOutput:
                 writer.blank(copy)
             lost = diverged.coordinate(self.sizes, self.reasons)
         writer.close(True, lost)
+        output.note(self.path)
         return files.open_record(self.record)
 
     def abandon(self) -> xarray.Dataset | None:

@@ -40,11 +40,11 @@ def claim(path: Path, format: str, force: bool = False) -> None:
         MissingExtra: an MP4 needs ffmpeg, which is not installed.
     """
     if format == "png":
-        if force and path.is_dir() and any(p.suffix != ".png" for p in path.iterdir()):
+        places.claim_folder(path, force)
+        if path.is_dir() and any(p.suffix != ".png" for p in path.iterdir()):
             raise OutputError(
                 "is a folder with other files than PNG", where=str(path), fix="Choose another name"
             )
-        places.claim_folder(path, force)
     else:
         output.claim(path, force)
     if format == "mp4":

@@ -137,7 +137,7 @@ def pack(arrays: Mapping[str, FrozenArray]) -> bytes:
 
 
 def save(doc: Document, path: str | Path, force: bool = False) -> None:
-    """Write the document, its array file first; an existing file is replaced only with `force`.
+    """Write the document, its array file first; `force` replaces an existing file of another script.
 
     A file whose name ends in .deodar contains both.
     """
@@ -147,7 +147,7 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
         beside = {codec.parse(text)["arrays"]["file"]: packed} if packed is not None else {}
         output.write(path, package.pack({f"{path.stem}.json": text.encode(), **beside}))
         return
-    old = _old_arrays(path) if force else None
+    old = _old_arrays(path)
     new = None
     if packed is not None:
         new = path.with_name(codec.parse(text)["arrays"]["file"])

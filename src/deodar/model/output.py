@@ -1,7 +1,7 @@
 """The only writer of files.
 
 A file is written beside its final path, flushed to the disk, and renamed; lines are appended completely or
-not at all. An existing file is replaced only with `force`.
+not at all. An existing file is replaced only with `force`, or if the running script wrote it (`written.py`).
 """
 
 from __future__ import annotations
@@ -15,7 +15,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+from deodar import codec
 from deodar.errors import Fix, OutputError, OutputExists
+from deodar.model import written
 
 THREADS = 16
 """Number of files that are flushed to the disk at the same time (a guess)."""
@@ -37,8 +39,8 @@ def location(path: Any) -> Path:
 
 
 def claim(path: str | Path, force: bool = False) -> Path:
-    """Return the path if it may be written: a new file, or a regular file that `force` allows to be
-    replaced.
+    """Return the path if it may be written: a new file, or a regular file that may be replaced, because of
+    `force` or because the running script wrote it.
     """
     path = location(path)
     try:
@@ -48,22 +50,42 @@ def claim(path: str | Path, force: bool = False) -> Path:
     if taken:
         if not path.is_file() or path.is_symlink():
             raise OutputExists("exists and is not a regular file", where=str(path), fix="Choose another name")
-        if not force:
-            raise OutputExists(
-                "exists already",
-                where=str(path),
-                fix=Fix(
-                    "Choose another name, or replace it: force=True",
-                    "Choose another name, or replace it: --force",
-                    "Choose another name",
-                ),
-            )
+        require_replaceable(path, force)
     parent = path.parent
     if not parent.is_dir():
         raise OutputError(f"the folder {str(parent)!r} does not exist", where=str(path))
     if not os.access(parent, os.W_OK):
         raise OutputError(f"the folder {str(parent)!r} cannot be written to", where=str(path))
     return path
+
+
+def require_replaceable(path: Path, force: bool = False) -> None:
+    """Refuse an existing file or folder that the running script has not written, unless with `force`."""
+    if not force and not written.owned(path):
+        raise OutputExists(
+            "exists already",
+            where=str(path),
+            fix=Fix(
+                "Choose another name, or replace it: force=True",
+                "Choose another name, or replace it: --force",
+                "Choose another name",
+            ),
+        )
+
+
+def note(path: Path) -> None:
+    """Note that the running script has written a file or folder, so that it may replace it.
+
+    A list that cannot be written is left as it is: the file is then refused.
+    """
+    if not (name := written.script()):
+        return
+    file, states = written.listed(name)
+    kept = {place: state for place, state in states.items() if os.path.lexists(place)}
+    kept[str(path.resolve())] = written.state(path)
+    with contextlib.suppress(OSError):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        replace(file, codec.line({"script": name, "files": kept}).encode())
 
 
 def write(
@@ -74,7 +96,8 @@ def write(
     Args:
         path: the file; `claim` has checked that it may be written.
         content: its bytes, or a function that writes them to the path that it receives.
-        durable: wait for the disk; False for files that can be made again, such as a cache.
+        durable: wait for the disk; False for files that can be made again, such as a cache, which no script
+            writes by itself.
         private: only this user may read the file; otherwise it gets the permissions of a new file.
 
     Raises:
@@ -98,6 +121,7 @@ def write(
         beside.replace(path)
         if durable:
             sync_folder(path.parent)
+            note(path)
     except OSError as error:
         raise failed(path, error) from None
     finally:

@@ -27,11 +27,10 @@ def claim(path: Path, format: str, force: bool = False) -> None:
     if path.is_symlink() or not path.is_dir():
         places.claim_folder(path)
         return
-    if not force:
-        places.claim_folder(path)
+    output.require_replaceable(path, force)
     if files.is_zarr(path):
         raise OutputExists("is a record, not the folder of a run", where=str(path), fix="Choose another name")
-    files.claim(path / record_name(format), format, force)
+    files.claim(path / record_name(format), format, force=True)
     places.require_parent(path / MODEL)
     model = path / MODEL
     if model.is_symlink() or (model.exists() and not model.is_file()):
@@ -95,9 +94,10 @@ def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: b
 
     if os.path.lexists(path):
         claim(path, format, force)
-        files.save_record(data, path / name, format, force)
-        documents.save(doc, path / MODEL, force)
+        files.save_record(data, path / name, format, force=True)
+        documents.save(doc, path / MODEL, force=True)
         _drop_others(path, format)
+        output.note(path)
     else:
         places.write_folder(path, fill)
     return path / name

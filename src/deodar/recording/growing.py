@@ -339,6 +339,8 @@ class GrowingRecord:
                 output.sync_tree(self.path)
         finally:
             self._unlock()
+        if complete:
+            output.note(self.path)
 
     def annotate(self, name: str, text: str) -> None:
         """Set an attribute of the record; it is in the file after the next commit."""

@@ -9,27 +9,20 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from deodar.errors import Fix, OutputError, OutputExists, Problem, option
-from deodar.model import output
+from deodar.errors import OutputError, OutputExists, Problem, option
+from deodar.model import output, written
 
 MOST_NUMBERED = 100_000
 
 
 def claim_folder(path: Path, force: bool = False) -> Path:
-    """Return the path if a folder may be written there: a new one, or with `force` an existing one."""
+    """Return the path if a folder may be written there: a new one, or one that may be replaced, because of
+    `force` or because the running script wrote it.
+    """
     if path.is_symlink() or path.exists():
         if path.is_symlink() or not path.is_dir():
             raise OutputExists("exists and is not a folder", where=str(path), fix="Choose another name")
-        if not force:
-            raise OutputExists(
-                "exists already",
-                where=str(path),
-                fix=Fix(
-                    "Choose another name, or replace it: force=True",
-                    "Choose another name, or replace it: --force",
-                    "Choose another name",
-                ),
-            )
+        output.require_replaceable(path, force)
     require_parent(path)
     return path
 
@@ -59,7 +52,10 @@ def clear(path: Path) -> None:
 
 
 def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False) -> None:
-    """Fill a folder beside its final path, flush it to the disk, and rename it: it is complete or absent."""
+    """Fill a folder beside its final path, flush it to the disk, and rename it: it is complete or absent.
+
+    An existing one is replaced with `replace`, or if the running script wrote it.
+    """
     beside = old = None
     try:
         beside = Path(tempfile.mkdtemp(prefix=f".{path.name[:40]}.", dir=path.parent))
@@ -67,7 +63,7 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
         inner.mkdir()
         fill(inner)
         output.sync_tree(inner)
-        if replace and path.is_dir():
+        if path.is_dir() and (replace or written.owned(path)):
             old = beside / "old"
             path.rename(old)
         if path.exists():
@@ -79,6 +75,7 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
             if old is not None:
                 old.rename(path)
             raise
+        output.note(path)
     except OutputError as error:
         unfinished = str(beside / "new") if beside is not None else str(path)
         raise type(error)(

@@ -14,12 +14,13 @@ from deodar.codec import JsonObject
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 from deodar.errors import DeodarError, NotFinite, ParameterError, TimeError
-from deodar.model import find
+from deodar.model import find, output
 from deodar.numerics.axes import shape
 from deodar.recording import provenance
 from deodar.recording.probe import Probe, selector
 from deodar.session.journal import Change, JournalReader, to_file
 from deodar.session.run import Run, gaps
+from deodar.summary import Summarised, Summary
 
 if TYPE_CHECKING:
     from deodar.recording.growing import GrowingRecord
@@ -28,7 +29,7 @@ MOST_RECORDS = 64
 """Records of one chunk: a session advances by few steps at a time."""
 
 
-class Recorder:
+class Recorder(Summarised):
     """The record of a session that is being written; `Session.record` returns it.
 
     It ends with `close`, at the end of a `with` block, or by itself where the record cannot continue: after a
@@ -186,6 +187,8 @@ class Recorder:
             writer, self._writer = self._writer, None
             try:
                 writer.close(complete, settings=settings)
+                if complete:
+                    output.note(self.path)
             finally:
                 self.ended = reason
 
@@ -221,6 +224,10 @@ class Recorder:
 
     def _ports(self, program: Executable) -> list[Port]:
         return [program.port(ident, port) for ident, port in self._places]
+
+    def _summary(self) -> Summary:
+        state = f"ended: {self.ended}" if self.ended else "being written"
+        return Summary(f"Record {self.path}, {state}", [(name,) for name in self.names])
 
 
 def compile_records(program: Executable, places: Sequence[tuple[str, str]]) -> None:

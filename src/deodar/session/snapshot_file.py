@@ -61,6 +61,7 @@ def save_snapshot(snapshot: SessionSnapshot, path: str | Path, force: bool = Fal
         "world": world,
     }
     stored.write(place, header, [*arrays, *world_arrays], KIND)
+    output.note(place)
     return place
 
 
