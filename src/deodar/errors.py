@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeVar
 
+from deodar.short_traceback import short_traceback
 from deodar.summary import Summarised, Summary
 
 T = TypeVar("T")
@@ -128,6 +129,10 @@ class DeodarError(Exception):
         fix = last.fix.then(text) if isinstance(last.fix, Fix) else joined(last.fix, text)
         self.problems = (*others, replace(last, fix=fix))
         self.args = (self.at("script"),)
+
+    def _render_traceback_(self) -> list[str]:
+        """Return the lines that IPython shows: without the frames of deodar."""
+        return short_traceback(self)
 
     def at(self, place: Place) -> str:
         """Return the message for a place."""

@@ -15,7 +15,7 @@ from tests.house.source import ENGINE, MODULES, at, imported, module, packages, 
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
-        "summary",
+        "short_traceback summary",
         "errors",
         "plugins docstring declarations",
         "names registry extensions part_type family codec",
