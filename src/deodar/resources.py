@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Callable
 from numbers import Integral
 from typing import Any
 
 from deodar.cluster import Cluster
 from deodar.errors import ParameterError, instance_of, show
+from deodar.progress import Shown
 
 
 @dc.dataclass(frozen=True, repr=False)
@@ -35,9 +35,10 @@ class Resources:
             other than the CPU.
         cores: cores of the CPU for every program of this process, fixed when the first one runs: see
             `use_cores`. None: as it is.
-        progress: whether `simulate` and `resume` show a progress bar; none: on a terminal, if the run takes
-            longer than a second. Or a function: these call it with the number of completed steps, others as
-            they say.
+        progress: None: a progress bar on a terminal and in a notebook, if the work takes longer than a
+            second. True: a bar at once; without a terminal lines. False: none. Or a function that is called
+            with the number of what is done; this number prints as a sentence, so `print` prints sentences,
+            and its attribute `of` is the total.
     """
 
     device: str | None = None
@@ -46,7 +47,7 @@ class Resources:
     cluster: Cluster | str | None = None
     batch: int | None = None
     cores: int | None = None
-    progress: bool | Callable[..., object] | None = None
+    progress: Shown = None
 
     def __post_init__(self) -> None:
         for name, what, fix in (
@@ -71,16 +72,6 @@ class Resources:
     def shared(self) -> bool:
         """Whether worker processes are to compute."""
         return self.workers is not None or self.cluster is not None
-
-    def told(self, user: str) -> Callable[..., Any]:
-        """Return the function that receives the progress of a function that draws no bar.
-
-        Raises:
-            ParameterError: a bar is asked for.
-        """
-        if self.progress is True:
-            raise ParameterError(f"{user} draws no progress bar", where="on", fix="Give a function")
-        return self.progress or _ignored
 
 
 def use_resources(on: Resources, user: str, *fields: str) -> Resources:
@@ -110,10 +101,6 @@ def use_resources(on: Resources, user: str, *fields: str) -> Resources:
 
         use_cores(on.cores)
     return on
-
-
-def _ignored(*progress: object) -> None:
-    """Ignore the progress."""
 
 
 def _counts(value: Any) -> bool:

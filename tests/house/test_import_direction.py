@@ -29,7 +29,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "model",
         "kinds",
         "compiler",
-        "cores cluster precision sweep",
+        "cores cluster precision progress sweep",
         "resources",
         "recording",
         "session",

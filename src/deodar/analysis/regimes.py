@@ -22,6 +22,7 @@ from deodar.analysis.working_memory import Memory, forgetting, outlives, suppres
 from deodar.codec import JsonObject
 from deodar.elements.field import Field
 from deodar.model.model import Model
+from deodar.progress import Tell, telling
 from deodar.resources import Resources, use_resources
 from deodar.summary import Summarised, Summary
 
@@ -235,7 +236,7 @@ def regimes(
         limit: longest settling, in time constants.
         finer: whether to measure the thresholds also on a grid twice as fine, if that grid has at most 20,000
             samples.
-        on: its `progress` is called with the name of the next measurement.
+        on: its `progress` has the name of the next measurement, `what`.
         sigma: width of the localised input; none: that of the kernel's excitation.
         center: position of the localised input; none: the sample nearest to the middle.
         precision: float32 or float64.
@@ -246,43 +247,48 @@ def regimes(
         UnknownName: if the model has no element at `path`.
         AnalysisError: if the element is not a field.
     """
-    tell = use_resources(on, "dd.regimes", "progress").told("dd.regimes")
-    tell("compiling")
-    isolated = isolate(model, path, **isolation)
-    tell("resting state")
+    with telling(use_resources(on, "dd.regimes", "progress").progress, "regimes") as tell:
+        tell(what="compiling")
+        isolated = isolate(model, path, **isolation)
+        return _measured(isolated, accuracy, limit, finer, tell)
+
+
+def _measured(isolated: Isolated, accuracy: float, limit: float, finer: bool, tell: Tell) -> Regimes:
+    """Return the regimes of an isolated field."""
+    tell(what="resting state")
     isolated.reset()
     isolated.settle(limit=limit)
     resting = isolated.activation()
-    tell("thresholds")
+    tell(what="thresholds")
     found = thresholds(isolated, accuracy=accuracy, limit=limit)
     above, driven, memory, forgets, suppressed, selection, apart = None, None, None, None, None, None, None
     boosts: tuple[Boosted, ...] = ()
     lost, pressed = None, None
     up = found.detection
     if up is not None:
-        tell("working memory")
+        tell(what="working memory")
         memory = outlives(isolated, STRONG * up.after, limit=limit)
         isolated.restore(up.state)
         isolated.put(input=ABOVE * up.after)
         isolated.settle(limit=limit)
         above, driven = isolated.activation(), isolated.peaks()
         if isolated.axes:
-            tell("selection")
+            tell(what="selection")
             selection = measured_selection(isolated, STRONG * up.after, limit=limit)
             apart = separation(isolated, STRONG * up.after, limit)
-            tell("forgetting")
+            tell(what="forgetting")
             lost = forgetting(isolated, STRONG * up.after, accuracy, limit)
             pressed = suppression(isolated, STRONG * up.after, accuracy, limit) if memory.outlives else None
             forgets, suppressed = (t.value if t else None for t in (lost, pressed))
-            tell("detection by a boost")
+            tell(what="detection by a boost")
             boosts = tuple(boosted(isolated, share * up.before, accuracy, limit) for share in SHARES)
-    tell("ramp")
+    tell(what="ramp")
     swept = ramp(isolated, _span(isolated, found), limit=limit)
     named = {"detection": up, "reverse": found.reverse, "forgetting": lost, "suppression": pressed}
     transitions = {name: t for name, t in named.items() if t is not None}
     moved, why = None, obstacle(isolated) if finer else NOT_ASKED
     if transitions and not why:
-        tell("a grid twice as fine")
+        tell(what="a grid twice as fine")
         moved = discretisation(isolated, transitions, STRONG, accuracy, limit)
     return Regimes(
         isolated,

@@ -11,7 +11,6 @@ import numpy as np
 
 from deodar.batch import pieces
 from deodar.batch.piece_record import RecordedPiece
-from deodar.batch.progress import Shown, bar
 from deodar.batch.run_file import RunOutput
 from deodar.batch.run_plan import RunPlan
 from deodar.batch.simulation_request import SimulationRequest
@@ -23,6 +22,7 @@ from deodar.compiler.program import Port
 from deodar.errors import Interrupted, NotFinite
 from deodar.model.model import Model
 from deodar.numerics.axes import shape
+from deodar.progress import Shown, bar
 from deodar.recording.provenance import provenance
 from deodar.session.exchange import embodied
 from deodar.session.interrupt import stoppable

@@ -6,7 +6,7 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from deodar.experiments.jobs import Progress
+    from deodar.progress import Progress
 
 
 class Bar:
@@ -40,7 +40,7 @@ class Bar:
         self._bar.update(
             self._task,
             completed=progress.share,
-            done=f"{progress.rows} of {progress.of} {self._noun}",
+            done=f"{int(progress)} of {progress.of} {self._noun}",
             left=time_left,
         )
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 from deodar import codec
@@ -94,7 +92,7 @@ def run(args: argparse.Namespace) -> int:
         names = drawn.names
         with Bar(args.no_progress or not sys.stderr.isatty(), "frames") as bar:
             drawn.figure.animate(
-                out, drawn.record, every, args.speed, args.width, args.force, Resources(progress=_shown(bar))
+                out, drawn.record, every, args.speed, args.width, args.force, Resources(progress=bar.show)
             )
     else:
         names = _convert(args, format, out)
@@ -176,20 +174,6 @@ def _require_options(args: argparse.Namespace, format: str) -> None:
     for option, name in args.exporter_of_option.items():
         if name != format and getattr(args, option) is not None:
             args.wrong(f"--{option} is about {EXPORTERS[name].ABOUT}, and --to {format} writes none")
-
-
-def _shown(bar: Bar) -> Callable[[int, int], None]:
-    """Return the function that draws the progress of a video."""
-    # start-up time: this brings JAX
-    from deodar.experiments.jobs import Progress
-
-    began = time.monotonic()
-
-    def show(done: int, of: int) -> None:
-        seconds = (time.monotonic() - began) / done * (of - done)
-        bar.show(Progress(done, of, done / of, seconds))
-
-    return show
 
 
 def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:

@@ -87,7 +87,6 @@ def run(args: argparse.Namespace) -> int:
     # start-up time: these bring JAX
     from deodar.analysis.maps.borders import regime_loci
     from deodar.analysis.maps.regime_map import regime_map
-    from deodar.experiments.jobs import Progress
     from deodar.figures import _files
     from deodar.figures.regime_map import regime_map_figure
     from deodar.importers.opening import load
@@ -114,7 +113,7 @@ def run(args: argparse.Namespace) -> int:
             args.field,
             args.strength,
             refine=not args.every_cell,
-            on=Resources(progress=lambda done, cells: bar.show(Progress(done, cells, done / cells, None))),
+            on=Resources(progress=bar.show),
             sigma=args.sigma,
             inputs=args.input,
             precision=args.precision,

@@ -84,7 +84,7 @@ def run(args: argparse.Namespace) -> int:
             precision=args.precision,
             inputs=args.input,
             finer=True,
-            on=Resources(progress=status.update),
+            on=Resources(progress=lambda done: status.update(done.what)),
         )
         status.update("folds")
         folds = confirmed(measured)

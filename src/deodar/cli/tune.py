@@ -75,11 +75,7 @@ def run(args: argparse.Namespace) -> int:
             tuning.parameters,
             tuning.requirements,
             bounds=tuning.bounds,
-            on=Resources(
-                progress=lambda stage, n, margin: status.update(
-                    f"{stage}: {n} candidates, margin {margin:.2g}"
-                )
-            ),
+            on=Resources(progress=lambda done: status.update(str(done))),
             **options,
         )
     if args.out is not None:

@@ -66,7 +66,7 @@ class Experiment(Design):
             records: folder, or address of fsspec such as `s3://BUCKET/NAME`, of a store for the records of
                 trials: one object for each batch. All workers must reach it. `dd.open_records` reads it.
                 None: each trial has files of its own, in `records/` beside the rows.
-            on: workers or a cluster; its `progress` is called with a `Progress` after each piece.
+            on: workers or a cluster; its `progress` counts trials.
 
         Returns:
             A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: it did

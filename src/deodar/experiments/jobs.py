@@ -11,6 +11,7 @@ from deodar.batch.driver import PoolTask, Staffing, WorkerWatch, driven
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
 from deodar.experiments.rows import KEY, Row, Rows
+from deodar.progress import telling
 from deodar.resources import Resources, use_resources
 from deodar.session.interrupt import stoppable
 
@@ -44,25 +45,6 @@ class Job:
         return self.function(**self.arguments)
 
 
-@dataclass(frozen=True)
-class Progress:
-    """Progress of an experiment.
-
-    Attributes:
-        rows: number of trials that are done.
-        of: number of all trials.
-        share: share of the work that is done, by its cost.
-        left: estimated remaining time in s, at the speed of this run; None before the first job is done.
-        new: the rows that were stored since the last call; at the first call those that existed before.
-    """
-
-    rows: int
-    of: int
-    share: float
-    left: float | None
-    new: Sequence[Row] = ()
-
-
 def run_jobs(
     jobs: Sequence[Job],
     rows: Rows,
@@ -77,7 +59,7 @@ def run_jobs(
     Args:
         jobs: all of the experiment.
         rows: the store of rows; a job all of whose rows exist is not run again.
-        on: workers, else this process runs one job after another; its `progress` is called with a `Progress`
+        on: workers, else this process runs one job after another; its `progress` counts trials, and is called
             after each job. A script that calls this with workers must do so below `if __name__ ==
             "__main__":`.
         pool: the workers of a cluster that run the jobs, in place of those of `on`: an entered
@@ -91,29 +73,30 @@ def run_jobs(
             returned true.
         WorkerError: a worker process has died, or a cluster cannot run the jobs.
     """
-    progress = use_resources(on, "run_jobs", *USABLE).told("run_jobs")
-    missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
-    total, before = (
-        sum(job.cost for job in jobs),
-        sum(job.cost for job in jobs) - sum(job.cost for job in missing),
-    )
-    began, done = time.monotonic(), 0.0
-    of = sum(len(job.keys) for job in jobs)
-    complete = sum(key in rows.found for job in jobs for key in job.keys)
+    with telling(use_resources(on, "run_jobs", *USABLE).progress, "running", "trials") as show:
+        missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
+        total, before = (
+            sum(job.cost for job in jobs),
+            sum(job.cost for job in jobs) - sum(job.cost for job in missing),
+        )
+        began, done = time.monotonic(), 0.0
+        of = sum(len(job.keys) for job in jobs)
+        complete = sum(key in rows.found for job in jobs for key in job.keys)
 
-    def tell(new: Sequence[Row]) -> None:
-        seconds = time.monotonic() - began
-        seconds_left = seconds / done * (total - before - done) if done else None
-        progress(Progress(complete, of, (before + done) / total if total else 1.0, seconds_left, new))
+        def tell(new: Sequence[Row]) -> None:
+            seconds = time.monotonic() - began
+            seconds_left = seconds / done * (total - before - done) if done else None
+            share = (before + done) / total if total else 1.0
+            show(complete, of, share=share, left=seconds_left, new=new)
 
-    stored = {row[KEY]: row for row in rows.found.values()}
-    tell([stored[key] for job in jobs for key in job.keys if key in stored])
-    del stored
-    for job, rows_of_job in _anywhere(missing, on.workers, watch or (lambda now: False), pool):
-        new = rows.append(rows_of_job)
-        done += job.cost
-        complete += len({row[KEY] for row in new} & {*job.keys})
-        tell(new)
+        stored = {row[KEY]: row for row in rows.found.values()}
+        tell([stored[key] for job in jobs for key in job.keys if key in stored])
+        del stored
+        for job, rows_of_job in _anywhere(missing, on.workers, watch or (lambda now: False), pool):
+            new = rows.append(rows_of_job)
+            done += job.cost
+            complete += len({row[KEY] for row in new} & {*job.keys})
+            tell(new)
 
 
 def _anywhere(

@@ -67,7 +67,7 @@ def run_trials(
     Args:
         setup: the opened experiment.
         out: the folder; None: results are not stored.
-        on: workers or a cluster, and a function that is called with a `Progress` after each piece.
+        on: workers or a cluster, and how the number of trials that are done is shown.
         part: the first trial and the one after the last, to run a part of the trials; pieces that begin there
             are run whole, so that parts without gaps between them are the whole experiment.
         watch: function that is called several times a second while workers run or are awaited, and ends

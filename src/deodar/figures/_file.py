@@ -20,6 +20,7 @@ from deodar.figures import _encode, _journals, _panels, _style, _video
 from deodar.figures._moving import Changing
 from deodar.figures._view import REDUCTIONS, View
 from deodar.model import output
+from deodar.progress import telling
 from deodar.recording import files
 from deodar.recording.provenance import KEY
 from deodar.recording.repeat import world_of
@@ -261,14 +262,14 @@ class FigureFile(Summarised):
             speed: time of the record by time of the video. None: 25 frames in a second.
             width: width in pixels.
             force: whether to replace an existing video.
-            on: its `progress` is called with the number of frames that are done, and of all frames.
+            on: its `progress` counts the frames that are drawn.
 
         Raises:
             FigureError: nothing changes over time, or the speed needs too many frames in a second.
             MissingExtra: the extra `video` is not installed.
             OutputExists: the video exists, and `force` is not given.
         """
-        tell = use_resources(on, "animate", "progress").told("animate")
+        progress = use_resources(on, "animate", "progress").progress
         path = output.location(path)
         format = _encode.format_of(path)
         _encode.claim(path, format, force)
@@ -283,7 +284,8 @@ class FigureFile(Summarised):
             figure = _panels.draw(cells, self._sized(cells), shown, changing)
             if not changing:
                 raise FigureError("nothing in the figure changes over time")
-            _encode.write(_video.frames(figure, changing, shown, width, tell), path, format, rate, force)
+            with telling(progress, "drawing", "frames") as tell:
+                _encode.write(_video.frames(figure, changing, shown, width, tell), path, format, rate, force)
         return path
 
     def records(self, record: xarray.Dataset | str | Path | None = None) -> list[xarray.Dataset]:

@@ -14,6 +14,7 @@ from deodar import codec
 from deodar.errors import RecordError, TimeError
 from deodar.model import find
 from deodar.model.model import Model
+from deodar.progress import telling
 from deodar.resources import Resources, use_resources
 from deodar.session.journal import Change, from_file, repeat_changes, until
 from deodar.session.run import whole
@@ -41,7 +42,7 @@ def session_at(
         time: document time; a whole number of steps after the start.
         world: the world of its sensors; None: that of the record, opened again.
         trust: whether functions that its document names may be imported and run.
-        on: its `progress` is called with the number of steps taken and their total.
+        on: its `progress` counts the steps that are taken.
 
     Raises:
         RecordError: the record has several trials or points of a sweep, or began during a session, or a
@@ -55,7 +56,7 @@ def session_at(
     from deodar.recording.record import about
     from deodar.recording.repeat import request, world_of
 
-    tell = use_resources(on, "dd.session_at", "progress").told("dd.session_at")
+    shown = use_resources(on, "dd.session_at", "progress").progress
     stored = files.open_record(Path(path))
     description = about(stored)
     changes: list[Change] = []
@@ -78,7 +79,8 @@ def session_at(
     tick = whole(time - session.time, session.dt, "the time from the start")
     _require_recorded(stored, time, description, session.time + settings.get("duration", 0.0), str(path))
     stops = _comparisons(session, stored, time, str(path))
-    repeat_changes(session, until(changes, tick), tick, tell, stops)
+    with telling(shown, "repeating", "steps") as tell:
+        repeat_changes(session, until(changes, tick), tick, tell, stops)
     return session
 
 

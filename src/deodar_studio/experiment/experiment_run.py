@@ -19,7 +19,6 @@ from deodar.batch.pool import Pool
 from deodar.errors import DeodarError, Problem, RecordError
 from deodar.experiments import packed_experiment
 from deodar.experiments.following import RowsTail, RowsWriter, Standing, standing
-from deodar.experiments.jobs import Progress
 from deodar.experiments.merging import computed
 from deodar.experiments.results import ROWS, run_trials
 from deodar.experiments.rows import Row
@@ -27,6 +26,7 @@ from deodar.experiments.setup import Setup
 from deodar.model import find, output
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
+from deodar.progress import Progress
 from deodar.recording import writer_lock
 from deodar.resources import Resources
 from deodar_studio.experiment.run_place import RunPlace

@@ -137,11 +137,11 @@ def tuned(send: Callable[[object], None], packed: PackedModel, wanted: Mapping[s
     asked = tuning_file(wanted, "the requirements")
     told = 0.0
 
-    def tell(what: str, candidates: int, margin: float) -> None:
+    def tell(candidates: int) -> None:
         nonlocal told
         if time.monotonic() > told + TELL_EVERY:
             told = time.monotonic()
-            send(candidates)
+            send(int(candidates))
 
     found = tune(
         packed.model, asked.parameters, asked.requirements, on=Resources(progress=tell), **asked.options

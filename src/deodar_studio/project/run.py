@@ -10,6 +10,7 @@ from deodar.declarations import Cost
 from deodar.errors import DeodarError, DocumentError, Problem
 from deodar.model.document import Document
 from deodar.model.model import Model
+from deodar.progress import Progress
 from deodar.recording.provenance import described
 from deodar.recording.replay import RecordReader
 from deodar.resources import Resources
@@ -272,15 +273,15 @@ class DocumentRun:
         self._attempt += 1
         attempt = self._attempt
 
-        def progress(done: int, steps: int) -> None:
+        def progress(done: Progress) -> None:
             self.require_attempt(attempt)
-            self.busy = f"repeating the record, {100 * done // max(steps, 1)} %"
+            self.busy = f"repeating the record, {done.share:.0%}"
 
         def repeat() -> Session:
-            progress(0, 1)
+            progress(Progress(0, 1))
             moment = float(record.times[record.index(time)])
             session = session_at(record.path, moment, trust=trust, on=Resources(progress=progress))
-            progress(1, 1)
+            progress(Progress(1, 1))
             return session
 
         try:

@@ -7,7 +7,7 @@ import warnings
 import pytest
 
 import deodar as dd
-from deodar.batch import progress
+from deodar import progress
 from deodar.batch import simulate as module
 from deodar.errors import Interrupted, RunWarning
 
@@ -50,7 +50,7 @@ def test_progress_without_a_terminal_is_printed_as_lines(
     monkeypatch.setattr(progress, "LINE_AFTER", 0.0)
     with pytest.warns(RunWarning, match="500 steps"):
         dd.simulate(small(), 500)
-    assert "simulating: " in (complaint := capsys.readouterr().err) and "of 500 steps after" in complaint
+    assert "simulating: " in (complaint := capsys.readouterr().err) and "of 500 steps" in complaint
     with pytest.warns(RunWarning, match="500 steps"):
         dd.simulate(small(), 500, on=dd.Resources(progress=False))
     assert capsys.readouterr().err == ""
@@ -58,10 +58,10 @@ def test_progress_without_a_terminal_is_printed_as_lines(
 
 def test_intervals_between_lines_of_progress_double(capsys: pytest.CaptureFixture[str]) -> None:
     clock = [0.0]
-    shown = progress.lines(1000, lambda: clock[0])
+    shown = progress.lines(lambda: clock[0])
     for second in range(1, 101):
         clock[0] = float(second)
-        shown(10 * second)
+        shown(progress.Progress(10 * second, 1000, what="simulating", unit="steps", left=100.0 - second))
     lines = capsys.readouterr().err.splitlines()
-    assert lines[0] == "simulating: 100 of 1000 steps after 10 s, about 90 s left"
-    assert [line.split(" after ")[1].split(" s,")[0] for line in lines] == ["10", "20", "40", "80"]
+    assert lines[0] == "simulating: 100 of 1000 steps, about 90 s left (after 10 s)"
+    assert [line.split("(after ")[1].split(" s)")[0] for line in lines] == ["10", "20", "40", "80"]

@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 CODE = """
-import deodar as dd, deodar.batch.progress as progress
+import deodar as dd, deodar.progress as progress
 progress.SHOW_AFTER = 0.0
 model = dd.Model("bar")
 model.add(dd.Field("u", []))

@@ -62,11 +62,6 @@ def test_a_function_refuses_what_it_cannot_use(name: str) -> None:
         call()
 
 
-def test_a_function_without_a_bar_asks_for_a_function() -> None:
-    with pytest.raises(ParameterError, match="draws no progress bar"):
-        dd.tune(model(), [], [], on=dd.Resources(progress=True))
-
-
 def test_the_number_of_cores_is_that_of_the_process() -> None:
     dd.simulate(model(), 5)
     with pytest.raises(CoresError, match="JAX has already started"):

@@ -147,7 +147,7 @@ def test_any_division_order_repetition_and_loss_gives_the_same_rows(
     for cuts, fates, killed in calls:
 
         def watch(progress, killed=killed):
-            if killed is not None and progress.rows >= killed:
+            if killed is not None and progress >= killed:
                 raise _KilledError
 
         with contextlib.suppress(_KilledError), _LossyPool(fates, loop) as pool:

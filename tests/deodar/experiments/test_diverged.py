@@ -189,7 +189,7 @@ def test_rows_are_equal_with_workers_after_an_interruption_and_from_files(
     data = finished(made, tmp_path / "whole")
 
     def stop(standing: object) -> None:
-        if standing.rows >= 3:  # type: ignore[attr-defined]
+        if standing >= 3:  # type: ignore[attr-defined]
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

@@ -167,7 +167,7 @@ def test_a_stopped_experiment_resumes_with_the_same_table(tmp_path, monkeypatch)
     assert len(experiment.setup().pieces()) == 4
 
     def stop(standing):
-        if standing.rows >= 8:
+        if standing >= 8:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

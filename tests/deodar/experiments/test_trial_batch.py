@@ -132,7 +132,7 @@ def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_
     assert sizes(model) == [1, 2, 4] and len(set(whole["duration"].values.tolist())) > 4
 
     def stop(standing):
-        if standing.rows == 4:
+        if standing == 4:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

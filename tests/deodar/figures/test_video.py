@@ -156,7 +156,7 @@ def test_the_interval_and_the_speed_set_the_frames(recorded: xarray.Dataset, tmp
         every=10,
         speed=0.05,
         width=200,
-        on=dd.Resources(progress=lambda *n: done.append(n)),
+        on=dd.Resources(progress=lambda n: done.append((int(n), n.of))),
     )
     assert milliseconds(tmp_path / "a.gif") == [200, 200, 200] and done == [(1, 3), (2, 3), (3, 3)]
     figure.animate(tmp_path / "b.gif", recorded, width=200)

@@ -17,7 +17,9 @@ from tests.deodar.worlds.test_recorded_run import driving
 def test_a_single_run_continues_with_the_bits_of_an_undisturbed_session(tmp_path: Path) -> None:
     dd.simulate(mixed(), 60, seed=4, record=["u", "v"], every=5, out=tmp_path / "run")
     reports: list[tuple[int, int]] = []
-    session = dd.session_at(tmp_path / "run", 37, on=dd.Resources(progress=lambda *at: reports.append(at)))
+    session = dd.session_at(
+        tmp_path / "run", 37, on=dd.Resources(progress=lambda at: reports.append((int(at), at.of)))
+    )
     script = dd.Session(mixed(), seed=4)
     script.step(37)
     assert bits(session) == bits(script) and reports[-1] == (37, 37)

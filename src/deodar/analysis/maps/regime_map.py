@@ -12,6 +12,7 @@ from deodar.analysis.maps.map_result import RegimeMap
 from deodar.analysis.maps.protocol import RegimeProtocol
 from deodar.analysis.maps.request import MapOptions, requested
 from deodar.model.model import Model
+from deodar.progress import telling
 from deodar.resources import Resources, use_resources
 
 
@@ -39,8 +40,7 @@ def regime_map(
             of the model's own field, which makes a peak without interaction.
         refine: whether a coarse grid comes first, and then only cells of which a neighbour has another label;
             else every cell is computed.
-        on: its `progress` is called with the number of cells that are computed and the number that is known
-            to be needed.
+        on: its `progress` counts cells; the total is the number that is known to be needed.
         limit: longest stage, in time constants (500); a field that has not settled then gets a label of its
             own.
         sigma: width of the inputs; None: that of the kernel's excitation, in all cells.
@@ -54,7 +54,7 @@ def regime_map(
         ParameterError: changing a parameter needs another program, or its values are no axis of a map.
         UnknownName: a path is unknown.
     """
-    tell, finished = use_resources(on, "dd.regime_map", "progress").told("dd.regime_map"), 0
+    finished, shown = 0, use_resources(on, "dd.regime_map", "progress").progress
     request = requested(model, over, field, strength, options)
     protocol = RegimeProtocol(request)
 
@@ -64,5 +64,6 @@ def regime_map(
         return protocol.run(labels, cells, lambda done: tell(before + done, before + len(cells)))
 
     first, second = (len(values) for values in request.values)
-    labels, computed = (grid.refined if refine else grid.every)((first, second), compute)
+    with telling(shown, "regime map", "cells") as tell:
+        labels, computed = (grid.refined if refine else grid.every)((first, second), compute)
     return RegimeMap.of(model, request, labels, computed)

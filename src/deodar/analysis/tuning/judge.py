@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import combinations
 
 import numpy as np
@@ -12,9 +11,7 @@ from deodar.analysis.tuning.request import TuningRequest
 from deodar.analysis.tuning.requirement import Requirement
 from deodar.analysis.tuning.response import LOST, FieldResponse
 from deodar.errors import AnalysisError
-
-TuningProgress = Callable[[str, int, float], None]
-"""Called with what is done, the number of candidates so far, and the lowest margin of the best one."""
+from deodar.progress import Tell
 
 
 class CandidateJudge:
@@ -22,7 +19,7 @@ class CandidateJudge:
 
     Args:
         request: what is tuned.
-        progress: called after each batch.
+        tell: called after each batch, with the number of candidates so far.
 
     Attributes:
         request: what is tuned.
@@ -33,10 +30,10 @@ class CandidateJudge:
         pairs: best lower margin of each pair.
     """
 
-    def __init__(self, request: TuningRequest, progress: TuningProgress | None = None) -> None:
+    def __init__(self, request: TuningRequest, tell: Tell) -> None:
         self.request = request
         self._protocol = TuningProtocol(request)
-        self._tell = progress or (lambda what, candidates, margin: None)
+        self._tell = tell
         self.measured, self._loss = 0, np.inf
         self.best, self.best_margins = np.zeros(0), np.zeros(0)
         n = len(request.requirements)
@@ -83,7 +80,8 @@ class CandidateJudge:
         self.alone = np.maximum(self.alone, margins.max(0))
         for a, b in self.pairs:
             self.pairs[a, b] = max(self.pairs[a, b], float(np.minimum(margins[:, a], margins[:, b]).max()))
-        self._tell(what, self.measured, float(self.best_margins.min()))
+        margin = float(self.best_margins.min())
+        self._tell(self.measured, what=f"{what}, margin {margin:.2g}", margin=margin)
 
     def values(self, candidate: np.ndarray) -> list[float | None]:
         """Return the measured value of each requirement of one candidate."""

@@ -16,6 +16,7 @@ from deodar.analysis.tuning.requirement import ExactQuantity, Requirement
 from deodar.analysis.tuning.search import searched
 from deodar.analysis.tuning.tuned import Tuned, result
 from deodar.model.model import Model
+from deodar.progress import telling
 from deodar.resources import Resources, use_resources
 
 ROUNDS = 2
@@ -51,8 +52,7 @@ def tune(
         field: path of the field or node; empty: the only one.
         bounds: lowest and highest value by path; else a tenth and ten times the present value, inside the
             range of the parameter.
-        on: its `progress` is called with what is done, the number of candidates so far and the lowest margin
-            of the best.
+        on: its `progress` counts candidates, and has the lowest `margin` of the best.
         strength: amplitude of the inputs; None: 1.2 times the required detection threshold, or without one
             1.2 times the distance between resting level and threshold.
         seed: seed of the search; equal seeds give equal results on one machine (0).
@@ -71,9 +71,15 @@ def tune(
         UnknownName: a path is unknown.
         MissingExtra: the package cma is not installed.
     """
-    progress = use_resources(on, "dd.tune", "progress").told("dd.tune")
+    shown = use_resources(on, "dd.tune", "progress").progress
     request = requested(model, parameters, requirements, field, bounds, options)
-    judge = CandidateJudge(request, progress)
+    with telling(shown, "tuning", "candidates") as tell:
+        return _tuned(CandidateJudge(request, tell))
+
+
+def _tuned(judge: CandidateJudge) -> Tuned:
+    """Search, centre and measure candidates; an interrupted search returns the best one."""
+    request = judge.request
     equations: ExactField | None = None
     computed: list[ExactValue | None] = [None] * len(request.requirements)
     size: RegionSize | None = None

@@ -264,7 +264,7 @@ def test_progress_counts_cells():
     regime_map = dd.regime_map(
         line(31),
         {EXCITATION: (1, 30, 9), INHIBITION: (0, 1.5, 9)},
-        on=dd.Resources(progress=lambda *counts: reports.append(counts)),
+        on=dd.Resources(progress=lambda now: reports.append((int(now), now.of))),
     )
     assert reports[-1] == (int(regime_map.computed.sum()),) * 2
     assert [done for done, _ in reports] == sorted(done for done, _ in reports)

@@ -130,7 +130,7 @@ def test_what_is_not_reached_is_said():
     tuned = dd.tune(node(), [LEVEL, EXCITATION], requirements, bounds=bounds, budget=300)
     assert not tuned.met and tuned.missed and tuned.tolerated == 0
     assert tuned.unreachable == ("remembers()",)
-    assert "NOT MET: remembers()" in repr(tuned)
+    assert "NOT MET  remembers()" in repr(tuned)
     assert "no candidate met remembers()" in repr(tuned)
 
 
@@ -148,8 +148,8 @@ def test_a_pair_that_no_candidate_meets_is_named():
 def test_an_interrupt_returns_the_best_so_far(after):
     calls = []
 
-    def stop(stage, candidates, margin):
-        calls.append(margin)
+    def stop(progress):
+        calls.append(progress.margin)
         if len(calls) == after:
             raise KeyboardInterrupt
 
