@@ -6,11 +6,21 @@ import math
 import time
 from collections.abc import Callable
 
+from deodar.errors import TimeError, show
+from deodar.parameters import real
 from deodar.session.interrupt import stoppable
 from deodar.session.meter import Meter
 from deodar.session.pace import Pace, Paced, require_longest, require_speed
 from deodar.session.run import require_duration, whole
 from deodar.worlds._failure import errors_of
+
+BETWEEN_EVERY = 50.0
+"""Wall time between two calls of a function of the user, in ms: a plot that is drawn so often is smooth."""
+
+SHARE = 4
+"""Wall time from the beginning of a call to the next one, in durations of the call: calls that take longer
+than the time between them would hold up the run.
+"""
 
 
 def run_live(
@@ -19,8 +29,8 @@ def run_live(
     speed: float | None = 1.0,
     longest_step: float | None = None,
     between: Callable[[], object] | None = None,
+    between_every: float = BETWEEN_EVERY,
     pace: Pace | None = None,
-    sleep: Callable[[float], object] = time.sleep,
 ) -> Meter:
     """Advance by a duration in document time, paced to the wall clock (Lomp et al. 2016, section 3.2).
 
@@ -39,21 +49,24 @@ def run_live(
             of dt with its tick, so that the run can be repeated. None: the step is constant, and so is the
             result.
         between: called between two exchanges, for custom input and output; it may read and set the session,
-            and raise an exception to stop.
+            and raise an exception to stop. The last call is at the end of the run.
+        between_every: wall time between two calls of `between`, in ms; 0: at each exchange, about every
+            10 ms. A call that takes long, such as a plot, is repeated less often, so that the calls take at
+            most a quarter of the wall time.
         pace: the pace to use; None: a new one.
-        sleep: function that waits for a number of seconds.
 
     Returns:
         The meter: real-time factor, lag, overruns, steps.
 
     Raises:
-        TimeError: the duration is not a whole number of steps, the speed is not above 0, or the longest step
-            is above the limit of a time constant.
+        TimeError: the duration is not a whole number of steps, the speed is not above 0, the longest step is
+            above the limit of a time constant, or `between_every` is below 0.
         KeyboardInterrupt: on Ctrl-C, between two exchanges; the session keeps the state reached.
     """
     pace = pace or Pace()
     pace.longest = require_longest(session, longest_step)
     pace.speed = require_speed(speed)
+    call = _at_rate(between, between_every, pace.now)
     planned = session.next_dt
     whole(require_duration(duration, "a duration"), planned, "a duration")
     session.program.chunk(())  # compiled before the clock starts
@@ -72,13 +85,12 @@ def run_live(
                     steps_left -= 2 * together
                 n = min(pace.due(session), steps_left)
                 if n == 0:
-                    sleep(pace.rest(session))
+                    pace.sleep(pace.rest(session))
                     continue
                 before, began = session.time, time.perf_counter()
                 session.step(n)
                 pace.took(session, n, session.time - before, time.perf_counter() - began)
-                if between is not None:
-                    between()
+                call(_steps(end - session.time, session.dt) == 0)
                 if end - session.time > 4 * session.program.plan.ticks * (pace.longest or session.next_dt):
                     pace.lengthen(session)
     except BaseException:
@@ -89,6 +101,25 @@ def run_live(
     finally:
         pace.shorten(session)
     return pace.meter(session)
+
+
+def _at_rate(
+    between: Callable[[], object] | None, every: float, clock: Callable[[], float]
+) -> Callable[[bool], None]:
+    """Return a function that calls `between` if that is due, and always at the end of the run."""
+    least, due = real(every), -math.inf
+    if least is None or not 0 <= least < math.inf:
+        raise TimeError(f"between_every is {show(every)}; expected a number of ms, 0 or above")
+
+    def call(last: bool) -> None:
+        nonlocal due
+        if between is None or (clock() < due and not last):
+            return
+        began = clock()
+        between()
+        due = began + max(1e-3 * least, SHARE * (clock() - began))
+
+    return call
 
 
 def _steps(time_left: float, dt: float) -> int:

@@ -37,7 +37,7 @@ from deodar.session.meter import Meter
 from deodar.session.port_reader import PortKey, PortReader
 from deodar.session.recorder import Recorder
 from deodar.session.run import Run, host, require_duration, require_step, whole
-from deodar.session.run_live import run_live
+from deodar.session.run_live import BETWEEN_EVERY, run_live
 from deodar.session.session_snapshot import SessionSnapshot, fill, rows
 from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
@@ -129,12 +129,13 @@ class Session(Summarised):
         speed: float | None = 1.0,
         longest_step: float | None = None,
         between: Callable[[], object] | None = None,
+        between_every: float = BETWEEN_EVERY,
     ) -> Meter:
         """Advance by a duration in document time, paced to the wall clock; see
         `deodar.session.run_live.run_live`.
         """
         hosts.require_one("a run that follows the wall clock", self.program.across)
-        return run_live(self, duration, speed, longest_step, between)
+        return run_live(self, duration, speed, longest_step, between, between_every)
 
     def costs(self, seconds: float = SECONDS) -> StepCost:
         """Measure the cost of each element in a step; see `deodar.session.cost.costs`.

@@ -38,7 +38,7 @@ class Wall:
     ) -> None:
         self.now, self.cost, self.hiccups, self.drowsy = 0.0, cost, hiccups or {}, drowsy
         self.session, self.bursts = one, [0]
-        self.pace = Pace(lambda: self.now)
+        self.pace = Pace(lambda: self.now, self.sleep)
 
     def sleep(self, seconds: float) -> None:
         self.now += seconds + self.drowsy
@@ -60,7 +60,7 @@ class Wall:
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(self.session, "step", stepped)
             patch.setattr(self.pace, "took", learnt)
-            return run_live(self.session, duration, speed, longest, None, self.pace, self.sleep)
+            return run_live(self.session, duration, speed, longest, pace=self.pace)
 
 
 def test_with_enough_time_no_step_is_late_and_no_delay_accumulates() -> None:
@@ -210,8 +210,32 @@ def test_the_function_between_may_set_values_and_end_the_run() -> None:
             raise StopIteration
 
     with pytest.raises(StopIteration):
-        one.run_live(10_000, speed=2, between=between)
+        one.run_live(10_000, speed=2, between=between, between_every=0)
     assert len(seen) == 20 and one.get("s.amplitude") == 20 and one.time == seen[-1] < 10_000
+
+
+@pytest.mark.parametrize(
+    ("every", "takes", "calls"),
+    [
+        (50, 0.0, [1, 51, 101, 151, 200]),
+        (0, 0.0, [*range(1, 201)]),
+        (50, 0.02, [1, 81, 161, 200]),  # a slow function gets a quarter of the time
+    ],
+)
+def test_the_function_between_is_called_at_a_rate_and_at_the_end(
+    every: float, takes: float, calls: list[int]
+) -> None:
+    one, now, seen = session(), [0.0], list[float]()
+
+    def sleep(seconds: float) -> None:
+        now[0] += seconds
+
+    def between() -> None:
+        seen.append(one.time)
+        now[0] += takes
+
+    run_live(one, 200, between=between, between_every=every, pace=Pace(lambda: now[0], sleep))
+    assert len(seen) == len(calls) and np.abs(np.array(seen) - calls).max() <= 1000 * takes + 2
 
 
 @pytest.mark.parametrize(
@@ -221,6 +245,7 @@ def test_the_function_between_may_set_values_and_end_the_run() -> None:
         ({"speed": "fast"}, "above 0"),
         ({"longest_step": 0.5}, "not below the planned step of 1"),
         ({"longest_step": 30}, "longer than the time constant tau = 20"),
+        ({"between_every": -1}, "between_every is -1; expected a number of ms"),
         ({"duration": 10.5}, "not a multiple"),
         ({"duration": -1}, "0 or above"),
     ],
