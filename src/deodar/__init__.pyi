@@ -244,5 +244,6 @@ from deodar_robots.ros_bag.ros_bag import ROSBag as ROSBag
 from deodar_robots.zenoh.zenoh import Zenoh as Zenoh
 from deodar_spikes.comparison import compare_spikes as compare_spikes
 from deodar_spikes.prepare import SpikingOptions as SpikingOptions
+from deodar_studio.from_script import studio as studio
 
 __version__: str
