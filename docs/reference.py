@@ -188,6 +188,9 @@ MEASURES = [
         "deodar.session.meter.Meter",
         "deodar.session.cost.StepCost",
         "deodar.session.cost.ElementCost",
+        "dd.studio",
+        "deodar_studio.from_script.OpenedStudio",
+        "deodar.progress.Progress",
     ),
     *(
         "deodar.model.diagram.Diagram",

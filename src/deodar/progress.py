@@ -27,9 +27,10 @@ class Progress(int):
 
     Attributes:
         of: the total; 0: it is not known.
-        unit: what is counted, such as steps or trials; empty: only `what` says how far the work is.
-        what: what is done.
-        left: estimated remaining time in s; None: it is not known yet.
+        unit: what is counted, such as steps or trials; empty: only `stage` says how far the work is.
+        task: what is done.
+        stage: the part of it that is done now; empty: it has no parts.
+        seconds_left: estimated remaining time in s; None: it is not known yet.
         share: share of the work that is done, 0 to 1.
         margin: of `tune` the lowest margin of the best candidate.
         new: of an experiment the rows that were stored since the last call; at the first call those that
@@ -38,23 +39,25 @@ class Progress(int):
 
     of: int
     unit: str
-    what: str
-    left: float | None
+    task: str
+    stage: str
+    seconds_left: float | None
     share: float
     margin: float | None
     new: Sequence[Any]
 
-    def __new__(cls, done: int, of: int = 0, **more: Any) -> Self:
-        made = super().__new__(cls, done)
-        made.of, made.share = of, done / of if of else 0.0
-        made.unit, made.what, made.left, made.margin, made.new = "", "", None, None, ()
-        vars(made).update(more)
-        return made
+    def __new__(cls, done: int, of: int = 0, **attributes: Any) -> Self:
+        number = super().__new__(cls, done)
+        number.of, number.share = of, done / of if of else 0.0
+        number.unit, number.task, number.stage = "", "", ""
+        number.seconds_left, number.margin, number.new = None, None, ()
+        vars(number).update(attributes)
+        return number
 
     def __str__(self) -> str:
         count = f"{int(self)}{f' of {self.of}' if self.of else ''} {self.unit}" if self.unit else ""
-        time_left = "" if self.left is None else f"about {self.left:.0f} s left"
-        return ": ".join(filter(None, [self.what, ", ".join(filter(None, [count, time_left]))]))
+        time_left = "" if self.seconds_left is None else f"about {self.seconds_left:.0f} s left"
+        return ": ".join(filter(None, [self.task, ", ".join(filter(None, [self.stage, count, time_left]))]))
 
 
 Shown = bool | Callable[[Progress], object] | None
@@ -66,18 +69,18 @@ nothing. Or a function that is called with a `Progress`, for example `print`.
 class Tell(Protocol):
     """The function that work calls."""
 
-    def __call__(self, done: int = 0, of: int = 0, /, **more: Any) -> None:
+    def __call__(self, done: int = 0, of: int = 0, /, **attributes: Any) -> None:
         """Tell what is done, of which total, and other attributes of `Progress`."""
         ...
 
 
 @contextlib.contextmanager
-def telling(progress: Shown, what: str, unit: str = "") -> Generator[Tell]:
+def telling(progress: Shown, task: str, unit: str = "") -> Generator[Tell]:
     """Show the progress of the work inside a block.
 
     Args:
         progress: how it is shown.
-        what: what is done.
+        task: what is done.
         unit: what is counted.
     """
     began, terminal = time.monotonic(), _terminal()
@@ -87,10 +90,12 @@ def telling(progress: Shown, what: str, unit: str = "") -> Generator[Tell]:
     elif show is None and progress:
         show = lines(time.monotonic)
 
-    def tell(done: int = 0, of: int = 0, /, **more: Any) -> None:
+    def tell(done: int = 0, of: int = 0, /, **attributes: Any) -> None:
         if show is not None:
-            left = (time.monotonic() - began) / done * (of - done) if 0 < done <= of else None
-            show(Progress(done, of, **{"what": what, "unit": unit, "left": left, **more}))
+            seconds_left = (time.monotonic() - began) / done * (of - done) if 0 < done <= of else None
+            show(
+                Progress(done, of, **{"task": task, "unit": unit, "seconds_left": seconds_left, **attributes})
+            )
 
     try:
         yield tell
@@ -122,21 +127,21 @@ def lines(clock: Callable[[], float]) -> Callable[[Progress], None]:
     began = clock()
     due = [began + LINE_AFTER]
 
-    def shown(progress: Progress) -> None:
+    def show(progress: Progress) -> None:
         if (moment := clock()) < due[0]:
             return
         sys.stderr.write(f"{progress} (after {moment - began:.0f} s)\n")
         sys.stderr.flush()
         due[0] = began + 2 * (moment - began)
 
-    return shown
+    return show
 
 
 def _drawn(terminal: Any, after: float) -> Callable[[Progress], None]:
     """Return a function that draws progress in the last line of a terminal, after a number of seconds."""
     due = [time.monotonic() + after]
 
-    def shown(progress: Progress) -> None:
+    def show(progress: Progress) -> None:
         if (moment := time.monotonic()) < due[0]:
             return
         whole = round(BAR_CELLS * progress.share)
@@ -144,7 +149,7 @@ def _drawn(terminal: Any, after: float) -> Callable[[Progress], None]:
         _replace_line(terminal, f"{cells}{progress}")
         due[0] = moment + REDRAW_AFTER
 
-    return shown
+    return show
 
 
 def _replace_line(terminal: Any, text: str) -> None:

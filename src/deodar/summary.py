@@ -40,7 +40,7 @@ class Summary(NamedTuple):
     @property
     def text(self) -> str:
         """The lines for a console."""
-        cells = [[_line(value) for value in row] for row in self.rows]
+        cells = [[_line(content) for content in row] for row in self.rows]
         columns = zip_longest(*(row if len(row) > 1 else [] for row in cells), fillvalue="")
         widths = [max(map(len, column)) for column in columns] or [0]
         lines = ["  ".join(f"{c:{w}}" for c, w in zip(row, widths, strict=False)).rstrip() for row in cells]
@@ -60,7 +60,7 @@ class Summary(NamedTuple):
                 out.append(f"<tr>{''.join(f'<th>{_cell(head)}</th>' for head in self.heads)}</tr>")
             room = LARGEST - sum(map(len, out))
             for n, row in enumerate(self.rows):
-                out.append(f"<tr>{''.join(f'<td>{_cell(value)}</td>' for value in row)}</tr>")
+                out.append(f"<tr>{''.join(f'<td>{_cell(content)}</td>' for content in row)}</tr>")
                 room -= len(out[-1])
                 if room < 0:
                     out[-1] = f"<tr><td>... and {len(self.rows) - n} more</td></tr>"
@@ -90,18 +90,18 @@ def counted(n: int, noun: str) -> str:
     return f"{n} {noun}{'' if n == 1 else 's'}"
 
 
-def _line(value: Any) -> str:
-    """Return a value as the text of one line; a number has six digits."""
-    if value is None:
+def _line(content: Any) -> str:
+    """Return a content as the text of one line; a number has six digits."""
+    if content is None:
         return "none"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    text = f"{value:.6g}" if isinstance(value, float) else str(value)
+    if isinstance(content, bool):
+        return "yes" if content else "no"
+    text = f"{content:.6g}" if isinstance(content, float) else str(content)
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
-def _cell(value: Any) -> str:
-    """Return a value as HTML."""
-    text = _line(value)
+def _cell(content: Any) -> str:
+    """Return a content as HTML."""
+    text = _line(content)
     short = text if len(text) <= LONGEST_CELL else f"{text[: LONGEST_CELL - 1]}\N{HORIZONTAL ELLIPSIS}"
     return escape(short)

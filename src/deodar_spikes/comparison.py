@@ -98,8 +98,8 @@ class SpikingComparison(Summarised):
         rows = [
             (label, run, name, e.value)
             for label, runs in self.estimates.items()
-            for run, each in runs.items()
-            for name, e in each.items()
+            for run, measures in runs.items()
+            for name, e in measures.items()
         ]
         return Summary(f"Spikes beside rates: {network.neurons} neurons, {network.synapses} synapses", rows)
 

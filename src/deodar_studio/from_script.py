@@ -38,7 +38,7 @@ class OpenedStudio(Summarised):
     def __init__(self, path: Path, command: list[str], folder: Path | None) -> None:
         self.path, self._folder = path, folder
         self._before = path.read_bytes() if folder is not None else b""
-        self._said: list[str] = []
+        self._lines: list[str] = []
         self._ready = threading.Event()
         self._process = subprocess.Popen(
             command,
@@ -60,9 +60,9 @@ class OpenedStudio(Summarised):
             OutputError: the studio has ended.
         """
         self._ready.wait(START)
-        address = next((line.split(": ", 1)[1] for line in self._said if line.startswith(SAID)), "")
+        address = next((line.split(": ", 1)[1] for line in self._lines if line.startswith(SAID)), "")
         if not address or not self.runs:
-            why = f": {self._said[-1]}" if self._said else ""
+            why = f": {self._lines[-1]}" if self._lines else ""
             raise OutputError(f"the studio has ended{why}", fix="Open it again: dd.studio(model)")
         return address
 
@@ -107,14 +107,14 @@ class OpenedStudio(Summarised):
         assert self._process.stdout is not None
         with self._process.stdout as lines:
             for line in lines:
-                self._said.append(line.rstrip())
+                self._lines.append(line.rstrip())
                 if line.startswith(SAID):
                     self._ready.set()
         self._ready.set()
 
     def _summary(self) -> Summary:
         if not self.runs:
-            return Summary(f"Studio of {self.path.name}, ended", [(line,) for line in self._said[:3]])
+            return Summary(f"Studio of {self.path.name}, ended", [(line,) for line in self._lines[:3]])
         return Summary(f"Studio of {self.path.name}", [("address", self.address)])
 
     def _repr_html_(self) -> str:

@@ -36,7 +36,7 @@ def field_model(name: str = STRANGE) -> tuple[dd.Model, Any]:
     return model, u
 
 
-def made() -> dict[str, tuple[object, str]]:
+def objects_of_scripts() -> dict[str, tuple[object, str]]:
     """Return each kind of object with a text that its lines contain: its name, or a main number."""
     model, u = field_model()
     session = dd.Session(model)
@@ -50,7 +50,7 @@ def made() -> dict[str, tuple[object, str]]:
         trials=3,
         factors=[dd.Factor("<b>", [0.0, 6.0], amplitude)],
     )
-    found = dd.regimes(model, "u")
+    regimes = dd.regimes(model, "u")
     regime_map = dd.regime_map(
         model, {"u.resting_level": (-6, -4, 2), "u.global_inhibition": (0.5, 1.5, 2)}, "u"
     )
@@ -68,10 +68,10 @@ def made() -> dict[str, tuple[object, str]]:
         "peaks": (dd.peaks(record["u.activation"].isel(time=-1)), "peak"),
         "experiment": (experiment, "six trials"),
         "results": (experiment.run(), "6 trials"),
-        "regimes": (found, "detection"),
-        "thresholds": (found.thresholds, "detection"),
-        "selection": (found.selection, "two equal inputs"),
-        "ramp": (found.ramp, "bistable"),
+        "regimes": (regimes, "detection"),
+        "thresholds": (regimes.thresholds, "detection"),
+        "selection": (regimes.selection, "two equal inputs"),
+        "ramp": (regimes.ramp, "bistable"),
         "branch": (dd.continuation(model, amplitude, (0, 8), even=["x"], finer=False), "steady states"),
         "map": (regime_map, "2 x 2 cells"),
         "phase": (dd.phase(dd.Field("node", [])), "fixed point"),
@@ -83,23 +83,23 @@ def made() -> dict[str, tuple[object, str]]:
 @pytest.fixture(scope="module")
 def objects() -> dict[str, tuple[Any, str]]:
     """Return the objects, made once."""
-    return made()
+    return objects_of_scripts()
 
 
 def test_objects_show_themselves_in_a_few_lines_that_follow_the_theme(objects) -> None:
-    for name, (value, words) in objects.items():
-        shown = value._repr_html_()
-        root = ET.fromstring(shown)
+    for name, (instance, words) in objects.items():
+        markup = instance._repr_html_()
+        root = ET.fromstring(markup)
         assert root.tag == "div", name
-        assert words in "".join(root.itertext()), (name, shown)
-        assert len(shown) < LIMIT, (name, len(shown))
-        assert "<img" not in shown and "<b>&lt;mm" not in shown, (name, "text of the user is escaped")
-        assert not re.search(r"#fff|#000|white|black|<style|<script", shown), (name, "colours of the theme")
+        assert words in "".join(root.itertext()), (name, markup)
+        assert len(markup) < LIMIT, (name, len(markup))
+        assert "<img" not in markup and "<b>&lt;mm" not in markup, (name, "text of the user is escaped")
+        assert not re.search(r"#fff|#000|white|black|<style|<script", markup), (name, "colours of the theme")
 
 
 def test_no_text_is_a_dump_of_fields(objects) -> None:
-    for name, (value, _) in objects.items():
-        text = repr(value)
+    for name, (instance, _) in objects.items():
+        text = repr(instance)
         assert len(text) < 2000 and "array(" not in text and "=<" not in text, (name, text[:300])
         assert not re.match(r"\w+\(\w+=", text), (name, text[:300])
 
@@ -112,25 +112,25 @@ def test_figures_are_pictures_that_pyplot_does_not_show_again(objects) -> None:
 
 
 def test_a_large_model_stays_small_and_names_its_picture() -> None:
-    shown = dd.load("example:spa")._repr_html_()
-    assert len(shown) < LIMIT and "dd.draw(model)" in shown
-    assert "129 elements" in "".join(ET.fromstring(shown).itertext())
+    markup = dd.load("example:spa")._repr_html_()
+    assert len(markup) < LIMIT and "dd.draw(model)" in markup
+    assert "129 elements" in "".join(ET.fromstring(markup).itertext())
 
 
 def test_the_picture_of_a_model_has_the_ink_and_the_page_of_the_theme() -> None:
-    shown = dd.load("example:binding")._repr_html_()
-    assert "<svg" in shown and 'fill="currentColor"' in shown and 'fill="var(--page)"' in shown
-    assert "background" not in shown.replace("--vscode-editor-background", "")
+    markup = dd.load("example:binding")._repr_html_()
+    assert "<svg" in markup and 'fill="currentColor"' in markup and 'fill="var(--page)"' in markup
+    assert "background" not in markup.replace("--vscode-editor-background", "")
 
 
 def test_long_tables_are_folded_and_end_with_the_number_of_further_rows() -> None:
     summary = Summary("many", [(f"row {k}", "x" * 500) for k in range(1000)])
-    shown = summary.html()
-    assert len(shown) < LARGEST + 500 and "<details><summary>1000 rows</summary>" in shown
-    rows = re.findall(r"<tr><td>row \d+</td>", shown)
-    assert f"... and {1000 - len(rows)} more" in shown and "x" * 200 not in shown
+    markup = summary.html()
+    assert len(markup) < LARGEST + 500 and "<details><summary>1000 rows</summary>" in markup
+    rows = re.findall(r"<tr><td>row \d+</td>", markup)
+    assert f"... and {1000 - len(rows)} more" in markup and "x" * 200 not in markup
     assert summary.text.count("\n") == 1000, "a console shows all"
-    assert ET.fromstring(shown).tag == "div"
+    assert ET.fromstring(markup).tag == "div"
 
 
 def returned(function: Any) -> list[type]:
@@ -144,14 +144,14 @@ def returned(function: Any) -> list[type]:
 
 
 def test_public_functions_return_objects_that_show_themselves() -> None:
-    """What a user declares, such as an element or an action, is shown as it is written."""
+    """What a user declares, such as an element or an action, is markup as it is written."""
     public = [getattr(dd, name) for name in dd.__all__]
     public += [getattr(module, name) for module in (dd.analysis, dd.figures) for name in module.__all__]
     dumps: list[str] = []
-    for value in public:
-        functions = [value] if inspect.isfunction(value) else []
-        if isinstance(value, type) and not issubclass(value, Part | dd.World):
-            functions += [m for n, m in inspect.getmembers(value, inspect.isfunction) if n[0] != "_"]
+    for public_object in public:
+        functions = [public_object] if inspect.isfunction(public_object) else []
+        if isinstance(public_object, type) and not issubclass(public_object, Part | dd.World):
+            functions += [m for n, m in inspect.getmembers(public_object, inspect.isfunction) if n[0] != "_"]
         for function in functions:
             for kind in returned(function):
                 generated = dc.is_dataclass(kind) and hasattr(kind.__repr__, "__wrapped__")

@@ -26,7 +26,7 @@ def functions() -> dict[str, Run]:
     return {
         "simulating": lambda on: dd.simulate(model, 30, record=["u.activation"], on=on),
         "running": lambda on: experiment.run(on=on),
-        "compiling": lambda on: dd.regimes(dd.Field("node", []), on=on),
+        "regimes": lambda on: dd.regimes(dd.Field("node", []), on=on),
         "regime map": lambda on: dd.regime_map(model, over, "u", on=on),
     }
 
@@ -40,9 +40,9 @@ def call(request) -> tuple[str, Run]:
 def test_print_prints_sentences_and_false_nothing(call, capsys) -> None:
     word, run = call
     run(dd.Resources(progress=print))
-    told = capsys.readouterr().out.splitlines()
-    assert told and any(line.startswith(word) for line in told), told
-    assert not any(line.replace(" ", "").isdigit() for line in told), "a number alone says nothing"
+    lines = capsys.readouterr().out.splitlines()
+    assert lines and any(line.startswith(word) for line in lines), lines
+    assert not any(line.replace(" ", "").isdigit() for line in lines), "a number alone says nothing"
     run(dd.Resources(progress=False))
     run(dd.Resources())
     assert capsys.readouterr() == ("", ""), "nothing in a pipe"
@@ -56,10 +56,13 @@ def test_true_writes_lines_without_a_terminal(call, capsys, monkeypatch) -> None
 
 
 def test_a_number_of_progress_is_a_whole_number_with_its_total() -> None:
-    done = Progress(3, 12, what="running", unit="trials", left=4.2)
+    done = Progress(3, 12, task="running", unit="trials", seconds_left=4.2)
     assert done + 1 == 4 and done.share == 0.25 and done == 3
     assert str(done) == f"{done}" == "running: 3 of 12 trials, about 4 s left"
-    assert str(Progress(0, what="ramp")) == "ramp" and str(Progress(7, unit="cells")) == "7 cells"
+    assert (
+        str(Progress(0, task="regimes", stage="ramp")) == "regimes: ramp"
+        and str(Progress(7, unit="cells")) == "7 cells"
+    )
 
 
 def test_a_notebook_shows_a_bar_that_ends_with_an_empty_line(monkeypatch) -> None:

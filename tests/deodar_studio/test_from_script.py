@@ -14,9 +14,9 @@ from deodar.errors import DocumentError, OutputError, ParameterError
 
 def model() -> dd.Model:
     """Return a model of one field, with a name that is not one of a file."""
-    made = dd.Model("my <model>")
-    made.add(dd.Field("u", [dd.Axis("x", 0, 20, samples=21)]))
-    return made
+    field_model = dd.Model("my <model>")
+    field_model.add(dd.Field("u", [dd.Axis("x", 0, 20, samples=21)]))
+    return field_model
 
 
 def test_a_model_is_opened_and_its_address_is_a_link_until_it_is_stopped() -> None:
@@ -25,8 +25,8 @@ def test_a_model_is_opened_and_its_address_is_a_link_until_it_is_stopped() -> No
         cookies = urllib.request.HTTPCookieProcessor(http.cookiejar.CookieJar())
         with urllib.request.build_opener(cookies).open(opened.address) as page:
             assert page.status == 200 and "token=" in opened.address
-        shown = opened._repr_html_()
-        assert f'<a href="{opened.address}"' in shown and "<model>" not in shown
+        markup = opened._repr_html_()
+        assert f'<a href="{opened.address}"' in markup and "<model>" not in markup
         assert opened.address in repr(opened)
         assert opened.model.document == model().document
         path = opened.path

@@ -31,9 +31,9 @@ class Boosted(Summarised):
     localised: bool
 
     def _summary(self) -> Summary:
-        what = "none up to the limit" if self.boost is None else f"{self.boost:.4g}"
+        strength = "none up to the limit" if self.boost is None else f"{self.boost:.4g}"
         where = "at the pre-shape" if self.localised else "not at the pre-shape alone"
-        return Summary(f"Detection by a boost of {what}", [("pre-shape", self.preshape), ("peak", where)])
+        return Summary(f"Detection by a boost of {strength}", [("pre-shape", self.preshape), ("peak", where)])
 
 
 def boosted(isolated: Isolated, preshape: float, accuracy: float = 0.01, limit: float = LIMIT) -> Boosted:

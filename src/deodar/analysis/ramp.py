@@ -59,10 +59,10 @@ class SettledRamp(Summarised):
         return self.values[self.up.count != self.down.count]
 
     def _summary(self) -> Summary:
-        both = self.bistable
+        bistable = self.bistable
         rows = [
             (self.by, f"{self.values[0]:.4g} to {self.values[-1]:.4g}"),
-            ("bistable", f"{both[0]:.4g} to {both[-1]:.4g}" if len(both) else "nowhere"),
+            ("bistable", f"{bistable[0]:.4g} to {bistable[-1]:.4g}" if len(bistable) else "nowhere"),
         ]
         return Summary(f"Ramp of {len(self.values)} values, up and down", rows)
 

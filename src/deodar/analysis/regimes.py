@@ -236,7 +236,7 @@ def regimes(
         limit: longest settling, in time constants.
         finer: whether to measure the thresholds also on a grid twice as fine, if that grid has at most 20,000
             samples.
-        on: its `progress` has the name of the next measurement, `what`.
+        on: its `progress` has the name of the next measurement, `stage`.
         sigma: width of the localised input; none: that of the kernel's excitation.
         center: position of the localised input; none: the sample nearest to the middle.
         precision: float32 or float64.
@@ -248,47 +248,47 @@ def regimes(
         AnalysisError: if the element is not a field.
     """
     with telling(use_resources(on, "dd.regimes", "progress").progress, "regimes") as tell:
-        tell(what="compiling")
+        tell(stage="compiling")
         isolated = isolate(model, path, **isolation)
         return _measured(isolated, accuracy, limit, finer, tell)
 
 
 def _measured(isolated: Isolated, accuracy: float, limit: float, finer: bool, tell: Tell) -> Regimes:
     """Return the regimes of an isolated field."""
-    tell(what="resting state")
+    tell(stage="resting state")
     isolated.reset()
     isolated.settle(limit=limit)
     resting = isolated.activation()
-    tell(what="thresholds")
+    tell(stage="thresholds")
     found = thresholds(isolated, accuracy=accuracy, limit=limit)
     above, driven, memory, forgets, suppressed, selection, apart = None, None, None, None, None, None, None
     boosts: tuple[Boosted, ...] = ()
     lost, pressed = None, None
     up = found.detection
     if up is not None:
-        tell(what="working memory")
+        tell(stage="working memory")
         memory = outlives(isolated, STRONG * up.after, limit=limit)
         isolated.restore(up.state)
         isolated.put(input=ABOVE * up.after)
         isolated.settle(limit=limit)
         above, driven = isolated.activation(), isolated.peaks()
         if isolated.axes:
-            tell(what="selection")
+            tell(stage="selection")
             selection = measured_selection(isolated, STRONG * up.after, limit=limit)
             apart = separation(isolated, STRONG * up.after, limit)
-            tell(what="forgetting")
+            tell(stage="forgetting")
             lost = forgetting(isolated, STRONG * up.after, accuracy, limit)
             pressed = suppression(isolated, STRONG * up.after, accuracy, limit) if memory.outlives else None
             forgets, suppressed = (t.value if t else None for t in (lost, pressed))
-            tell(what="detection by a boost")
+            tell(stage="detection by a boost")
             boosts = tuple(boosted(isolated, share * up.before, accuracy, limit) for share in SHARES)
-    tell(what="ramp")
+    tell(stage="ramp")
     swept = ramp(isolated, _span(isolated, found), limit=limit)
     named = {"detection": up, "reverse": found.reverse, "forgetting": lost, "suppression": pressed}
     transitions = {name: t for name, t in named.items() if t is not None}
     moved, why = None, obstacle(isolated) if finer else NOT_ASKED
     if transitions and not why:
-        tell(what="a grid twice as fine")
+        tell(stage="a grid twice as fine")
         moved = discretisation(isolated, transitions, STRONG, accuracy, limit)
     return Regimes(
         isolated,

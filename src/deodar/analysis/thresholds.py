@@ -54,8 +54,8 @@ class Transition(Summarised):
     state: SessionSnapshot
 
     def _summary(self) -> Summary:
-        half, how = abs(self.interval[1] - self.interval[0]) / 2, "a jump" if self.jump else "gradual"
-        return Summary(f"Transition at {self.value:.4g} +- {half:.2g}, {how}")
+        half, kind = abs(self.interval[1] - self.interval[0]) / 2, "a jump" if self.jump else "gradual"
+        return Summary(f"Transition at {self.value:.4g} +- {half:.2g}, {kind}")
 
 
 @dataclass(frozen=True, repr=False)

@@ -36,7 +36,7 @@ class Bar:
 
     def show(self, progress: Progress) -> None:
         """Draw the progress."""
-        time_left = "" if progress.left is None else f"{lasting(progress.left)} left"
+        time_left = "" if progress.seconds_left is None else f"{lasting(progress.seconds_left)} left"
         self._bar.update(
             self._task,
             completed=progress.share,

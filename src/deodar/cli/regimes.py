@@ -84,7 +84,7 @@ def run(args: argparse.Namespace) -> int:
             precision=args.precision,
             inputs=args.input,
             finer=True,
-            on=Resources(progress=lambda done: status.update(done.what)),
+            on=Resources(progress=lambda done: status.update(done.stage)),
         )
         status.update("folds")
         folds = confirmed(measured)

@@ -30,8 +30,8 @@ def figure(scene: Drawing, width: float | None = None) -> Figure:
 
     codes = {"M": Path.MOVETO, "L": Path.LINETO, "C": Path.CURVE4, "Z": Path.CLOSEPOLY}
     scale = 1.0 if width is None else width * INCH / scene.width
-    made = ShownFigure(figsize=(scene.width * scale / INCH, scene.height * scale / INCH), dpi=300)
-    place = Affine2D().scale(1, -1).translate(0, scene.height).scale(scale / INCH) + made.dpi_scale_trans
+    drawn = ShownFigure(figsize=(scene.width * scale / INCH, scene.height * scale / INCH), dpi=300)
+    place = Affine2D().scale(1, -1).translate(0, scene.height).scale(scale / INCH) + drawn.dpi_scale_trans
     for one in scene:
         if isinstance(one, TextLine):
             text = Text(
@@ -48,7 +48,7 @@ def figure(scene: Drawing, width: float | None = None) -> Figure:
                 transform=place,
                 parse_math=False,
             )
-            made.add_artist(text)
+            drawn.add_artist(text)
             continue
         points, marks = (
             _points(one.path),
@@ -64,8 +64,8 @@ def figure(scene: Drawing, width: float | None = None) -> Figure:
             joinstyle="miter",
             transform=place,
         )
-        made.add_artist(patch)
-    return made
+        drawn.add_artist(patch)
+    return drawn
 
 
 def content(scene: Drawing, format: str, width: float | None = None) -> bytes:

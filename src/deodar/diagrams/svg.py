@@ -48,7 +48,9 @@ def _written(scene: Drawing, size: str, style: str, paint: Callable[[str, str], 
             f'<g class="{escape(part.role)}">'
             + (f"<title>{escape(plain(part.title))}</title>" if part.title else "")
         )
-        out += [_shape(one, paint) if isinstance(one, Shape) else _label(one, paint) for one in part.content]
+        out += [
+            _shape(mark, paint) if isinstance(mark, Shape) else _label(mark, paint) for mark in part.content
+        ]
         out.append("</g>")
     return "\n".join([*out, "</svg>", ""])
 

@@ -87,7 +87,7 @@ def run_jobs(
             seconds = time.monotonic() - began
             seconds_left = seconds / done * (total - before - done) if done else None
             share = (before + done) / total if total else 1.0
-            show(complete, of, share=share, left=seconds_left, new=new)
+            show(complete, of, share=share, seconds_left=seconds_left, new=new)
 
         stored = {row[KEY]: row for row in rows.found.values()}
         tell([stored[key] for job in jobs for key in job.keys if key in stored])

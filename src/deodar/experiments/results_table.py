@@ -29,8 +29,8 @@ def _column(column: xarray.DataArray) -> str:
     values = column.values.ravel()
     if values.dtype.kind not in "fiu":
         return ", ".join(f"{word or 'none'} {n}" for word, n in Counter(values.tolist()).items())
-    known = values[values == values]  # a condition that did not occur is NaN
-    if not known.size:
+    measured = values[values == values]  # a condition that did not occur is NaN
+    if not measured.size:
         return "no value"
-    missing = f", {values.size - known.size} without" if known.size < values.size else ""
-    return f"{known.min():.4g} to {known.max():.4g}, mean {known.mean():.4g}{missing}"
+    missing = f", {values.size - measured.size} without" if measured.size < values.size else ""
+    return f"{measured.min():.4g} to {measured.max():.4g}, mean {measured.mean():.4g}{missing}"

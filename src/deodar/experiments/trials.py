@@ -218,8 +218,8 @@ class Trials(Summarised):
                 samples.end(trial, self._stops.sampled(tick))
 
     def _summary(self) -> Summary:
-        doc, how = self._model.document, "in one batch" if self.together else "one by one"
-        return Summary(f"Trials of {doc.name!r}, {how}, each up to {self.plan.limit:g} {doc.time_unit}")
+        doc, batch = self._model.document, "in one batch" if self.together else "one by one"
+        return Summary(f"Trials of {doc.name!r}, {batch}, each up to {self.plan.limit:g} {doc.time_unit}")
 
 
 @contextlib.contextmanager

@@ -196,6 +196,6 @@ def style(size: float | None = None, font: str | None = None) -> Generator[None]
 
 def figure(width: float, height: float) -> Figure:
     """Return an empty figure, with width and height in inches and a layout without overlaps."""
-    made = ShownFigure(figsize=(width, height), dpi=150, layout="constrained")
-    made.settings = TIGHT
-    return made
+    empty = ShownFigure(figsize=(width, height), dpi=150, layout="constrained")
+    empty.settings = TIGHT
+    return empty

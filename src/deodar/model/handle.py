@@ -155,5 +155,5 @@ class Handle(Summarised):
         if self.port:
             return Summary(f"{kind} {entry.path}.{quote(self.port)}")
         axes = getattr(entry.element, "axes", ())
-        rows = [other.split("=", 1) for other in brief(entry.element, links_of(self.model, self.id))]
+        rows = [setting.split("=", 1) for setting in brief(entry.element, links_of(self.model, self.id))]
         return Summary(f"{kind} {entry.path}{f' {describe(axes)}' if axes else ''}", rows)

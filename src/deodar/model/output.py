@@ -81,11 +81,11 @@ def note(path: Path) -> None:
     if not (name := written.script()):
         return
     file, states = written.listed(name)
-    kept = {place: state for place, state in states.items() if os.path.lexists(place)}
-    kept[str(path.resolve())] = written.state(path)
+    present = {place: state for place, state in states.items() if os.path.lexists(place)}
+    present[str(path.resolve())] = written.state(path)
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
-        replace(file, codec.line({"script": name, "files": kept}).encode())
+        replace(file, codec.line({"script": name, "files": present}).encode())
 
 
 def write(

@@ -207,8 +207,8 @@ def _is_default(p: Any, value: Any) -> bool:
 
 def _described(model: Owner, ident: str, leaf: str, current: Any) -> Summary:
     try:
-        value = _value(current(), links_of(model, ident), leaf)
-        return Summary(f"{model.entry(ident).path}.{leaf}: {value}")
+        text = _value(current(), links_of(model, ident), leaf)
+        return Summary(f"{model.entry(ident).path}.{leaf}: {text}")
     except UnknownName:
         return Summary(f"{leaf} of a removed element, id {ident}")
 

@@ -70,13 +70,13 @@ def owned(path: Path) -> bool:
     name = script()
     if not name:
         return False
-    known = listed(name)[1].get(str(path.resolve()))
-    return known is not None and known == state(path)
+    noted = listed(name)[1].get(str(path.resolve()))
+    return noted is not None and noted == state(path)
 
 
 def _state(path: Path) -> str:
-    about = path.stat()
-    return f"{about.st_size} {about.st_mtime_ns}"
+    status = path.stat()
+    return f"{status.st_size} {status.st_mtime_ns}"
 
 
 def _process() -> str:

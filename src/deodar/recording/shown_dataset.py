@@ -18,13 +18,13 @@ class ShownDataset(xarray.Dataset):
     __slots__ = ()
 
     @classmethod
-    def of(cls, data: xarray.Dataset) -> Self:
+    def of(cls, record: xarray.Dataset) -> Self:
         """Return a Dataset as one of this kind; arrays that are not read yet stay so."""
-        variables: dict[Any, Any] = {name: data.variables[name] for name in data.data_vars}
-        made = cls(variables, data.coords, data.attrs)
-        made.encoding = data.encoding
-        made.set_close(data.close)
-        return made
+        variables: dict[Any, Any] = {name: record.variables[name] for name in record.data_vars}
+        shown_record = cls(variables, record.coords, record.attrs)
+        shown_record.encoding = record.encoding
+        shown_record.set_close(record.close)
+        return shown_record
 
     def _summary(self) -> Summary:
         rows = [(str(name), _span(self, name)) for name in self.sizes]
@@ -39,10 +39,10 @@ class ShownDataset(xarray.Dataset):
         return self._summary().html()
 
 
-def _span(data: xarray.Dataset, name: Any) -> str:
+def _span(record: xarray.Dataset, name: Any) -> str:
     """Return the range and the length of a dimension."""
-    n = data.sizes[name]
-    if not n or name not in data.coords or data[name].dtype.kind not in "fiu":
+    n = record.sizes[name]
+    if not n or name not in record.coords or record[name].dtype.kind not in "fiu":
         return counted(n, "value")
-    values, unit = data[name].values, data[name].attrs.get("units", "")
+    values, unit = record[name].values, record[name].attrs.get("units", "")
     return f"{values[0]:.6g} to {values[-1]:.6g}{f' {unit}' if unit else ''}, {counted(n, 'value')}"

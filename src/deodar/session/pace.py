@@ -76,7 +76,7 @@ class Pace:
         sleep: function that waits for a number of seconds.
 
     Attributes:
-        now, sleep: these functions.
+        clock, sleep: these functions.
         speed: requested ratio of document time to wall time; None: as fast as possible.
         longest: the longest step that may be taken to keep up, in document time; None: the step is constant.
         factor: achieved ratio of document time to wall time, over the last half second.
@@ -88,7 +88,7 @@ class Pace:
         clock: Callable[[], float] = time.perf_counter,
         sleep: Callable[[float], object] = time.sleep,
     ) -> None:
-        self.now, self.sleep = clock, sleep
+        self.clock, self.sleep = clock, sleep
         self.speed: float | None = 1.0
         self.longest: float | None = None
         self.factor = 0.0
@@ -106,7 +106,7 @@ class Pace:
 
     def restart(self) -> None:
         """Count from now: no steps are due for the time of a pause."""
-        self._began = self.now()
+        self._began = self.clock()
         self._unit = 1e-3
         self._passed = self._given_up = 0.0
         self._since = (self._began, 0.0, 0)
@@ -155,7 +155,7 @@ class Pace:
             self._late(self._owed(session), session)
         began, time_passed, steps = self._since
         time_passed, steps = time_passed + passed, steps + n
-        moment = self.now()
+        moment = self.clock()
         if moment - began >= MEASURED:
             self.factor = time_passed * self._unit / (moment - began)
             self.steps = steps / (moment - began)
@@ -178,7 +178,7 @@ class Pace:
             needed = max(RESERVE * self._cost / wall, self._lag / (self.most(session) * wall))
             multiple = max(1, math.ceil(needed - 1e-6))
         factor = round(self._set_step / self._planned)
-        if multiple < factor and self.now() - self._changed < MEASURED:
+        if multiple < factor and self.clock() - self._changed < MEASURED:
             return
         self._take(session, self._allowed(session, multiple))
 
@@ -189,8 +189,8 @@ class Pace:
 
     def meter(self, session: Paced) -> Meter:
         """Return the measurements since the start."""
-        unit, wall = unit_seconds(session.document.time_unit), self.now() - self._began
-        late = 0.0 if self._late_since is None else self.now() - self._late_since
+        unit, wall = unit_seconds(session.document.time_unit), self.clock() - self._began
+        late = 0.0 if self._late_since is None else self.clock() - self._late_since
         return Meter(
             speed=self.speed,
             factor=self._passed * unit / wall if wall > 0 else 0.0,
@@ -216,7 +216,7 @@ class Pace:
     def _owed(self, session: Paced) -> float:
         """Return the wall time for which no step was taken yet, in seconds."""
         self._unit = unit_seconds(session.document.time_unit)
-        return self.now() - self._began - self._given_up - self._passed * self._unit / (self.speed or 1.0)
+        return self.clock() - self._began - self._given_up - self._passed * self._unit / (self.speed or 1.0)
 
     def _wall(self, session: Paced) -> float:
         """Return the wall time of one step at the requested speed, in seconds."""
@@ -226,7 +226,7 @@ class Pace:
         """Record a lag: the delay of the oldest step that is due, or of the newest that was taken."""
         self._lag = max(0.0, lag)
         self._worst = max(self._worst, self._lag)
-        moment = self.now()
+        moment = self.clock()
         if self._lag > max(EXCHANGE, self._wall(session)):
             if self._late_since is None:
                 self._late_since = moment - self._lag  # the time at which the step was due
@@ -254,7 +254,7 @@ class Pace:
 
     def _take(self, session: Paced, step: float) -> None:
         if step != self._set_step:
-            self._set_step, self._changed = step, self.now()
+            self._set_step, self._changed = step, self.clock()
             session.dt = step
 
 

@@ -66,7 +66,7 @@ def run_live(
     pace = pace or Pace()
     pace.longest = require_longest(session, longest_step)
     pace.speed = require_speed(speed)
-    call = _at_rate(between, between_every, pace.now)
+    call = _at_rate(between, between_every, pace.clock)
     planned = session.next_dt
     whole(require_duration(duration, "a duration"), planned, "a duration")
     session.program.chunk(())  # compiled before the clock starts

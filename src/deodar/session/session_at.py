@@ -56,7 +56,7 @@ def session_at(
     from deodar.recording.record import about
     from deodar.recording.repeat import request, world_of
 
-    shown = use_resources(on, "dd.session_at", "progress").progress
+    progress = use_resources(on, "dd.session_at", "progress").progress
     stored = files.open_record(Path(path))
     description = about(stored)
     changes: list[Change] = []
@@ -79,7 +79,7 @@ def session_at(
     tick = whole(time - session.time, session.dt, "the time from the start")
     _require_recorded(stored, time, description, session.time + settings.get("duration", 0.0), str(path))
     stops = _comparisons(session, stored, time, str(path))
-    with telling(shown, "repeating", "steps") as tell:
+    with telling(progress, "repeating", "steps") as tell:
         repeat_changes(session, until(changes, tick), tick, tell, stops)
     return session
 

@@ -134,7 +134,7 @@ class ExperimentRun:
     def _take(self, known: Collection[int], progress: Progress) -> None:
         """Add rows; `known`: the trials whose rows it had before, which a run begins with."""
         self.rows.extend(row for row in progress.new if row["trial"] not in known)
-        self.left = progress.left
+        self.left = progress.seconds_left
         self._stand(None)
         self._changed()
 

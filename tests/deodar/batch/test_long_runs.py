@@ -61,7 +61,9 @@ def test_intervals_between_lines_of_progress_double(capsys: pytest.CaptureFixtur
     shown = progress.lines(lambda: clock[0])
     for second in range(1, 101):
         clock[0] = float(second)
-        shown(progress.Progress(10 * second, 1000, what="simulating", unit="steps", left=100.0 - second))
+        shown(
+            progress.Progress(10 * second, 1000, task="simulating", unit="steps", seconds_left=100.0 - second)
+        )
     lines = capsys.readouterr().err.splitlines()
     assert lines[0] == "simulating: 100 of 1000 steps, about 90 s left (after 10 s)"
     assert [line.split("(after ")[1].split(" s)")[0] for line in lines] == ["10", "20", "40", "80"]

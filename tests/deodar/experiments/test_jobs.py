@@ -35,7 +35,7 @@ def test_all_jobs_are_run_and_progress_reaches_the_end(tmp_path, rows):
     run_jobs(jobs(), kept, Resources(progress=seen.append))
     assert list(kept.found.values()) == rows
     assert [*map(int, seen)] == list(range(7)) and {s.of for s in seen} == {6}
-    assert seen[0].left is None and seen[-1].left == 0 and seen[-1].share == 1
+    assert seen[0].seconds_left is None and seen[-1].seconds_left == 0 and seen[-1].share == 1
     assert seen[3].share == pytest.approx(6 / 21)
 
 

@@ -163,8 +163,8 @@ def test_a_script_runs_twice(tmp_path) -> None:
         "dd.save(model, 'small.json')\n",
         encoding="utf-8",
     )
-    other = path.with_name("other.py")
-    other.write_bytes(path.read_bytes())
+    copied = path.with_name("other.py")
+    copied.write_bytes(path.read_bytes())
     settings = {**os.environ, written.STATES: str(tmp_path / "states")}
 
     def run(script: Path) -> subprocess.CompletedProcess[str]:
@@ -173,5 +173,5 @@ def test_a_script_runs_twice(tmp_path) -> None:
         )
 
     assert [run(path).returncode for _ in range(2)] == [0, 0]
-    refused = run(other)
+    refused = run(copied)
     assert refused.returncode == 1 and "exists already" in refused.stderr

@@ -225,16 +225,16 @@ def test_the_function_between_may_set_values_and_end_the_run() -> None:
 def test_the_function_between_is_called_at_a_rate_and_at_the_end(
     every: float, takes: float, calls: list[int]
 ) -> None:
-    one, now, seen = session(), [0.0], list[float]()
+    live, clock, seen = session(), [0.0], list[float]()
 
     def sleep(seconds: float) -> None:
-        now[0] += seconds
+        clock[0] += seconds
 
     def between() -> None:
-        seen.append(one.time)
-        now[0] += takes
+        seen.append(live.time)
+        clock[0] += takes
 
-    run_live(one, 200, between=between, between_every=every, pace=Pace(lambda: now[0], sleep))
+    run_live(live, 200, between=between, between_every=every, pace=Pace(lambda: clock[0], sleep))
     assert len(seen) == len(calls) and np.abs(np.array(seen) - calls).max() <= 1000 * takes + 2
 
 

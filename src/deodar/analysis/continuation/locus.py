@@ -49,7 +49,7 @@ class Locus(Summarised, SavedAnalysis):
     frequencies: np.ndarray = field(default_factory=lambda: np.zeros(0), repr=False)
 
     def _summary(self) -> Summary:
-        points = [(p.kind, *(f"{value:.6g}" for value in p.values)) for p in self.points]
+        points = [(p.kind, *(f"{number:.6g}" for number in p.values)) for p in self.points]
         return Summary(f"{self.of} over {' and '.join(self.parameters)}, {len(self.values)} points", points)
 
     def over(self, first: str, second: str) -> Locus:

@@ -54,7 +54,7 @@ def regime_map(
         ParameterError: changing a parameter needs another program, or its values are no axis of a map.
         UnknownName: a path is unknown.
     """
-    finished, shown = 0, use_resources(on, "dd.regime_map", "progress").progress
+    finished, progress = 0, use_resources(on, "dd.regime_map", "progress").progress
     request = requested(model, over, field, strength, options)
     protocol = RegimeProtocol(request)
 
@@ -64,6 +64,6 @@ def regime_map(
         return protocol.run(labels, cells, lambda done: tell(before + done, before + len(cells)))
 
     first, second = (len(values) for values in request.values)
-    with telling(shown, "regime map", "cells") as tell:
+    with telling(progress, "regime map", "cells") as tell:
         labels, computed = (grid.refined if refine else grid.every)((first, second), compute)
     return RegimeMap.of(model, request, labels, computed)

@@ -81,7 +81,7 @@ class CandidateJudge:
         for a, b in self.pairs:
             self.pairs[a, b] = max(self.pairs[a, b], float(np.minimum(margins[:, a], margins[:, b]).max()))
         margin = float(self.best_margins.min())
-        self._tell(self.measured, what=f"{what}, margin {margin:.2g}", margin=margin)
+        self._tell(self.measured, stage=f"{what}, margin {margin:.2g}", margin=margin)
 
     def values(self, candidate: np.ndarray) -> list[float | None]:
         """Return the measured value of each requirement of one candidate."""

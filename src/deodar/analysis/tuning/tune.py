@@ -71,9 +71,9 @@ def tune(
         UnknownName: a path is unknown.
         MissingExtra: the package cma is not installed.
     """
-    shown = use_resources(on, "dd.tune", "progress").progress
+    progress = use_resources(on, "dd.tune", "progress").progress
     request = requested(model, parameters, requirements, field, bounds, options)
-    with telling(shown, "tuning", "candidates") as tell:
+    with telling(progress, "tuning", "candidates") as tell:
         return _tuned(CandidateJudge(request, tell))
 
 
