@@ -85,6 +85,7 @@ SCRIPT = [
     "load_mat",
     "draw",
     "quote",
+    "studio",
     "use_cores",
     "join_hosts",
     "use_separate_rounding",

@@ -150,7 +150,7 @@ def test_a_field_that_is_not_finite_meets_nothing():
         (lambda: dd.forgets(within=1), "at is None"),
         (lambda: dd.forgets(at=1), "within is None"),
         (lambda: dd.remembers(strength=-2), "strength is -2"),
-        (lambda: dd.selects(dd.isolate(line(31), "u")), "strength is Isolated"),
+        (lambda: dd.selects(dd.isolate(line(31), "u")), "strength is <Isolated"),
     ],
 )
 def test_values_that_are_none_are_refused(call, message):
