@@ -51,11 +51,14 @@ def test_weights_of_8_bits_have_few_values_in_each_block() -> None:
 
 
 def test_neurons_are_divided_among_cores_without_gaps() -> None:
+    whole = graph()
     for limits in (ChipLimits("small", "", neurons_per_core=100), ChipLimits("w", "", sources_per_core=650)):
-        parts = fit(graph(), limits).parts
+        parts = fit(whole, limits).parts
         assert [p.start for p in parts] == [0, *(p.stop for p in parts[:-1])] and parts[-1].stop == 640
-    assert fit(graph(), ChipLimits("small", "", neurons_per_core=100)).cores == 7
-    assert not fit(graph(), ChipLimits("tiny", "", neurons_per_core=100, cores=6)).fits
+    assert fit(whole, ChipLimits("small", "", neurons_per_core=100)).cores == 7
+    assert not fit(whole, ChipLimits("tiny", "", neurons_per_core=100, cores=6)).fits
+    for bits, cores in ((50_000, 7), (100_000, 4)):  # of 312,600 synapses
+        assert fit(whole, ChipLimits("bits", "", synapse_bits_per_core=bits)).cores == cores
 
 
 def test_neurons_with_too_many_synapses_are_named() -> None:

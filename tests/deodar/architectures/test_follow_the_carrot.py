@@ -79,6 +79,7 @@ def test_a_run_stops_at_the_limit_of_steps():
 def test_parameters_out_of_range_are_refused():
     with pytest.raises(ParameterError, match="above 0"):
         Carrot(speed=0)
+    assert Carrot(speed=0.5, gain=0.5, ahead=0) == Carrot(0.5, 0.5, 0)
 
 
 def test_lengths_for_cm_are_refused_in_an_arena_in_m():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 
 import deodar as dd
 from deodar.cli import main
+from deodar.cli._options import pair
 from deodar.recording import files
 from deodar.recording.record import about
 
@@ -49,6 +51,12 @@ def test_a_run_uses_one_core_by_default_and_a_repetition_those_of_the_record(fol
     status, says = run("run", "two", "--out", "less", "--cores", "1")
     assert status == 0 and "cores: 2 then, 1 now" in says
     assert main(["run", "small.json", "--duration", "5", "--cores", "0"]) == 1
+
+
+@pytest.mark.parametrize("text", ["u.tau", "=3", "u.tau="])
+def test_a_setting_without_path_or_number_is_refused(text: str) -> None:
+    with pytest.raises(argparse.ArgumentTypeError, match="is not of the form PATH=VALUE"):
+        pair(text)
 
 
 def test_workers_share_trials(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -145,6 +145,10 @@ def test_an_ungrouped_or_removed_group_is_no_longer_linked() -> None:
         model.refresh(template())
     with pytest.raises(UnknownName, match="Did you mean 'switch'"):
         host().refresh(dd.Model("swich"))
+    model = host()
+    model.insert(dd.Model("memory"), "third", link=True)
+    with pytest.raises(UnknownName, match="Did you mean 'memory'"):
+        model.refresh(dd.Model("memery"))
 
 
 def test_a_refresh_can_be_undone() -> None:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
 from deodar_papers.pointing import narrative
+from deodar_papers.pointing.cycle import PointingCycle
+from deodar_papers.pointing.table import Moment
 from tests.command_line import typed
 
 
@@ -34,3 +37,12 @@ def test_an_object_that_is_not_there_and_words_that_are_no_cue(
     assert narrative.sentence(record) == "red right: no peak."
     wrong = typed("demo pointing --ask 'purple left'")
     assert wrong.status != 0 and "--ask 'green left'" in wrong.words
+
+
+def test_the_distance_is_that_from_the_object_of_the_present_cycle() -> None:
+    first, second = narrative.discs()[:2]
+    cycles = [PointingCycle(object=first), PointingCycle(object=second)]
+    moments = [Moment(t, 0, 0, 0, (), (first.x, first.y)) for t in (500.0, 1500.0, 2500.0)]
+    between = math.hypot(first.x - second.x, first.y - second.y)
+    record = narrative.Pointed([], cycles, [1.0, 2.0], moments=moments)
+    assert narrative.distance(record) == pytest.approx([math.nan, 0, between], nan_ok=True)

@@ -219,7 +219,7 @@ def test_requirements_that_contradict_each_other_are_refused(requirements, messa
         (line(31), (["u.resting_leve"], [dd.rests()]), UnknownName, "Did you mean 'resting_level'"),
         (line(31), (["u.sigmoid"], [dd.rests()]), ParameterError, "is not one number"),
         (line(31), (["u.noise"], [dd.rests()]), ParameterError, "bounds cannot be guessed"),
-        (line(31), (["u.tau"], [dd.rests()]), AnalysisError, "changes no regime"),
+        (line(31), ([LEVEL, "u.tau"], [dd.rests()]), AnalysisError, "changes no regime"),
         (node(), ([LEVEL], [dd.selects()]), AnalysisError, "has no meaning on a node"),
     ],
 )
