@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.batch.points import SweepPoints
 from deodar.errors import RunWarning
 from deodar.recording import repeat
 
@@ -41,6 +42,11 @@ def run(sweep: dd.Points, trials: int | None = None, **used: int) -> np.ndarray:
         node(), 20, record="n.activation", trials=trials, sweep=sweep, precision="float64", on=on
     )
     return record["n.activation"].values
+
+
+def test_a_grid_has_each_combination_once() -> None:
+    grid = SweepPoints(node().document, {"n.resting_level": [-1, -2], "s.amplitude": [3, 4, 5]})
+    assert np.stack(grid.values).tolist() == [[-1, -1, -1, -2, -2, -2], [3, 4, 5, 3, 4, 5]]
 
 
 def test_each_point_has_its_values_and_its_coordinates() -> None:

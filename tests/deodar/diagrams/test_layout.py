@@ -163,7 +163,7 @@ def test_given_positions_are_kept():
     graph = Graph(
         "g",
         (Item("a", "field", "a"), Item("b", "node", "b", group=("g",))),
-        (Wire("b", "a", captions=("× 2",)),),
+        (Wire("b", "a", captions=("× 2",)), Wire("b", "a")),
         {("g",): ""},
         {"a": (300, 40), "b": (0, 0)},
     )
@@ -176,6 +176,8 @@ def test_given_positions_are_kept():
         and x + w > routes.boxes["b"][0] + drawn["b"].box.width
         and y < routes.boxes["b"][1] < y + h
     )
+    centre = routes.boxes["a"][1] + drawn["a"].box.top + drawn["a"].box.body / 2
+    assert sum(routes.runs[w][-1].y for w in (0, 1)) / 2 == pytest.approx(centre)
     part = Graph("g", graph.items, graph.wires, graph.groups, {"a": (300, 40)})
     assert paint.lay_out(part)[1].boxes["a"][0] > paint.lay_out(part)[1].boxes["b"][0], (
         "laid out again where not all have a place"

@@ -82,6 +82,12 @@ def test_events_before_the_damage_are_used(tmp_path: Path) -> None:
             dd.EventFile(path)
 
 
+def test_a_file_with_more_events_than_are_read_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(aedat4, "MOST_EVENTS", 10)
+    with pytest.raises(WorldError, match=r"plain\.aedat4: holds more than 10 events"):
+        dd.EventFile(HERE / "plain.aedat4")
+
+
 def test_a_file_that_ends_the_process_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     killer = tmp_path / "aedat.py"
     killer.write_text("import os\n\n\ndef Decoder(path):\n    os.abort()\n")

@@ -266,6 +266,26 @@ def test_a_connection_that_cedar_refuses_states_its_reason_and_stops_the_field(t
     assert np.all(record["u.activation"].values == -2)
 
 
+def test_a_step_that_cedar_does_not_run_states_all_its_time_scales(tmp_path):
+    steps = {
+        FIELD: {**LINE, "name": "u"},
+        "cedar.dynamics.Preshape": {**LINE, "sizes": ["30"], "name": "trace"},
+    }
+    wires = [{"source": "u.sigmoided activation", "target": "trace.input"}]
+    done = opened({"steps": steps, "connections": wires}, tmp_path)
+    assert any("of the file, tau_build is 100, tau_decay is 1000" in text for text in why(done, "trace"))
+
+
+def test_a_time_scale_of_a_position_that_jumps_is_without_effect(tmp_path):
+    steps = {
+        FIELD: {**LINE, "name": "u"},
+        "cedar.dynamics.SpaceToRateCode": {"name": "rate", "tau": "400 ms", "use cyclic mean": "true"},
+    }
+    wires = [{"source": "u.sigmoided activation", "target": "rate.input"}]
+    done = opened({"steps": steps, "connections": wires}, tmp_path)
+    assert "without effect: the output jumps to the position" in why(done, "rate", "parameter")
+
+
 def test_a_kernel_longer_than_the_field_stops_it_with_fftw_and_its_readers_get_zero(tmp_path):
     fourier = {"engine": {"type": "cedar.aux.conv.FFTW"}}
     small = {"name": "small", "dimensionality": "1", "sizes": ["9"], "lateral kernel convolution": fourier}

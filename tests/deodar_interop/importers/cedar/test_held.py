@@ -46,6 +46,13 @@ def test_a_parameter_holds_the_number_with_its_unit_and_sign(name, parameter, le
     assert (found.leaf, found.sign, found.value) == (leaf, sign, pytest.approx(number))
 
 
+def test_a_kernel_without_a_common_cutoff_has_a_reach_on_each_axis():
+    m = Model()
+    m.field("u", (12, 60), lateral_kernels=Many([gauss(1.0, [0.45, 10.0])]))
+    (kernel,) = parts(m)[1]["u",].element.kernel
+    assert (kernel.cutoff, kernel.least) == (0, (1, 25))
+
+
 @pytest.mark.parametrize(
     ("name", "parameter"),
     [

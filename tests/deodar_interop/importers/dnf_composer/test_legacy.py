@@ -9,7 +9,7 @@ import pytest
 import deodar as dd
 from deodar.elements.placeholder import Placeholder
 from deodar.importers.opening import read
-from tests.deodar_interop.importers.dnf_composer.files import BELL, FIELD, KERNEL, element, written
+from tests.deodar_interop.importers.dnf_composer.files import BELL, FIELD, KERNEL, element, plane, written
 
 OLD_HAT = {
     "sigmaExc": 1.0,
@@ -41,6 +41,15 @@ def model_of(kernel, bell, folder, bare=False):
         ),
         ("lateral interactions", OLD_HAT, "mexican hat kernel", {**HAT, **SWITCHES}),
         ("lateral interactions", HAT, "mexican hat kernel", {**HAT, **SWITCHES}),
+        (
+            "mexican hat kernel",
+            {},
+            "mexican hat kernel",
+            {
+                **{"amplitudeExc": 11.0, "widthExc": 2.5, "amplitudeInh": 15.0, "widthInh": 5.0},
+                **{"amplitudeGlobal": 0.0, **SWITCHES},
+            },
+        ),
         (
             "asymmetric gauss kernel",
             {},
@@ -116,6 +125,13 @@ def test_an_activation_function_without_a_value_takes_the_default(tmp_path):
     done = read(written(tmp_path, [element("u", "neural field", {**FIELD, "activationFunction": function})]))
     assert done.model["u"].element.sigmoid == dd.Absolute(100.0, 0.5)
     assert "beta 100" in done.report.losses[0].why
+
+
+def test_a_stimulus_over_a_plane_without_an_amplitude_takes_the_default(tmp_path):
+    bell = {**BELL, "position_x": 5.0, "position_y": 2.0}
+    del bell["amplitude"]
+    done = read(written(tmp_path, [plane("s", "gauss stimulus 2d", bell)]))
+    assert done.model["s"].element.amplitude == 15
 
 
 def test_a_time_constant_below_the_step_is_raised_to_it(tmp_path):
