@@ -124,3 +124,14 @@ def test_a_document_parameter_and_a_parameter_never_share_a_path() -> None:
     for change in (lambda: model.add(dd.Field("v", [])), lambda: model.rename("u", "v")):
         with pytest.raises(ModelError, match=r"document parameter is called .v\.tau."):
             change()
+
+
+def test_a_long_chain_in_any_order_of_its_elements_has_axes() -> None:
+    model, count = dd.Model("chain"), 400
+    for k in range(count):
+        model.add(dd.Gain(1.0, name=f"g{k}"))
+    model.add(dd.Field("u", [X]))
+    for k in range(1, count):
+        model.connect(f"g{k}", f"g{k - 1}")
+    model.connect("u", f"g{count - 1}")
+    assert not problems(model.document)

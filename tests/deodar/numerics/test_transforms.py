@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import math
 
 import jax
 import jax.numpy as jnp
@@ -12,7 +13,7 @@ import pytest
 from jax import Array
 
 from deodar.numerics.axes import Axis
-from deodar.numerics.choice import by_waves, together
+from deodar.numerics.choice import Shards, by_waves, together
 from deodar.numerics.transforms import from_waves, to_waves
 from deodar.numerics.waves import Waves
 
@@ -153,5 +154,8 @@ def test_lines_fold_in_batches_and_volumes_along_their_first_axis() -> None:
 
 def test_shared_modes_are_folded() -> None:
     axes = tuple(Axis(name, 0, 99, 100) for name in "xy")
-    choice = together(axes, ("periodic", "periodic"), ((2.0, 5.0), (2.0, 5.0)), 16)
+    widths = (2.0, 5.0), (2.0, 5.0)
+    choice = together(axes, ("periodic", "periodic"), widths, 16)
     assert choice.method == "waves" and [w.classes for w in choice.waves] == [4, 1]
+    divided = together(axes, ("periodic", "periodic"), widths, 16, Shards("y", 100, 2))
+    assert divided.method == "waves" and choice.nanoseconds < divided.nanoseconds < math.inf
