@@ -162,3 +162,10 @@ def test_a_field_of_four_dimensions_is_written_without_its_kernel():
     m = model_of(dd.Field("u", axes, kernel=[dd.Gaussian(1, 2)]))
     assert [kind for _, kind, _, _ in elements(write(m, "f").content)] == ["NeuralField"]
     assert ("u", "parameter", "kernel", "dropped") in lost(m)
+
+
+def test_a_factor_behind_a_register_is_a_connection_that_is_listed_twice():
+    m = model_of(dd.Field("u", [X]), dd.Field("v", [X]))
+    m["u"] >> dd.Delay([X], name="u before") >> dd.Gain(2.0, name="u 2 times to v") >> m["v"]
+    inputs = {label: listed for label, _, _, listed in elements(write(m, "file.json").content)}
+    assert inputs == {"u": [], "u before": [("u", "output")], "v": [("u before", "output")] * 2}
