@@ -243,6 +243,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_the_command_prints_and_draws(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["regimes", "m.json", "u"]) == 0
     page = capsys.readouterr().out
+    assert "tau 10 ms, resting level -5\n" in page
     assert "detection threshold" in page and "selective" in page and "m-regimes-001.png" in page
     with Image.open(folder / "m-regimes-001.png") as picture:
         assert picture.size[0] > 800

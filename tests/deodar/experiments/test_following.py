@@ -10,7 +10,7 @@ import pytest
 
 from deodar import codec
 from deodar.errors import RecordError
-from deodar.experiments.following import RowsTail, standing
+from deodar.experiments.following import QUIET_SECONDS, RowsTail, RowsWriter, standing
 from deodar.experiments.rows import Rows
 
 
@@ -77,3 +77,10 @@ def test_a_file_that_holds_no_rows_is_an_error(tmp_path: Path) -> None:
         (tmp_path / "other").write_text(text)
         with pytest.raises(RecordError, match="its rows cannot be read"):
             RowsTail(tmp_path / "other").new()
+
+
+def test_rows_that_arrive_show_a_process_whose_lock_is_not_seen() -> None:
+    writer, moment = RowsWriter(), 100.0
+    assert not writer.runs(None, False, moment)
+    assert writer.runs(None, True, moment) and writer.runs(None, False, moment + 0.9 * QUIET_SECONDS)
+    assert not writer.runs(None, False, moment + QUIET_SECONDS)

@@ -38,6 +38,9 @@ def test_the_figure_shows_arena_and_paths_to_scale(walked: xarray.DataArray) -> 
         assert any(len(line) == 26 and np.allclose(line, walked.values[trial, :, :2]) for line in drawn)
     assert len([p for p in axes.patches if p.get_width() > 0.05 and type(p).__name__ == "Rectangle"]) >= 4  # type: ignore[attr-defined]
     assert axes.get_xlabel() == "x (m)"
+    assert [tuple(line.get_xydata()[0]) for line in axes.get_lines() if line.get_marker() == "+"] == [
+        pytest.approx(goal) for goal in Arena("blocks").goals
+    ]
     (alone,) = path.path_figure(walked, trial=1).axes
     assert len([line for line in alone.get_lines() if len(np.asarray(line.get_xydata())) == 26]) == 1
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 import pytest
 
 import deodar as dd
@@ -100,6 +101,19 @@ def test_a_new_change_discards_undone_changes() -> None:
     model.set("g.u.resting_level", -3)
     assert not model.redo()
     assert model.get("g.u.resting_level") == -3
+
+
+def test_an_axis_is_replaced_in_the_parts_that_have_it_and_in_no_other() -> None:
+    y, finer = dd.Axis("y", 0, 1, samples=3), dd.Axis("y", 0, 1, samples=5)
+    model = make()
+    model.add(dd.AxisWeights(np.ones((11, 3)), X, "y", name="onto x"))
+    model.add(dd.AxisWeights(np.ones((3, 11)), y, "x", name="onto y"))
+    x = dd.Axis("x", 0, 20, samples=11)
+    model.commit(edit.replace_axis(model.document, X, x))
+    assert model.get("onto x.axis") == x and model.get("onto y.axis") == y
+    assert model.get("g.u.axes") == (x,)
+    with pytest.raises(ModelError, match="no element has the axis y"):
+        edit.replace_axis(make().document, y, finer)
 
 
 REFUSED: dict[str, tuple[type[DeodarError], Callable[[dd.Model], object]]] = {

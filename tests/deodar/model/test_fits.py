@@ -14,6 +14,7 @@ from deodar.model.building import Around
 from deodar.model.check import problems
 from deodar.model.document import Document, Entry
 from deodar.model.model import Model
+from deodar.model.resolve import misfit
 from deodar.numerics.axes import Axes
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -23,6 +24,11 @@ X, Y, HALF = (
     dd.Axis("x", 0, 50, samples=51),
 )
 HUE, SUM = dd.Axis("hue", 0, 360, samples=36, periodic=True), dd.Axis("sum", 0, 200, samples=151)
+
+
+def test_axes_fit_only_if_each_of_the_same_name_does() -> None:
+    assert misfit((X, Y), (X, dd.Axis("y", 0, 50, samples=51))) == "bounds, unit or periodicity of 'y' differ"
+    assert misfit((X, Y), (Y, X)) == ""
 
 
 def name(axis: dd.Axis) -> str:

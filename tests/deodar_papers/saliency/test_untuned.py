@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from importlib import resources
 
-from deodar_papers.saliency.scenes import NEAR, Cue, photographs, run_scene
+from deodar_papers.saliency.scenes import NEAR, Cue, Found, photographs, run_scene
 from deodar_papers.saliency.targets import claims, totals
 
 FOLDER = resources.files("deodar_papers.saliency") / "photographs"
@@ -20,6 +20,12 @@ def test_each_photograph_has_a_present_and_an_absent_cue_and_marks_inside_the_pi
         assert [c.expect for c in scene.cues] == ["present", "absent"] and not scene.tuned
         for outline in scene.cues[0].outlines:
             assert len(outline) >= 3 and all(0 <= x <= width and 0 <= y <= height for x, y in outline)
+
+
+def test_a_field_at_the_threshold_is_not_below_it() -> None:
+    scene = photographs(untuned=True)[0]
+    holds = [claims(Found(scene=scene, quiet=quiet))[0].holds for quiet in (None, -0.5, 0.0, 0.5)]
+    assert holds == [None, True, False, False]
 
 
 def test_marked_regions_do_not_cover_most_of_a_picture() -> None:

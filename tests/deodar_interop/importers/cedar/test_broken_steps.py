@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
@@ -61,6 +63,24 @@ def test_a_step_that_cedar_does_not_run_states_the_reason(kind, more, reads, put
     text = between(kind, more, reads, puts, LINE)
     assert why in why_of(text)[0]
     assert "step" in invalid(text)[0]
+
+
+def test_a_picture_is_converted_from_blue_green_and_red():
+    m = Model()
+    m.add("ConstMatrix", "picture", {"sizes": [2, 4, 3], "value": 51})
+    body = json.loads(m.text())
+    body["steps"]["cedar.processing.steps.ColorConversion"] = {"name": "step"}
+    body["connections"] = [{"source": "picture.matrix", "target": "step.input image"}]
+    done = translate.read(written(body).encode(), "file.json")
+    record = dd.simulate(done.model, 10, dt=10, record=["step.output"])
+    assert record["step.output"].values[-1, 1, 3].tolist() == pytest.approx([0, 0, 51])
+
+
+def test_limits_that_cross_are_a_placeholder_where_one_has_a_replacement():
+    more = {"lower limit": 0.5, "upper limit": 0.3, "replace lower limit": True}
+    reason, model = why_of(between("Clamp", more, {"input": LINE}, "thresholded input", LINE))
+    assert "which of its limits comes first is not documented" in reason
+    assert isinstance(model["step"].element, dd.Placeholder)
 
 
 @pytest.mark.parametrize(("more", "size", "why"), UNKNOWN)

@@ -243,11 +243,13 @@ def test_keys_that_occur_twice_are_reported_with_the_value_in_use(tmp_path):
     assert done.model["u"].element.tau == 20 and done.model.document.dt == 1
 
 
-def test_a_single_element_may_be_given_without_a_list(tmp_path):
-    document = json.loads(text([element("u", "NeuralField", FIELD)]))
+@pytest.mark.parametrize("param", [FIELD | {"tau": 35}, [FIELD | {"tau": 35}]], ids=["object", "list"])
+def test_a_single_element_may_be_given_without_a_list_and_parameters_in_one(param, tmp_path):
+    document = json.loads(text([element("u", "NeuralField", param)]))
     document["simulator"]["elements"] = document["simulator"]["elements"][0]
     (tmp_path / "one.json").write_text(json.dumps(document))
-    assert len(dd.load(tmp_path / "one.json").document.entries) == 1
+    [entry] = dd.load(tmp_path / "one.json").document.entries
+    assert entry.element.tau == 35
 
 
 def test_wrong_values_are_reported_and_replaced(tmp_path):

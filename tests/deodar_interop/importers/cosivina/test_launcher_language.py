@@ -70,6 +70,8 @@ def labels(text):
         ("strcat('a ', 'b')", "ab"),
         ("upper('ab')", "AB"),
         ("strrep('u -> u', 'u', 'w')", "w -> w"),
+        ("strjoin({'a', 'b'}, '+')", "a+b"),
+        ("strjoin({'a', 'b'})", "a b"),
         ("{'a', 3}", ["a", 3]),
         ("{'a' 'b'\n'c' 'd'}", ["a", "b", "c", "d"]),
         ("cellstr([repmat('u', [3, 1]), num2str((1:3)')])", ["u1", "u2", "u3"]),
