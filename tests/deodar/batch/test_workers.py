@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import pickle
 import platform
 import signal
 import subprocess
@@ -285,6 +286,22 @@ class Locked(World):
 
     def __reduce__(self) -> str:
         raise TypeError("it is bolted to the floor")
+
+
+class Paired(Exception):
+    """An error that is restored only with two arguments."""
+
+    def __init__(self, first: str, second: str) -> None:
+        super().__init__(first + second)
+
+
+def test_an_error_that_cannot_be_restored_is_named() -> None:
+    def fail() -> None:
+        raise Paired("a", "b")
+
+    success, error = pickle.loads(pool.done(fail, ()))
+    assert not success and isinstance(error, dd.errors.WorkerError)
+    assert str(error).startswith("the error Paired (ab) of a worker cannot be sent to another process (TypeError")
 
 
 def test_a_value_that_cannot_be_pickled_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,6 +9,7 @@ import deodar as dd
 from deodar.errors import ParameterError, TimeError, WorldError
 from deodar.experiments.actions import Move, Place, Remove, Set
 from deodar.experiments.events import Crosses, Leaves, Within
+from deodar.experiments.trial_samples import Stops
 from tests.deodar.experiments.calls import run_alone
 from tests.deodar.experiments.robots import decider, room, straight
 
@@ -38,6 +39,11 @@ def test_an_event_may_require_several_samples_and_need_not_end_the_trial():
     assert course.events["reached"] == once + 9
     assert course.events["moved"] == pytest.approx(np.ceil(2.5 / 0.4122), abs=1)
     assert course.outcome == "touched" and course.events["touched"] > course.events["reached"]
+
+
+def test_trials_run_on_to_the_last_of_several_samples_and_to_the_limit():
+    stops = Stops(10, 85, looks=3)
+    assert [stops.after(tick, []) for tick in (0, 25, 40, 60, 80)] == [30, 50, 70, 80, 85]
 
 
 def test_the_limit_ends_a_trial_without_another_end():

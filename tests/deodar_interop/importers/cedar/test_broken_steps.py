@@ -77,8 +77,8 @@ def test_a_picture_is_converted_from_blue_green_and_red():
 
 
 def test_limits_that_cross_are_a_placeholder_where_one_has_a_replacement():
-    more = {"lower limit": 0.5, "upper limit": 0.3, "replace lower limit": True}
-    reason, model = why_of(between("Clamp", more, {"input": LINE}, "thresholded input", LINE))
+    limits = {"lower limit": 0.5, "upper limit": 0.3, "replace lower limit": True}
+    reason, model = why_of(between("Clamp", limits, {"input": LINE}, "thresholded input", LINE))
     assert "which of its limits comes first is not documented" in reason
     assert isinstance(model["step"].element, dd.Placeholder)
 
