@@ -8,6 +8,7 @@ import json
 import pickle
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -464,3 +465,22 @@ def test_the_command_resumes_and_answers_in_json(
     with pytest.raises(SystemExit):
         main(["run", "run", "--resume", "--seed", "4"])
     assert "--seed cannot be given" in capsys.readouterr().err
+
+
+def test_states_are_stored_as_often_as_requested(monkeypatch: pytest.MonkeyPatch) -> None:
+    part: Any = SimpleNamespace(begun=False, snapshots=20.0)
+    piece, run = (
+        RecordedPiece(part, lambda message: None),
+        SimpleNamespace(program=SimpleNamespace(across=False)),
+    )
+    piece.plan = SimpleNamespace(sampling=SimpleNamespace(dt=0.5))  # type: ignore[assignment]
+    stored = list[int]()
+
+    def save(piece: RecordedPiece, run: Any, done: int) -> None:
+        stored.append(done)
+        piece._saved_at = done
+
+    monkeypatch.setattr(RecordedPiece, "_save", save)
+    for done in range(10, 130, 10):
+        piece._save_if_due(run, done)  # type: ignore[arg-type]
+    assert stored == [40, 80, 120]

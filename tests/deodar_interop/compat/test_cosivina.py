@@ -224,6 +224,16 @@ def test_parameters_change_while_it_runs_and_states_stay(tmp_path):
     assert sim.getComponent("stimulus 1", "output").max() == pytest.approx(2.5)
 
 
+def test_elements_are_closed_only_on_request(monkeypatch):
+    closed = []
+    monkeypatch.setattr(Simulator, "close", lambda sim: closed.append(sim))
+    sim = Simulator()
+    sim.run(0)
+    assert closed == []
+    sim.run(0, closeWhenFinished=True)
+    assert closed == [sim]
+
+
 def test_settings_are_loaded_by_label_and_class_without_sizes(tmp_path):
     parts = [
         element("field u", "NeuralField", {"size": [1, 7], "tau": 33, "h": -2, "beta": 1}),

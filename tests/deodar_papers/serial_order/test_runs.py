@@ -18,6 +18,7 @@ from deodar_papers.serial_order.reasons import reason
 from deodar_papers.serial_order.runs import ABSENT, FAR, Settings, TaughtRun, found, read_weights, run_many
 from deodar_papers.serial_order.targets import in_order, ordered
 from deodar_papers.serial_order.teaching import lesson
+from deodar_papers.serial_order.world import SIDES, world
 
 
 def test_a_sequence_with_a_repeated_colour_is_taught_and_produced_on_the_ring() -> None:
@@ -28,6 +29,13 @@ def test_a_sequence_with_a_repeated_colour_is_taught_and_produced_on_the_ring() 
     assert len(row["transitions"]) == 4
     # sampled every 20 ms: only the order of what is far apart
     assert all(t[4] is not None and t[0] <= 0 < t[4] for t in row["transitions"])
+
+
+def test_a_world_has_a_place_for_each_block_that_is_shown_and_no_other() -> None:
+    arena = SearchArena(600.0, (), (0.0, 0.0, 1.0))
+    names = {slot.name for slot in world([arena], [lesson("GR", 3, 2.0)[0]], 1e4).objects.slots if slot}
+    shown = {f"shown {k} at the {side}" for k in (0, 1) for side in SIDES}
+    assert {name for name in names if name.startswith("shown")} == shown
 
 
 def test_the_weights_of_a_lesson_have_its_colours_in_order() -> None:
