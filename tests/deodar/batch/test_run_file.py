@@ -469,10 +469,8 @@ def test_the_command_resumes_and_answers_in_json(
 
 def test_states_are_stored_as_often_as_requested(monkeypatch: pytest.MonkeyPatch) -> None:
     part: Any = SimpleNamespace(begun=False, snapshots=20.0)
-    piece, run = (
-        RecordedPiece(part, lambda message: None),
-        SimpleNamespace(program=SimpleNamespace(across=False)),
-    )
+    run: Any = SimpleNamespace(program=SimpleNamespace(across=False))
+    piece = RecordedPiece(part, lambda message: None)
     piece.plan = SimpleNamespace(sampling=SimpleNamespace(dt=0.5))  # type: ignore[assignment]
     stored = list[int]()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
+from dataclasses import replace
 from typing import Any
 
 import gymnasium
@@ -15,6 +16,7 @@ from gymnasium.wrappers import FlattenObservation
 from gymnasium.wrappers.vector import RecordEpisodeStatistics
 
 import deodar as dd
+from deodar.compiler.program import BEGUN
 from deodar.errors import MissingExtra, NotFinite, ParameterError, WorldError
 
 WHEELS = {"left.amplitude": (-400.0, 400.0), "right.amplitude": (-400.0, 400.0)}
@@ -166,6 +168,10 @@ def test_a_copy_begins_another_episode_at_its_own_time():
                 step += 1
     ends = np.array([s[2] for s in seen])
     assert ends[:, 1].sum() > 2 and not ends[:, 0].any(), "one copy ends by its event, the other by the limit"
+    copies = env._episodes._copies
+    copies._run.clock = replace(copies._run.clock, tick=2**32 + 7)
+    copies.restart(np.array([False, True]), [0, 1])
+    assert np.array(copies._run.keys[BEGUN])[1] == 7, "ticks are counted modulo 2**32"
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
