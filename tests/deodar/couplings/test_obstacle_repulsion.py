@@ -42,6 +42,8 @@ def test_forces_add_up_and_parameters_scale_them() -> None:
 
 
 def test_nothing_in_reach_exerts_no_force() -> None:
+    angles = dd.ObstacleRepulsion.example().angles.data  # type: ignore[attr-defined]
+    assert np.array_equal(angles, np.arange(-90.0, 91.0, 9.0))
     assert force([FAR] * 6) == pytest.approx(0.0, abs=1e-12)
 
 

@@ -34,8 +34,8 @@ def test_a_sequence_with_a_repeated_colour_is_taught_and_produced_on_the_ring() 
 def test_a_world_has_a_place_for_each_block_that_is_shown_and_no_other() -> None:
     arena = SearchArena(600.0, (), (0.0, 0.0, 1.0))
     names = {slot.name for slot in world([arena], [lesson("GR", 3, 2.0)[0]], 1e4).objects.slots if slot}
-    shown = {f"shown {k} at the {side}" for k in (0, 1) for side in SIDES}
-    assert {name for name in names if name.startswith("shown")} == shown
+    places = {f"shown {k} at the {side}" for k in (0, 1) for side in SIDES}
+    assert {name for name in names if name.startswith("shown")} == places
 
 
 def test_the_weights_of_a_lesson_have_its_colours_in_order() -> None:

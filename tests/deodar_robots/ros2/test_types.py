@@ -12,6 +12,7 @@ from PIL import Image
 
 import deodar as dd
 from deodar.errors import WorldError
+from deodar_robots.ros2 import example_node
 from deodar_robots.ros2.message_types import Unreadable, from_bytes, to_bytes
 from deodar_robots.ros2.motor_types import commands
 from deodar_robots.ros2.sensor_types import SENSOR_TYPES, readings
@@ -175,6 +176,12 @@ def test_odometry_is_the_pose_in_the_plane_or_chosen_fields():
     assert read(raw, "nav_msgs/Odometry", fields=["linear.x", "angular.z"]).tolist() == [0.5, -0.25]
     with pytest.raises(Unreadable, match="its orientation has the length 0, not 1"):
         read(odometry((0, 0, 0, 0)), "nav_msgs/Odometry")
+
+
+def test_the_example_node_is_at_rest():
+    fields = ["x", "y", "z", "yaw", *(f"{of}.{axis}" for of in ("linear", "angular") for axis in "xyz")]
+    raw = example_node.odometry(0.5, -0.25)
+    assert read(raw, "nav_msgs/Odometry", fields=fields).tolist() == [0.5, -0.25, *[0] * 8]
 
 
 def test_angles_are_those_of_rotations_about_fixed_axes():

@@ -271,7 +271,10 @@ def test_a_plane_too_large_for_one_matrix_is_resampled_along_each_axis(tmp_path,
     for method in range(3):
         worst, done = compared(MODELS[f"resize 2d {method}"], tmp_path)
         assert worst < 1e-12
-    assert "Product" in {type(e.element).__name__ for e in done.model.document.entries}
+    doc = done.model.document
+    assert "Product" in {type(e.element).__name__ for e in doc.entries}
+    projections = {e.id for e in doc.entries if isinstance(e.element, dd.Project)}
+    assert projections and projections <= {c.source for c in doc.connections}
 
 
 def test_components_of_an_element_are_read_by_others(tmp_path):
