@@ -283,10 +283,16 @@ def test_the_interval_of_a_threshold_holds_the_instability_at_every_accuracy() -
         isolated = isolate(node, precision=precision)
         for accuracy in accuracies:
             measured = thresholds(isolated, accuracy=accuracy)
-            for name, value in exact.items():
+            for name, exactly in exact.items():
                 low, high = getattr(measured, name).interval
-                assert low <= value <= high, (precision, accuracy, name, low - value, high - value)
-                assert high - low <= 1.5 * accuracy * max(abs(value), 0.01 * isolated.scale) + (
+                assert low <= exactly <= high, (
+                    precision,
+                    accuracy,
+                    name,
+                    low - threshold,
+                    high - threshold,
+                )
+                assert high - low <= 1.5 * accuracy * max(abs(threshold), 0.01 * isolated.scale) + (
                     2e-3 if precision == "float32" else 1.1e-5
                 )
 
