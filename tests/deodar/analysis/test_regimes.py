@@ -289,10 +289,10 @@ def test_the_interval_of_a_threshold_holds_the_instability_at_every_accuracy() -
                     precision,
                     accuracy,
                     name,
-                    low - threshold,
-                    high - threshold,
+                    low - exactly,
+                    high - exactly,
                 )
-                assert high - low <= 1.5 * accuracy * max(abs(threshold), 0.01 * isolated.scale) + (
+                assert high - low <= 1.5 * accuracy * max(abs(exactly), 0.01 * isolated.scale) + (
                     2e-3 if precision == "float32" else 1.1e-5
                 )
 
