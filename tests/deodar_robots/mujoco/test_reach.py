@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from deodar_robots.mujoco.mujoco import MuJoCo
+from deodar_robots.mujoco.reach import Arm
+from deodar_robots.mujoco.scene_file import simulator
 
 CORNERS = [(-0.35, 0.54), (0.35, 0.54), (0.35, 0.06), (-0.35, 0.06), (0.08, 0.06)]
 
@@ -16,6 +18,22 @@ def tool(world: MuJoCo) -> np.ndarray:
 
 def joints(world: MuJoCo) -> tuple[np.ndarray, np.ndarray]:
     return world.sense("joint_angles", (), 0.0)[0], world.sense("joint_velocities", (), 0.0)[0]
+
+
+FINGER = """
+<mujoco>
+  <worldbody>
+    <body>
+      <joint name="hinge"/>
+      <geom size="0.1"/>
+      <site name="%s"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <velocity joint="hinge" kv="2"/>
+  </actuator>
+</mujoco>
+"""
 
 
 @pytest.mark.parametrize("robot", MuJoCo.robots())
@@ -69,6 +87,13 @@ def test_limits_hold_whatever_is_commanded_and_whatever_pushes(robot):
         assert np.all(np.abs(v) <= arm.fastest * (1 + 1e-9))
         reached = np.maximum(reached, np.abs(v) / arm.fastest)
     assert reached.max() > 0.99, "the commands and pushes reach the limits"
+
+
+def test_an_arm_is_found_by_its_tool_even_if_that_is_the_first_site():
+    read = simulator().MjModel.from_xml_string
+    arm = Arm.find(read(FINGER % "tool"), {})
+    assert arm is not None and (arm.site, arm.lower.tolist()) == (0, [-np.inf])
+    assert Arm.find(read(FINGER % "tip"), {}) is None
 
 
 def test_a_target_out_of_reach_leaves_the_arm_stretched_and_still_and_it_comes_back():

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from deodar.numerics.axes import MOST_SAMPLES
+from deodar_interop.importers._axes import LengthAxes, SizeLimit
 from deodar_interop.importers.cosivina import file
 from deodar_interop.importers.cosivina.sizes import output_size
 from tests.deodar_interop.importers.cosivina.files import element, text
@@ -38,3 +40,11 @@ def test_the_size_of_an_output_follows_from_the_parameters(
 ) -> None:
     (parsed,) = file.parse(text([element("e", kind, param)]).encode()).elements
     assert output_size(parsed, component) == size
+
+
+def test_the_largest_axis_is_accepted_and_a_larger_one_is_not():
+    axes = LengthAxes(["y", "x"], [])
+    single, longest = axes.of((1, MOST_SAMPLES))
+    assert single is None and longest is not None and longest.samples == MOST_SAMPLES
+    with pytest.raises(SizeLimit):
+        axes.of((1, MOST_SAMPLES + 1))
