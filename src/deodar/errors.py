@@ -20,10 +20,10 @@ T = TypeVar("T")
 Severity = Literal["problem", "warning"]
 
 
-Place = Literal["script", "shell", "page"]
+Medium = Literal["script", "shell", "page"]
 """Where a message is read: a script or notebook, a shell that ran `deodar`, or the page of the studio."""
 
-PLACES: tuple[Place, ...] = ("script", "shell", "page")
+MEDIA: tuple[Medium, ...] = ("script", "shell", "page")
 
 
 class Fix(str):
@@ -47,14 +47,14 @@ class Fix(str):
         fix.shell, fix.page = shell or script, page or script
         return fix
 
-    def at(self, place: Place) -> str:
+    def at(self, place: Medium) -> str:
         """Return the text for a place."""
         return str(self) if place == "script" else getattr(self, place)
 
     def then(self, text: str) -> Fix:
         """Return this fix and another one, at each place."""
         second = text if isinstance(text, Fix) else Fix(text)
-        return Fix(*(joined(self.at(place), second.at(place)) for place in PLACES))
+        return Fix(*(joined(self.at(place), second.at(place)) for place in MEDIA))
 
 
 def option(advice: str, name: str, text: str, argument: str = "", page: str = "") -> Fix:
@@ -94,12 +94,12 @@ class Problem(Summarised):
     def __str__(self) -> str:
         return self.at("script")
 
-    def at(self, place: Place) -> str:
+    def at(self, place: Medium) -> str:
         """Return the message for a place."""
         text = f"{self.where}: {self.what}" if self.where else self.what
         return joined(text, self.fix_at(place))
 
-    def fix_at(self, place: Place) -> str:
+    def fix_at(self, place: Medium) -> str:
         """Return what to do at a place."""
         return self.fix.at(place) if isinstance(self.fix, Fix) else self.fix
 
@@ -134,7 +134,7 @@ class DeodarError(Exception):
         """Return the lines that IPython shows: without the frames of deodar."""
         return short_traceback(self)
 
-    def at(self, place: Place) -> str:
+    def at(self, place: Medium) -> str:
         """Return the message for a place."""
         if len(self.problems) == 1:
             return self.problems[0].at(place)

@@ -20,9 +20,9 @@ from deodar.experiments import following, planning, setup
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
-from deodar.experiments.jobs import Progress
 from deodar.experiments.results import load_results
 from deodar.experiments.trial import TrialPlan
+from deodar.progress import Progress
 from tests.deodar.experiments.robots import decider
 
 
@@ -314,6 +314,6 @@ def test_a_plan_prints_pieces_memory_and_time(file, capsys, tmp_path, monkeypatc
 
 def test_the_bar_is_full_when_all_work_is_done():
     bar = Bar(True, "trials")
-    bar.show(Progress(rows=3, of=4, share=0.75, left=100.0))
+    bar.show(Progress(3, 4, seconds_left=100.0))
     (task,) = bar._bar.tasks
     assert (task.percentage, task.fields) == (75, {"done": "3 of 4 trials", "left": "2 min left"})
