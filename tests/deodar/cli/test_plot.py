@@ -51,6 +51,15 @@ def test_each_kind_of_figure_is_drawn(
         assert min(picture.size) > 300 and len(np.unique(np.asarray(picture.convert("L")))) > 5
 
 
+def test_each_where_selects_along_its_own_sweep(folder: Path) -> None:
+    swept = record(sweep={"s.amplitude": [4.0, 8.0], "n.resting_level": [-1.0, -3.0]})
+    files.save_record(swept[["n.activation"]], "swept.zarr")
+    command = ["plot", "swept.zarr", "n.activation", "--where", "s.amplitude=8", "--where"]
+    for name, level in (("a.png", -1), ("b.png", -3)):
+        assert main([*command, f"n.resting_level={level}", "-o", name]) == 0
+    assert (folder / "a.png").read_bytes() != (folder / "b.png").read_bytes()
+
+
 def test_vector_graphics_hold_real_text_and_units(folder: Path) -> None:
     assert main(["plot", "small.zarr", "-o", "all.svg"]) == 0
     text = (folder / "all.svg").read_text()
