@@ -79,7 +79,7 @@ def test_samples_cover_the_record_evenly(reader: RecordReader, record: xarray.Da
 
 
 def test_a_port_that_was_not_recorded_is_named(reader: RecordReader) -> None:
-    with pytest.raises(UnknownName, match=r"u\.output.*not recorded.*--record u\.output"):
+    with pytest.raises(UnknownName, match=r"u\.output.*not recorded.*record=.*u\.output"):
         reader.axes(place(reader, "u.output"))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -200,7 +202,7 @@ def test_a_model_without_a_steady_state_says_what_still_changes():
 def test_a_stimulus_outside_of_its_windows_is_named():
     model = line(31)
     model.set("s.windows", [(100.0, 200.0)])
-    with pytest.raises(AnalysisError, match=r"s.amplitude: changes nothing .*, at time 0.*--at 200"):
+    with pytest.raises(AnalysisError, match=r"s.amplitude: changes nothing .*, at time 0.*at=200"):
         dd.continuation(model, "s.amplitude", (0, 8))
     assert dd.continuation(model, "s.amplitude", (0, 8), at=150, finer=False).bifurcations
 
@@ -228,4 +230,4 @@ def test_what_was_found_is_plain_data():
     branch = dd.continuation(node(), "s.amplitude", (0, 8))
     summary = branch.data()
     assert summary["bifurcations"][0]["instability"] == "detection" and summary["stable"] < summary["states"]
-    assert "fold(detection) 3.96637" in repr(branch)
+    assert re.search(r"fold +detection +3.96637", repr(branch))
