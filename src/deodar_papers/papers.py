@@ -60,7 +60,9 @@ PAPERS: Extensions[ModuleType] = Extensions("papers", "paper", dict, lambda plug
 def demos() -> dict[str, ModuleType]:
     """Return the demonstrations: the story, and those of all papers by the name of the paper."""
     places = {"story": "deodar_papers.story", **{name: paper.__name__ for name, paper in PAPERS.items()}}
-    found = {name: f"{place}.demo" for name, place in places.items()}
+    modules = {name: f"{place}.demo" for name, place in places.items()}
     return {
-        name: importlib.import_module(path) for name, path in found.items() if importlib.util.find_spec(path)
+        name: importlib.import_module(path)
+        for name, path in modules.items()
+        if importlib.util.find_spec(path)
     }

@@ -75,10 +75,8 @@ def run_jobs(
     """
     with telling(use_resources(on, "run_jobs", *USABLE).progress, "running", "trials") as show:
         missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
-        total, before = (
-            sum(job.cost for job in jobs),
-            sum(job.cost for job in jobs) - sum(job.cost for job in missing),
-        )
+        total = sum(job.cost for job in jobs)
+        before = total - sum(job.cost for job in missing)
         began, done = time.monotonic(), 0.0
         of = sum(len(job.keys) for job in jobs)
         complete = sum(key in rows.found for job in jobs for key in job.keys)
@@ -92,7 +90,7 @@ def run_jobs(
         stored = {row[KEY]: row for row in rows.found.values()}
         tell([stored[key] for job in jobs for key in job.keys if key in stored])
         del stored
-        for job, rows_of_job in _anywhere(missing, on.workers, watch or (lambda now: False), pool):
+        for job, rows_of_job in _anywhere(missing, on.workers, watch or (lambda staffing: False), pool):
             new = rows.append(rows_of_job)
             done += job.cost
             complete += len({row[KEY] for row in new} & {*job.keys})

@@ -279,10 +279,9 @@ def _import(described: Mapping[str, Any]) -> Fix:
 
 def _identity(described: Any) -> Any:
     """Return the identity of the world: its description without the places of its file and of its class."""
-    places = ("file", "module")
-    return (
-        {k: v for k, v in described.items() if k not in places} if isinstance(described, dict) else described
-    )
+    if not isinstance(described, dict):
+        return described
+    return {k: v for k, v in described.items() if k not in ("file", "module")}
 
 
 def _shown(described: Any) -> str:

@@ -41,14 +41,8 @@ def stoppable(across: bool = False) -> Generator[Callable[[], None]]:
             raise SecondInterrupt
         signals.append(number)
 
-    if threading.current_thread() is not threading.main_thread():
+    with _handled(signal.SIGINT, ask):
         yield check
-        return
-    before = signal.signal(signal.SIGINT, ask)
-    try:
-        yield check
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 @contextlib.contextmanager
@@ -66,11 +60,18 @@ def interrupted_by_sigterm() -> Generator[list[int]]:
             raise KeyboardInterrupt
         handler(signal.SIGINT, frame)
 
+    with _handled(signal.SIGTERM, end):
+        yield received
+
+
+@contextlib.contextmanager
+def _handled(number: int, handler: Callable[[int, FrameType | None], None]) -> Generator[None]:
+    """Handle a signal inside the block; outside the main thread nothing is changed."""
     if threading.current_thread() is not threading.main_thread():
-        yield received
+        yield
         return
-    before = signal.signal(signal.SIGTERM, end)
+    before = signal.signal(number, handler)
     try:
-        yield received
+        yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        signal.signal(number, before)
