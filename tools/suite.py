@@ -27,25 +27,28 @@ SPREAD = ("-n", "2", "--dist", "loadfile", "--no-loadscope-reorder")
 OTHERS = ("tests", "--ignore", "tests/deodar")
 """What the engine alone does not test."""
 
-CORE = ("tests/deodar", "tests/contracts")
+QUICK = "not default_program"
 
 PARTS = {"verdict": " and verdict", "rest": " and (not verdict or hypothesis)", "whole": ""}
 """The markers of each part, after that of the programs. Properties are in both: the rest draws new
 examples.
 """
 
-ALONE = {
-    "core": (*ENGINE, *SPREAD, "-m", f"not default_program{PARTS['verdict']}", *CORE),
-    "fast": (*PYTEST, *SPREAD, "-m", "fast"),
+ALONE: dict[str, list[tuple[str, ...]]] = {
+    "core": [
+        (*ENGINE, *SPREAD, "-m", f"{QUICK}{PARTS['verdict']}"),
+        (*PYTEST, *SPREAD, "-m", f"{QUICK}{PARTS['verdict']}", "tests/contracts"),
+    ],
+    "fast": [(*PYTEST, *SPREAD, "-m", "fast")],
 }
-"""Parts that are one call."""
+"""The calls of parts that leave something out; contracts are of the packages, too."""
 
 
 def calls(part: str) -> list[tuple[str, ...]]:
     """Return the arguments of Python of each call."""
     if part in ALONE:
-        return [ALONE[part]]
-    quick = ("-m", f"not default_program{PARTS[part]}")
+        return ALONE[part]
+    quick = ("-m", f"{QUICK}{PARTS[part]}")
     optimised = ("-m", f"default_program{PARTS[part]}", "--default-programs")
     return [
         (*program, *SPREAD, *programs, *paths)
