@@ -47,6 +47,7 @@ from deodar.analysis.tuning.tune import tune as tune
 from deodar.analysis.working_memory import forgetting as forgetting
 from deodar.analysis.working_memory import outlives as outlives
 from deodar.batch.on_cluster import ClusterPool as ClusterPool
+from deodar.batch.repetition import repeat as repeat
 from deodar.batch.resume import resume as resume
 from deodar.batch.run_file import Output as Output
 from deodar.batch.separate_rounding import use_separate_rounding as use_separate_rounding
@@ -151,6 +152,7 @@ from deodar.experiments.jobs import run_jobs as run_jobs
 from deodar.experiments.measures import BaseMeasure as BaseMeasure
 from deodar.experiments.measures import Measure as Measure
 from deodar.experiments.merging import merge_results as merge_results
+from deodar.experiments.repeated_results import compare_results as compare_results
 from deodar.experiments.results import load_results as load_results
 from deodar.experiments.rows import Rows as Rows
 from deodar.experiments.stored_records import open_records as open_records
@@ -204,6 +206,9 @@ from deodar.numerics.sigmoids.logistic import Logistic as Logistic
 from deodar.numerics.sigmoids.semilinear import SemiLinear as SemiLinear
 from deodar.numerics.sigmoids.step import Step as Step
 from deodar.numerics.windows import Window as Window
+from deodar.packing.packing import contents as contents
+from deodar.packing.packing import pack as pack
+from deodar.packing.packing import unpack as unpack
 from deodar.recording.files import load_record as load_record
 from deodar.recording.files import open_record as open_record
 from deodar.recording.files import save_record as save_record

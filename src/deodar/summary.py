@@ -90,6 +90,14 @@ def counted(n: int, noun: str) -> str:
     return f"{n} {noun}{'' if n == 1 else 's'}"
 
 
+def sized(count: int) -> str:
+    """Return a number of bytes with its unit: `12 bytes`, `3.4 MB`."""
+    for unit, factor in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
+        if count >= factor:
+            return f"{count / factor:.3g} {unit}"
+    return counted(count, "byte")
+
+
 def _line(content: Any) -> str:
     """Return a content as the text of one line; a number has six digits."""
     if content is None:

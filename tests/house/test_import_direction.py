@@ -40,6 +40,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "importers architectures",
         "exporters",
         "figures",
+        "packing",
         "cli",
         "__main__",
     )

@@ -11,6 +11,7 @@ from tests.house.source import MODULES, module, tree
 OTHERS = {
     "recording.places": "whole folders, each file of which `output` puts on the disk",
     "deodar_studio.files.open_folder": "the same steps in a folder that is held open, past links",
+    "model.package": "writes into the temporary file that `output` gives it, and into folders of `places`",
     "recording.table": "writes into the temporary file that `output` gives it",
     "recording.netcdf": "the same",
     "deodar_interop.records.cedar": "files in the temporary folder that `places` gives it",

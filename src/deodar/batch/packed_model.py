@@ -8,14 +8,14 @@ from __future__ import annotations
 import dataclasses as dc
 import functools
 import pickle
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-from deodar import codec, registry
+from deodar import codec
 from deodar.errors import WorkerError
 from deodar.model import document_files
 from deodar.model.model import Model
-from deodar.model.parts import kinds_in
+from deodar.model.parts import foreign_kinds
 from deodar.worlds._base import World
 
 
@@ -45,7 +45,7 @@ class PackedModel:
             WorkerError: a part of them cannot be sent to another process.
         """
         plain, arrays = document_files.to_data(model.document)
-        outside = _outside(plain)
+        outside = foreign_kinds(plain)
         _require_module([*outside, *([type(world)] if world is not None else [])])
         packed_arrays = document_files.pack(arrays) if arrays else b""
         return cls(
@@ -85,12 +85,6 @@ def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
     pickle.loads(kinds)
     unpacked = document_files.unpack(arrays, "the document") if arrays else {}
     return Model(document=document_files.from_data(codec.parse(document), unpacked), trusted=trusted)
-
-
-def _outside(document: Mapping[str, Any]) -> list[type]:
-    """Return the classes outside deodar that the document names."""
-    used = {name: registry.kind(name) for name in kinds_in(document["elements"])}
-    return [cls for _, cls in sorted(used.items()) if not registry.own(cls)]
 
 
 def _require_module(classes: Sequence[type]) -> None:

@@ -62,7 +62,7 @@ def add_cores(parser: argparse.ArgumentParser) -> None:
 
 
 def use_cores(cores: int | None, usual: int = 1) -> None:
-    """Use the number of cores of `--cores`; without it `wanted`, unless NPROC is set or JAX has started."""
+    """Use the number of cores of `--cores`; without it `usual`, unless NPROC is set or JAX has started."""
     # start-up time: these bring JAX
     from deodar import cores as setting
 

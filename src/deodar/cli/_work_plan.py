@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _long
+from deodar.summary import counted, sized
 
 if TYPE_CHECKING:
     from deodar.experiments.setup import Setup
@@ -23,25 +24,14 @@ def show(setup: Setup, json: bool) -> int:
         answer |= {"row": work.row, "record": work.record, "stored": work.stored, "most": work.most}
         print(codec.text({**answer, "times": {str(n): seconds for n, seconds in times.items()}}))
         return 0
-    pieces = f"{_number(len(work.pieces), 'piece')} of at most {max(work.pieces)}"
+    pieces = f"{counted(len(work.pieces), 'piece')} of at most {max(work.pieces)}"
     memory = f"about {work.memory / 2**20:.0f} MB of memory for each worker"
-    print(f"{setup.experiment.name}: {_number(sum(work.pieces), 'trial')} in {pieces}; {memory}")
-    records = f" and at most {_size(work.record)} of records" if work.record else ""
-    print(f"  stored: {_size(work.row)} for a row{records} of each trial, {_size(work.stored)} in total")
+    print(f"{setup.experiment.name}: {counted(sum(work.pieces), 'trial')} in {pieces}; {memory}")
+    records = f" and at most {sized(work.record)} of records" if work.record else ""
+    print(f"  stored: {sized(work.row)} for a row{records} of each trial, {sized(work.stored)} in total")
     for n, seconds in times.items():
-        print(f"  {_number(n, 'worker')}: at most {_long.duration(seconds)}")
+        print(f"  {counted(n, 'worker')}: at most {_long.duration(seconds)}")
     why = "each has one piece" if work.most == len(work.pieces) else "the caller is busy with their pieces"
-    print(f"More than {_number(work.most, 'worker')} would not help: {why}.")
+    print(f"More than {counted(work.most, 'worker')} would not help: {why}.")
     print("Measured on this machine; trials may end earlier.")
     return 0
-
-
-def _size(count: int) -> str:
-    for unit, factor in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
-        if count >= factor:
-            return f"{count / factor:.3g} {unit}"
-    return f"{count} bytes"
-
-
-def _number(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar import codec
-from deodar.cli import _long, _machines, _options, _work_plan
+from deodar.cli import _long, _machines, _options, _package, _work_plan
 from deodar.cli._bar import Bar
 from deodar.credentials import masked
 from deodar.errors import OutputError, WorkerError
@@ -22,7 +22,9 @@ from deodar.recording import places
 if TYPE_CHECKING:
     import xarray
 
+    from deodar.experiments.experiment import Experiment
     from deodar.experiments.following import Standing
+    from deodar.experiments.repeated_results import RepeatedResults
 
 HELP = "run the trials of an experiment, and write a table with a row for each"
 EPILOG = """\
@@ -39,8 +41,11 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "file",
         type=Path,
-        metavar="FILE|merge",
-        help="an experiment (.json), which names its model; merge: write the rows of folders into --out",
+        metavar="FILE|FOLDER|merge",
+        help=(
+            "an experiment (.json), which names its model; the folder of results: run it again and compare;"
+            " a package of either; merge: write the rows of folders into --out"
+        ),
     )
     parser.add_argument("folders", nargs="*", type=Path, metavar="FOLDER", help="with merge: the folders")
     parser.add_argument(
@@ -99,27 +104,31 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Run an experiment; status 1 if it was stopped, or if all trials diverged."""
-    # start-up time: these bring JAX
-    from deodar.experiments.experiment import Experiment
-    from deodar.experiments.results import ROWS, run_trials
-    from deodar.importers.opening import load
-    from deodar.resources import Resources
-
-    _options.use_cores(None)  # one core, as in workers: the number of cores changes the last digits
+    """Run an experiment; status 1 if it was stopped, if all trials diverged, or if the repetition of results
+    has other rows without a reason.
+    """
     if args.file == Path("merge"):
+        _options.use_cores(None)
         return _merge(args)
     if args.folders:
         args.wrong(f"only merge takes folders, and this is {args.file}")
+    args.typed = args.file
+    with _package.opened(args.file, args.trust) as args.file:
+        return _run(args)
+
+
+def _run(args: argparse.Namespace) -> int:
+    # start-up time: these bring JAX
+    from deodar.experiments.repeated_results import compare_results
+    from deodar.experiments.results import ROWS, run_trials, stored
+    from deodar.recording import provenance
+    from deodar.resources import Resources
+
+    before: Path | None = args.file if (args.file / ROWS).is_file() else None
+    # one core, as in workers: the number of cores changes the last digits
+    _options.use_cores(None, 1 if before is None else provenance.cores_of(stored(before)[0]))
     part = args.trials if isinstance(args.trials, tuple) else None
-    stated = Experiment.load(args.file, load)
-    settings: dict[str, Any] = {"model": load(str(stated.model), trust=args.trust)}
-    settings |= {
-        key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None
-    }
-    if part is not None:
-        del settings["trials"]
-    experiment = dc.replace(stated, **settings)
+    experiment = _experiment(args, before, part)
     if args.follow is not None:
         return _follow(args, len(experiment.cells) if part is None else part[1] - part[0])
     cluster = _machines.cluster(args)
@@ -140,8 +149,27 @@ def run(args: argparse.Namespace) -> int:
             raise
         _tell_stop(args, out, part, "stopped" if isinstance(stop, KeyboardInterrupt) else f"{stop}")
         return 1
-    _tell(args, out, results)
-    return 1 if 0 < _diverged(results) == results.sizes["trial"] else 0
+    repetition = None if before is None else compare_results(before, out)
+    _tell(args, out, results, repetition)
+    faithful = repetition is None or repetition.faithful
+    return 1 if 0 < _diverged(results) == results.sizes["trial"] or not faithful else 0
+
+
+def _experiment(args: argparse.Namespace, before: Path | None, part: tuple[int, int] | None) -> Experiment:
+    """Return the experiment of a file, or of the folder of results, with the settings of the call."""
+    # start-up time: these bring JAX
+    from deodar.experiments.experiment import Experiment
+    from deodar.experiments.results import EXPERIMENT
+    from deodar.importers.opening import load
+
+    stated = Experiment.load(args.file if before is None else before / EXPERIMENT, load)
+    settings: dict[str, Any] = {"model": load(str(stated.model), trust=args.trust)}
+    settings |= {
+        key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None
+    }
+    if part is not None:
+        del settings["trials"]
+    return dc.replace(stated, **settings)
 
 
 def _tell_stop(args: argparse.Namespace, out: Path, part: tuple[int, int] | None, why: str) -> None:
@@ -153,7 +181,7 @@ def _tell_stop(args: argparse.Namespace, out: Path, part: tuple[int, int] | None
         "--workers": args.workers,
         "--records": None if args.records is None else shlex.quote(masked(args.records)),
     }
-    command = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
+    command = ["deodar experiment", _options.shown(args.typed), "--out", _options.shown(out)]
     command += [f"{name} {value}" for name, value in options.items() if value is not None]
     command += _machines.cluster_again(args)
     command += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
@@ -275,7 +303,9 @@ def _check(args: argparse.Namespace, setup: Any) -> int:
     return 0
 
 
-def _tell(args: argparse.Namespace, out: Path, results: xarray.Dataset) -> None:
+def _tell(
+    args: argparse.Namespace, out: Path, results: xarray.Dataset, repetition: RepeatedResults | None
+) -> None:
     names = sorted(p.name for p in out.iterdir())
     outcomes = {
         str(name): int((results["outcome"] == name).sum())
@@ -284,13 +314,15 @@ def _tell(args: argparse.Namespace, out: Path, results: xarray.Dataset) -> None:
     if lost := _diverged(results):
         print(f"deodar experiment: warning: {results.attrs['diverged']}", file=sys.stderr)
     if args.json:
-        answer = {
+        answer: dict[str, Any] = {
             "out": str(out),
             "trials": results.sizes["trial"],
             "outcomes": outcomes,
             "diverged": lost,
             "files": names,
         }
+        if repetition is not None:
+            answer["repetition"] = dc.asdict(repetition)
         print(codec.text(answer | ({} if args.records is None else {"records": masked(args.records)})))
         return
     for line in _cells(results):
@@ -299,6 +331,8 @@ def _tell(args: argparse.Namespace, out: Path, results: xarray.Dataset) -> None:
     none = "their batch begins before this part, and runs with that one"
     print(f"{results.sizes['trial']} trials: {counts or none}.")
     print(f"Written to {_options.shown(out)}: {', '.join(names)}.")
+    if repetition is not None:
+        print(f"{repetition}.")
     if args.records is not None:
         print(f"Records written to {masked(args.records)}; dd.open_records reads them.")
 

@@ -7,31 +7,33 @@ from pathlib import Path
 
 from deodar import codec
 from deodar.cli import _options
-from deodar.errors import DocumentError
-from deodar.model.output import claim
+from deodar.summary import sized
 
-HELP = "pack a document and its arrays into one file, or unpack such a file"
+HELP = "pack a model, a record, an experiment or a figure into one file for a colleague, or unpack one"
 EPILOG = """\
-A package is a zip file with the document and its arrays. Every command that takes a document takes it as
-it is, and dd.load does; any zip tool unpacks it."""
+FILE is a document, a record, the folder of a run or of an experiment, an experiment (.json), or the file of a
+figure (.toml); what it names by a relative path comes with it. deodar open FILE shows what a package holds;
+run, experiment, plot and studio take a package as it is. Modules of your own are named in the package; add
+--with-code to include them."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    _options.add_document(parser)
+    _options.add_document(parser, "what to pack, or the package to unpack")
     parser.add_argument(
         "--out",
         "-o",
         type=Path,
         metavar="OUT",
-        help="the package to write, OUT.deodar (default: FILE's name, in the working folder)",
+        help="the package to write, OUT.deodar, or the folder to unpack into (default: FILE's name, here)",
     )
     parser.add_argument(
-        "--unpack",
+        "--with-code",
         action="store_true",
-        help="write FILE's document and arrays into the folder OUT (default: the working folder)",
+        help="include the modules of your own that it needs; they run only with --trust",
     )
+    parser.add_argument("--unpack", action="store_true", help="write what FILE holds into the folder OUT")
     _options.add_force(parser)
     _options.add_json(parser)
     _options.wrong(parser)
@@ -40,30 +42,34 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the package, or extract its files."""
     # start-up time: these bring JAX
-    from deodar.importers.opening import load
-    from deodar.model import model, package
+    from deodar.model import package
+    from deodar.packing import packing
 
-    loaded = load(args.file)
     if args.unpack:
-        if not package.is_package(args.file):
-            raise DocumentError(
-                "is not a package", where=str(args.file), fix="Leave out --unpack to make one"
-            )
-        folder: Path = args.out or Path()
-        if not folder.exists():
-            claim(folder)
-            folder.mkdir()
-        target = folder / f"{args.file.stem}.json"
-    else:
-        target = args.out or Path(f"{args.file.stem}{package.SUFFIX}")
-        if target.suffix.lower() != package.SUFFIX:
-            args.wrong(
-                f"the name of a package ends in {package.SUFFIX}: --out"
-                f" {_options.shown(target.with_suffix(package.SUFFIX))}"
-            )
-    model.save(loaded, target, args.force)
+        if args.with_code:
+            args.wrong("--with-code packs modules, and --unpack unpacks")
+        inner = packing.unpack(args.file, args.out, force=args.force)
+        if args.json:
+            print(codec.text({"out": str(inner)}))
+        else:
+            print(f"Unpacked {_options.shown(inner)}")
+        return 0
+    if args.out is not None and args.out.suffix.lower() != package.SUFFIX:
+        args.wrong(
+            f"the name of a package ends in {package.SUFFIX}: --out"
+            f" {_options.shown(args.out.with_suffix(package.SUFFIX))}"
+        )
+    target = packing.pack(args.file, args.out, args.with_code, args.force)
     if args.json:
         print(codec.text({"out": str(target), "bytes": target.stat().st_size}))
-    else:
-        print(f"Wrote {_options.shown(target)}. Open it with: deodar studio {_options.shown(target)}")
+        return 0
+    name = _options.shown(target)
+    print(f"Wrote {name} ({sized(target.stat().st_size)}). See what is inside: deodar open {name}")
+    for module in packing.contents(target).modules:
+        if module.distribution:
+            print(f"It needs the package {module.distribution}, of which {module.name} is.")
+        elif not module.files:
+            print(f"It needs your module {module.name}, which is not in it; --with-code includes it")
+        else:
+            print(f"Your module {module.name} is in it: {', '.join(module.files)}")
     return 0

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar import codec
-from deodar.cli import _analysis, _figure, _options
+from deodar.cli import _analysis, _figure, _options, _package
 from deodar.errors import FigureError, RecordError
 
 if TYPE_CHECKING:
@@ -77,6 +77,11 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Draw the record, write the file and print its path."""
+    with _package.opened(args.record, runs=False) as args.record:
+        return _run(args)
+
+
+def _run(args: argparse.Namespace) -> int:
     if args.follow:
         return _followed(args)
     analysis = _analysis.drawn(args)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from deodar.cli import _live, _long, _machines, _options
+from deodar.cli import _live, _long, _machines, _options, _package
 from deodar.importers import examples
 
 HELP = "run a model and record it, or run a record again and compare"
 EPILOG = """\
-FILE is a document (.json). RECORD is a record (.zarr, .nc) or a folder that an earlier run wrote: it is
-run again as it was, and compared. Both write a new folder with the record and the model that made it. Look
-at it with: deodar plot FOLDER"""
+FILE is a document (.json). RECORD is a record (.zarr, .nc), a folder that an earlier run wrote, or a package
+of one (.deodar): it is run again as it was, and compared. Both write a new folder with the record and the
+model that made it. Look at it with: deodar plot FOLDER"""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -108,6 +108,11 @@ def run(args: argparse.Namespace) -> int:
     """Run a document, or repeat a record; status 1 if stopped, or if a repetition differs without a
     reason.
     """
+    with _package.opened(args.file, args.trust) as args.file:
+        return _run(args)
+
+
+def _run(args: argparse.Namespace) -> int:
     # start-up time: these bring JAX
     from deodar.cli import _document_run, _recorded_run
     from deodar.compiler import hosts

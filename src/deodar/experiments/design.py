@@ -320,10 +320,13 @@ def _beside(text: Any, folder: Path | None, world: bool) -> Any:
     kind, sign, argument = text.partition(":") if world else ("", "", text)
     # settings of a world follow the file
     place, comma, settings = argument.partition(",") if world else (argument, "", "")
-    if world and not (place.strip() and (folder / place.strip()).exists()):
+    path = folder / place.strip()
+    if world and place.strip() and not path.exists() and (folder / path.name).is_file():
+        path = folder / path.name  # results that were copied, with the file of their world beside them
+    if world and not (place.strip() and path.exists()):
         # a name of something that deodar installs, or a file in the working folder
         return text
-    return f"{kind}{sign}{folder / place.strip()}{comma}{settings}"
+    return f"{kind}{sign}{path}{comma}{settings}"
 
 
 def _parts(key: str, rows: Any, kinds: Mapping[str, type[Part]], problems: list[Problem]) -> list[Any]:

@@ -250,9 +250,9 @@ def of_data(data: Any, beside: Callable[[str], bytes | None]) -> Document:
 
 
 def _load_package(file: Path | BinaryIO) -> Document:
-    with package.Package(file, MOST_BYTES, require_room) as packed:
-        data = codec.read(packed.read(packed.document) or b"")
-        arrays = _arrays(data, packed.read)
+    with package.Package(file) as packed:
+        data = codec.read(packed.document(MOST_BYTES))
+        arrays = _arrays(data, lambda name: packed.read(name, require_room))
         packed.require_only(data["arrays"]["file"] if arrays else "")
         return from_data(data, arrays)
 

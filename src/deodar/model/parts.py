@@ -358,3 +358,9 @@ def kinds_in(data: Any) -> Iterator[str]:
     elif isinstance(data, list):
         for value in typing.cast("list[Any]", data):
             yield from kinds_in(value)
+
+
+def foreign_kinds(document: Mapping[str, Any]) -> list[type[Any]]:
+    """Return the classes outside deodar that the plain data of a document name."""
+    used = {name: registry.kind(name) for name in kinds_in(document["elements"])}
+    return [cls for _, cls in sorted(used.items()) if not registry.own(cls)]

@@ -117,7 +117,9 @@ def load_record(path: str | Path) -> xarray.Dataset:
             raise
         except Exception:  # libraries that read untrusted bytes may raise any exception
             whole = sound.readable(stored).load()
-        return portable.unpack(whole)
+        record = portable.unpack(whole)
+        record.encoding["source"] = str(locate(path)[0])
+        return record
 
 
 def open_record(path: str | Path) -> xarray.Dataset:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import sys
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -157,7 +158,8 @@ def world_of(record: xarray.Dataset) -> World | None:
         RecordError: the record has no provenance.
         WorldError: the world no longer exists, or is a different one.
     """
-    return _world(_origin(record).get("world"))
+    source = record.encoding.get("source")
+    return _world(_origin(record).get("world"), None if source is None else Path(source).parent)
 
 
 def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
@@ -228,10 +230,15 @@ def _largest(a: xarray.DataArray | None, b: xarray.DataArray | None) -> float:
 # ----------------------------------------------------------------------------------------------------- worlds
 
 
-def _world(described: Mapping[str, Any] | None) -> World | None:
-    """Return the world of a record, opened again from the file it names."""
+def _world(described: Mapping[str, Any] | None, folder: Path | None = None) -> World | None:
+    """Return the world of a record, opened again from the file it names, or from the one of this name in the
+    folder of the record if that one has gone.
+    """
     if described is None:
         return None
+    file = Path(str(described.get("file", "")))
+    if folder is not None and not file.is_file() and (folder / file.name).is_file():
+        described = {**described, "file": str(folder / file.name)}
     kind = str(described.get("world"))
     world_class = registry.kinds("worlds").get(kind) or _imported(described)
     circumstances = f"the record was made with the world {_shown(described)}"

@@ -1,0 +1,46 @@
+"""The command `deodar open FILE`."""
+
+from __future__ import annotations
+
+import argparse
+
+from deodar import codec
+from deodar.cli import _options
+
+HELP = "show what a package, a record, an experiment or a figure holds, and what made it"
+EPILOG = """\
+Nothing that a file holds is run. A file of another tool is shown as the model that it becomes."""
+
+COMMANDS = {
+    "document": ("run {file} --duration D", "studio {file}"),
+    "record": ("run {file}", "plot {file}", "studio {file}"),
+    "experiment": ("experiment {file}",),
+    "results": ("experiment {file}",),
+    "figure": ("plot {file}",),
+}
+"""What to type next, for each kind of work."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.epilog = EPILOG
+    _options.add_document(parser, "a package (.deodar), a document, a record, an experiment or a figure")
+    _options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the contents."""
+    # start-up time: this brings JAX
+    from deodar.packing import packing
+
+    contents = packing.contents(args.file)
+    if args.json:
+        print(codec.text(contents.to_data()))
+        return 0
+    print(repr(contents)[1:-1])
+    file = _options.shown(args.file)
+    if any(module.files for module in contents.modules):
+        print(f"Its modules run only with --trust. Read them first: deodar pack {file} --unpack")
+    for command in COMMANDS[contents.kind]:
+        print(f"Next: deodar {command.format(file=file)}")
+    return 0

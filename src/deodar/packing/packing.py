@@ -1,0 +1,178 @@
+"""Pack a piece of work into one file, see what such a file holds, and unpack it."""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import tempfile
+from collections.abc import Generator, Mapping
+from pathlib import Path
+
+from deodar.errors import DeodarError, DocumentError, Problem, TooLarge
+from deodar.model import output, package
+from deodar.model.package import Package
+from deodar.model.package_contents import Contents, Module
+from deodar.packing import modules
+from deodar.packing.work import Work, document_at, work_at
+from deodar.recording import places
+
+
+def pack(
+    path: str | Path, out: str | Path | None = None, with_code: bool = False, force: bool = False
+) -> Path:
+    """Pack a model, a record, an experiment, its results or the file of a figure into one file.
+
+    What it names by a relative path comes with it: the model of an experiment, the records of a figure, the
+    file of a world. A file whose world or elements are of modules of the user names them.
+
+    Args:
+        path: a document, `example:NAME`, a record, an experiment, or the file of a figure.
+        out: the file to write; its name ends in .deodar. None: the name of `path`, in the working folder.
+        with_code: whether modules of the user are included, with the modules beside them that they import.
+        force: whether to replace an existing file.
+
+    Returns:
+        The file that was written.
+
+    Raises:
+        DocumentError, RecordError, FigureError: there is no such work, or it names a file by its full path.
+        OutputExists: the file exists, and `force` is not given.
+    """
+    work = work_at(path)
+    target = Path(f"{Path(work.path).stem}{package.SUFFIX}") if out is None else output.location(out)
+    if target.suffix.lower() != package.SUFFIX:
+        raise DocumentError(
+            f"the name of a package ends in {package.SUFFIX}",
+            where=str(target),
+            fix=f"Call it {target.with_suffix(package.SUFFIX).name}",
+        )
+    output.claim(target, force)
+    needed, files = _modules(work, with_code)
+    if work.kind == "document" and not needed:
+        entries = {name: content for name, content in work.files.items() if isinstance(content, bytes)}
+        output.write(target, package.pack(entries))
+        return target
+    stated = Contents(work.kind, work.path, dict(work.about), needed)
+    entries = {**work.files, **files}
+    output.write(target, lambda beside: package.write(beside, stated, entries))
+    return target
+
+
+def contents(path: str | Path) -> Contents:
+    """Return what a package holds, what made it and which modules of the user it needs; nothing in it is run.
+
+    A model, a record, an experiment or a figure that is not packed is described in the same way.
+
+    Raises:
+        DocumentError: the file is damaged, or nothing that can be packed.
+    """
+    path = output.location(path)
+    if _is_package(path):
+        with _located(path), Package(path) as packed:
+            if packed.contents.files:
+                return packed.contents
+        work = document_at(path)
+    else:
+        work = work_at(path)
+    stated = {name: package.stated_entry(content) for name, content in work.files.items()}
+    return Contents(work.kind, work.path, dict(work.about), _modules(work, False)[0], stated)
+
+
+def unpack(
+    path: str | Path, folder: str | Path | None = None, trust: bool = False, force: bool = False
+) -> Path:
+    """Unpack a package into a new folder.
+
+    Every file is compared with its stated hash first. Modules in it lie in the folder `code`, and are
+    imported only with `trust`.
+
+    Args:
+        path: the package.
+        folder: the folder to write. None: the name of the package, in the working folder.
+        trust: whether modules that come with it may be imported and run, so that what needs them runs.
+        force: whether to replace an existing folder.
+
+    Returns:
+        The path of what was packed: a document, a record, an experiment, a folder of results or a figure.
+
+    Raises:
+        DocumentError: the file is damaged, or no package.
+        OutputExists: the folder exists, and `force` is not given.
+    """
+    path = output.location(path)
+    target = Path(path.stem) if folder is None else output.location(folder)
+    if not _is_package(path):
+        raise DocumentError("is not a package", where=str(path))
+    places.claim_folder(target, force)
+    with _located(path), Package(path) as packed:
+        free = shutil.disk_usage(target.absolute().parent).free
+        if packed.size > free:
+            raise TooLarge(
+                f"takes {packed.size / 2**30:,.1f} GiB on the disk, and {free / 2**30:,.1f} GiB are free"
+            )
+        places.write_folder(target, lambda beside: _extract(packed, beside), force)
+        inner = target / packed.contents.path
+        if trust:
+            modules.require(packed.contents, target, True)
+    return inner
+
+
+@contextlib.contextmanager
+def opened(path: Path, trust: bool, runs: bool = True) -> Generator[Path]:
+    """Yield the path of what a package holds, in a folder that is removed afterwards.
+
+    Args:
+        path: the package.
+        trust: whether modules that come with it may be imported and run.
+        runs: whether it is run, so that the modules which it needs must be there.
+    """
+    with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
+        inside = Path(folder, path.stem)
+        inner = unpack(path, inside)
+        if runs:
+            with _located(path), Package(path) as packed:
+                modules.require(packed.contents, inside, trust)
+        yield inner
+
+
+def packed_kind(path: Path) -> str:
+    """Return what a package holds; "" for a file that is none."""
+    if not _is_package(path):
+        return ""
+    with _located(path), Package(path) as packed:
+        return packed.contents.kind
+
+
+def _is_package(path: Path) -> bool:
+    try:
+        return path.is_file() and package.is_package(path)
+    except OSError as error:
+        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
+
+
+def _modules(work: Work, with_code: bool) -> tuple[tuple[Module, ...], Mapping[str, Path]]:
+    needed: list[Module] = []
+    files: dict[str, Path] = {}
+    for name, defines in work.needs.items():
+        module, content = modules.located(name, defines, with_code)
+        needed.append(module)
+        files |= content
+    return tuple(needed), files
+
+
+def _extract(packed: Package, folder: Path) -> None:
+    for name in packed.names:
+        target = folder / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        packed.extract(name, target)
+
+
+@contextlib.contextmanager
+def _located(path: Path) -> Generator[None]:
+    """Name the package in errors."""
+    try:
+        yield
+    except DeodarError as error:
+        raise type(error)(
+            [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
+        ) from None
