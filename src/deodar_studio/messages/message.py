@@ -23,8 +23,8 @@ M = TypeVar("M", bound=Message)
 
 
 def union(messages: Mapping[str, type[M]]) -> type[M]:
-    """Return the union of message classes, for a decoder and for the schema."""
-    return cast("type[M]", Union[tuple(messages.values())])  # noqa: UP007
+    """Return the union of message classes in the order of their names, for a decoder and for the schema."""
+    return cast("type[M]", Union[tuple(messages[name] for name in sorted(messages))])  # noqa: UP007
 
 
 class Data(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
