@@ -21,8 +21,8 @@ STEPS: Mapping[tuple[str, ...], Sequence[str]] = {
     ("tools/stub.py",): ["src/deodar/__init__.pyi", "src/deodar/figures/__init__.py"],
     ("-m", "deodar.model.schema"): ["src/deodar/model/document.schema.json"],
     ("-m", "deodar_robots.robot.schema"): ["src/deodar_robots/robot/robot.schema.json"],
-    ("-m", "deodar_studio.messages.protocol"): [
-        "src/deodar_studio/messages/protocol.schema.json",
+    ("-m", "deodar_studio.requests.protocol"): [
+        "src/deodar_studio/requests/protocol.schema.json",
         "studio/src/protocol.ts",
     ],
     ("tools/own_plots.py",): ["src/deodar_studio/catalogue/own_plots.txt"],

@@ -1,4 +1,4 @@
-// Generated from src/deodar_studio/messages/to_server.py and to_page.py; change those, not this one:
+// Generated from src/deodar_studio/requests and messages/to_page.py; change those, not this one:
 // python tools/generate.py
 // Add a document parameter with the value of the first parameter that it sets.
 export type AddDocumentParameter = {

@@ -12,7 +12,7 @@ from typing import Any
 import websockets
 
 import deodar as dd
-from deodar_studio.messages.to_server import MESSAGES, Drawn
+from deodar_studio.requests.request import MESSAGES, Drawn
 from deodar_studio.web.connection import MOST_MALFORMED
 from tests.attacks.edits import small
 from tests.deodar_studio.page import Page, page, studio

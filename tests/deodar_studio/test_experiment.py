@@ -22,11 +22,11 @@ from deodar_studio.experiment.experiment_run import ExperimentRun
 from deodar_studio.experiment.open_experiment import OpenExperiment
 from deodar_studio.experiment.run_place import RunPlace
 from deodar_studio.files import state_store
-from deodar_studio.messages import to_server
+from deodar_studio.messages.message import union
 from deodar_studio.messages.to_page import Answer, ExperimentView
 from deodar_studio.pages import hub
 from deodar_studio.project.confirmation import ConfirmationRequired
-from deodar_studio.requests import dispatch
+from deodar_studio.requests.request import MESSAGES
 from deodar_studio.web.connection import PageConnection
 from tests.deodar.experiments.calls import changed
 from tests.deodar_studio.page import WAIT, Page, play, studio
@@ -231,8 +231,8 @@ def test_a_row_whose_record_is_in_a_store_is_repeated(folder: Path) -> None:
 
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
-            await d.do(to_server.RepeatTrial(trial=1))
+            await d.do("open_experiment", path="results/experiment.json")
+            await d.do("repeat_trial", trial=1)
             assert d.hub.project.record.reader is not None
 
     asyncio.run(scene())
@@ -248,11 +248,11 @@ def test_a_stored_row_that_was_changed_is_refused_on_replay(folder: Path, repeat
 
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
+            await d.do("open_experiment", path="results/experiment.json")
             if repeated:
-                await d.do(to_server.RepeatTrial(trial=2))
-                await d.do(to_server.LeaveTrial())
-            await d.do(to_server.CloseExperiment())
+                await d.do("repeat_trial", trial=2)
+                await d.do("leave_trial")
+            await d.do("close_experiment")
             lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
             changed = [
                 codec.line(row | {"duration": row["duration"] - 1}) + "\n" if row.get("trial") == 2 else line
@@ -261,12 +261,12 @@ def test_a_stored_row_that_was_changed_is_refused_on_replay(folder: Path, repeat
             ]
             assert changed != lines
             file.write_text("".join(changed), encoding="utf-8")
-            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
+            await d.do("open_experiment", path="results/experiment.json")
             with pytest.raises(DeodarError, match="trial 2 gives another row than the stored one"):
-                await d.do(to_server.RepeatTrial(trial=2))
+                await d.do("repeat_trial", trial=2)
             assert d.hub.project.record.reader is None
             assert not list((folder / "results" / "repeats").glob("*2.*"))
-            await d.do(to_server.RepeatTrial(trial=1))
+            await d.do("repeat_trial", trial=1)
             assert d.hub.project.record.reader is not None
 
     asyncio.run(scene())
@@ -314,14 +314,15 @@ class Desk:
         self.hub = hub.Hub(root, False, None)
         self.page = self.hub.new_page()
 
-    async def do(self, message: to_server.Request) -> None:
-        await dispatch.do(self.hub, self.page, message)
+    async def do(self, type: str, **fields: Any) -> None:
+        message = msgspec.convert({"type": type, **fields}, union(MESSAGES))
+        await message.answers(self.hub, self.page)
 
     async def edit(self, **changes: Any) -> None:
         """Change the plain data of the open experiment."""
         experiment = self.hub.experiment
         settings = {**(experiment.data or {}), **changes}
-        await self.do(to_server.EditExperiment(data=settings, version=experiment.version))
+        await self.do("edit_experiment", data=settings, version=experiment.version)
 
 
 @contextlib.asynccontextmanager
@@ -369,8 +370,8 @@ def test_the_answer_to_an_edit_follows_the_edited_experiment(folder: Path, at: s
 
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.NewDocument())
-            await d.do(to_server.NewExperiment())
+            await d.do("new")
+            await d.do("new_experiment")
 
             async def edit() -> None:
                 await d.edit(trials=7)
@@ -400,8 +401,8 @@ def test_one_run_starts_if_two_pages_ask_for_it_at_once(
 
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.OpenExperimentFile(path="two-targets.json"))
-            asked = [d.do(to_server.RunExperiment()) for _ in range(2)]
+            await d.do("open_experiment", path="two-targets.json")
+            asked = [d.do("run_experiment") for _ in range(2)]
             first, second = await asyncio.gather(*asked, return_exceptions=True)
             assert first is None and "runs already" in str(second)
             assert started == [d.hub.experiment.run]
@@ -414,13 +415,13 @@ def test_an_experiment_closes_while_one_of_its_trials_is_repeated(folder: Path) 
 
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
+            await d.do("open_experiment", path="results/experiment.json")
             run = d.hub.experiment.run
             assert run is not None
-            repeated = asyncio.create_task(d.do(to_server.RepeatTrial(trial=2)))
+            repeated = asyncio.create_task(d.do("repeat_trial", trial=2))
             while run._pool is None:
                 await asyncio.sleep(0.01)
-            await d.do(to_server.CloseExperiment())
+            await d.do("close_experiment")
             assert d.hub.experiment.data is None and run._pool is None
             with pytest.raises(DeodarError, match="was closed"):
                 await repeated
@@ -444,7 +445,7 @@ def test_an_experiment_that_cannot_be_opened_states_its_problem(
 
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.OpenExperimentFile(path="two-targets.json"))
+            await d.do("open_experiment", path="two-targets.json")
             await d.edit(**wrong)
             [problem] = d.hub.experiment.problems
             assert found in problem.what
@@ -493,25 +494,25 @@ def test_the_document_with_its_edits_is_open_again_after_the_record_of_a_trial(
     async def scene() -> None:
         async with desk(folder) as d:
             project, experiment = d.hub.project, d.hub.experiment
-            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
-            await d.do(to_server.OpenFile(path="two-targets.model.json"))
+            await d.do("open_experiment", path="results/experiment.json")
+            await d.do("open_file", path="two-targets.model.json")
             u = project.history.document().entries[0].id
-            await d.do(to_server.SetParameter(element=u, parameter="tau", value=40.0))
-            repeated = asyncio.create_task(d.do(to_server.RepeatTrial(trial=1)))
-            await d.do(to_server.SetParameter(element=u, parameter="tau", value=50.0))
+            await d.do("set", element=u, parameter="tau", value=40.0)
+            repeated = asyncio.create_task(d.do("repeat_trial", trial=1))
+            await d.do("set", element=u, parameter="tau", value=50.0)
             ready.set()
             await repeated
             assert experiment.repeated == 1 and project.record.reader is not None
             [stored] = (own_state / "unsaved").glob("*.json")
             assert dd.load(stored).get("u.tau") == 50.0
             with pytest.raises(ConfirmationRequired):
-                await d.do(to_server.OpenFile(path="two-targets.model.json"))
-            await d.do(to_server.LeaveTrial())
+                await d.do("open_file", path="two-targets.model.json")
+            await d.do("leave_trial")
             assert project.record.reader is None and project.history.unsaved and stored.is_file()
             assert project.file.path == folder / "two-targets.model.json"
             assert project.history.model is not None and project.history.model.get("u.tau") == 50.0
-            await d.do(to_server.Undo())
-            await d.do(to_server.Undo())
+            await d.do("undo")
+            await d.do("undo")
             assert project.history.model.get("u.tau") == 20.0 and not project.history.unsaved
 
     asyncio.run(scene())
@@ -524,20 +525,19 @@ def test_saving_an_experiment_asks_before_it_replaces_a_file_of_others(folder: P
 
     async def scene() -> None:
         async with desk(folder) as d:
-            save = to_server.SaveExperiment
-            await d.do(to_server.OpenText(name="other.json", text=other))
-            await d.do(to_server.NewExperiment())
+            await d.do("open_text", name="other.json", text=other)
+            await d.do("new_experiment")
             with pytest.raises(ConfirmationRequired) as asked:
-                await d.do(save(path="exp.json"))
+                await d.do("save_experiment", path="exp.json")
             assert (asked.value.question, asked.value.file) == ("replace", "exp.model.json")
             assert (folder / "exp.model.json").read_text(encoding="utf-8") == "{}"
-            await d.do(save(path="exp.json", replace=True))
+            await d.do("save_experiment", path="exp.json", replace=True)
             await d.edit(trials=5)
-            await d.do(save())  # both files are its own now
+            await d.do("save_experiment")  # both files are its own now
             assert dd.Experiment.load(folder / "exp.json").trials == 5
             (folder / "exp.json").write_text("{}", encoding="utf-8")
             with pytest.raises(ConfirmationRequired) as asked:
-                await d.do(save())
+                await d.do("save_experiment")
             assert asked.value.file == "exp.json"
 
     asyncio.run(scene())
@@ -549,17 +549,17 @@ def test_an_experiment_keeps_its_model_while_another_document_is_open(folder: Pa
 
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.OpenExperimentFile(path="a.json"))
-            await d.do(to_server.OpenFile(path="b.model.json"))
+            await d.do("open_experiment", path="a.json")
+            await d.do("open_file", path="b.model.json")
             await d.edit(trials=5)
             with pytest.raises(DeodarError, match="belongs to a"):
-                await d.do(to_server.SaveExperiment())
+                await d.do("save_experiment")
             with pytest.raises(DeodarError, match="is the file of the model"):
-                await d.do(to_server.SaveExperiment(path="b.model.json", replace=True))
-            await d.do(to_server.SaveExperiment(path="c.json"))
-            await d.do(to_server.OpenFile(path="a.model.json"))
-            await d.do(to_server.OpenFile(path="b.model.json"))
-            await d.do(to_server.SaveExperiment())
+                await d.do("save_experiment", path="b.model.json", replace=True)
+            await d.do("save_experiment", path="c.json")
+            await d.do("open_file", path="a.model.json")
+            await d.do("open_file", path="b.model.json")
+            await d.do("save_experiment")
 
     asyncio.run(scene())
     models = {name: json.loads((folder / name).read_text())["model"] for name in ("a.json", "c.json")}
@@ -569,28 +569,26 @@ def test_an_experiment_keeps_its_model_while_another_document_is_open(folder: Pa
 @pytest.mark.parametrize(
     "leaves",
     [
-        to_server.NewExperiment(),
-        to_server.CloseExperiment(),
-        to_server.OpenExperimentFile(path="two-targets.json"),
-        to_server.OpenFile(path="two-targets.json"),
+        {"type": "new_experiment"},
+        {"type": "close_experiment"},
+        {"type": "open_experiment", "path": "two-targets.json"},
+        {"type": "open_file", "path": "two-targets.json"},
     ],
-    ids=lambda message: type(message).__name__,
+    ids=lambda leaves: leaves["type"],
 )
-def test_unsaved_edits_of_an_experiment_are_asked_about(
-    folder: Path, leaves: to_server.NewExperiment | to_server.CloseExperiment | to_server.OpenFile
-) -> None:
+def test_unsaved_edits_of_an_experiment_are_asked_about(folder: Path, leaves: dict[str, str]) -> None:
     few().save(folder / "two-targets.json")
 
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.OpenExperimentFile(path="two-targets.json"))
-            await d.do(to_server.NewExperiment())
-            await d.do(to_server.NewExperiment())  # no edit would be lost
+            await d.do("open_experiment", path="two-targets.json")
+            await d.do("new_experiment")
+            await d.do("new_experiment")  # no edit would be lost
             await d.edit(trials=7)
             with pytest.raises(ConfirmationRequired, match="unsaved_experiment"):
-                await d.do(leaves)
+                await d.do(**leaves)
             assert d.hub.experiment.view().data["trials"] == 7
-            await d.do(msgspec.structs.replace(leaves, discard_experiment=True))
+            await d.do(**leaves, discard_experiment=True)
             assert (d.hub.experiment.data or {}).get("trials") != 7
 
     asyncio.run(scene())
@@ -599,8 +597,8 @@ def test_unsaved_edits_of_an_experiment_are_asked_about(
 def test_edits_of_an_experiment_are_undone_and_redone(folder: Path) -> None:
     async def scene() -> None:
         async with desk(folder) as d:
-            await d.do(to_server.NewDocument())
-            await d.do(to_server.NewExperiment())
+            await d.do("new")
+            await d.do("new_experiment")
             experiment = d.hub.experiment
             texts = [json.dumps(experiment.data)]
             for changes in ({"trials": 7}, {"limit": 50.0}, {"trials": 9, "name": "other"}):
@@ -608,21 +606,21 @@ def test_edits_of_an_experiment_are_undone_and_redone(folder: Path) -> None:
                 texts.append(json.dumps(experiment.data))
             assert (experiment.view().undo, experiment.view().redo) == (3, 0)
             for text in texts[-2::-1]:
-                await d.do(to_server.UndoExperiment())
+                await d.do("undo_experiment")
                 assert json.dumps(experiment.data) == text
             assert not experiment.unsaved
             version = experiment.version
-            await d.do(to_server.UndoExperiment())  # there is none
+            await d.do("undo_experiment")  # there is none
             assert experiment.version == version
             for text in texts[1:]:
-                await d.do(to_server.RedoExperiment())
+                await d.do("redo_experiment")
                 assert json.dumps(experiment.data) == text
-            await d.do(to_server.UndoExperiment())
+            await d.do("undo_experiment")
             await d.edit(trials=11)
             assert (experiment.view().undo, experiment.view().redo) == (3, 0)
-            await d.do(to_server.SaveExperiment(path="a.json"))
+            await d.do("save_experiment", path="a.json")
             assert experiment.view().undo == 3
-            await d.do(to_server.NewExperiment())
+            await d.do("new_experiment")
             assert experiment.view().undo == 0
 
     asyncio.run(scene())
@@ -635,7 +633,7 @@ def test_an_edited_experiment_is_recovered_after_a_kill(
 
     async def edited() -> None:
         one = Desk(folder)  # it is not closed, as after a kill
-        await one.do(to_server.OpenExperimentFile(path="a.json"))
+        await one.do("open_experiment", path="a.json")
         await one.hub.experiment.store_edits()
         assert not one.hub.experiment.edits
         await one.edit(trials=7)
@@ -649,20 +647,20 @@ def test_an_edited_experiment_is_recovered_after_a_kill(
         async with desk(folder) as d:
             [found] = (await d.hub.gallery()).recoveries
             assert (found.experiment, found.title) == ("two targets", "two targets")
-            await d.do(to_server.NewDocument())
-            await d.do(to_server.NewExperiment())
+            await d.do("new")
+            await d.do("new_experiment")
             await d.edit(trials=3)
             with pytest.raises(ConfirmationRequired, match="unsaved_experiment"):
-                await d.do(to_server.Recover(name=found.name))
-            await d.do(to_server.Recover(name=found.name, discard_experiment=True))
+                await d.do("recover", name=found.name)
+            await d.do("recover", name=found.name, discard_experiment=True)
             view = d.hub.experiment.view()
             assert (view.data or {})["trials"] == 7 and view.unsaved and view.problems == []
             assert view.file == "a.json" and view.trials == 28
             assert not d.hub.project.history.unsaved, "its model has the content of its file"
             assert not (await d.hub.gallery()).recoveries
             with pytest.raises(ConfirmationRequired, match="replace"):
-                await d.do(to_server.SaveExperiment())  # another program may have changed it meanwhile
-            await d.do(to_server.SaveExperiment(replace=True))
+                await d.do("save_experiment")  # another program may have changed it meanwhile
+            await d.do("save_experiment", replace=True)
             assert not (await d.hub.gallery()).recoveries and not d.hub.store.stored_edits()
 
     asyncio.run(recovered())

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from deodar.model import output
-from deodar_studio.messages import frames, protocol, to_page, to_server
+from deodar_studio.messages import frames, to_page
+from deodar_studio.requests import protocol, request
 
 SAY = "type: python tools/generate.py"
 
@@ -53,7 +54,7 @@ def test_the_schema_is_valid_and_refuses_unknown_messages() -> None:
 
 def test_tags_of_messages_are_unique_and_all_are_in_the_typescript() -> None:
     text = protocol.typescript()
-    families = (to_server.MESSAGES, to_page.MESSAGES)
+    families = (request.MESSAGES, to_page.MESSAGES)
     tags = [cls.__struct_config__.tag for family in families for cls in family.values()]
     assert len(set(tags)) == len(tags)
     for tag in tags:

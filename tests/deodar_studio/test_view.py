@@ -15,7 +15,6 @@ from deodar.kinds.description import descriptions
 from deodar.model import plain_values
 from deodar.numerics.kernels.custom import Custom
 from deodar_studio.messages.to_page import Kind
-from deodar_studio.messages.to_server import PushInput
 from deodar_studio.requests.run_requests import _blob
 from deodar_studio.views import view
 
@@ -151,8 +150,8 @@ def test_every_description_of_a_kind_can_be_sent() -> None:
 def test_a_pushed_input_is_a_gaussian_over_every_axis() -> None:
     ring = dd.Axis("ring", 0, 360, samples=36, periodic=True)
 
-    def pushed(axes: Any, **values: Any) -> np.ndarray:
-        return _blob(axes, PushInput(element="e", amplitude=3.0, **values))
+    def pushed(axes: Any, center: Any = None, sigma: Any = None) -> np.ndarray:
+        return _blob(axes, 3.0, center, sigma)
 
     x, y, angle = X.points, Y.points, ring.points
     bell = 3 * np.exp(-0.5 * ((x - 40) / 5) ** 2)

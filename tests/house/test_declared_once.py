@@ -16,21 +16,22 @@ from deodar.experiments.design import KINDS, Design
 from deodar.experiments.plain import from_data, to_data
 from deodar.family import Family
 from deodar.parameters import Recompile
-from deodar_studio.messages import to_page, to_server
+from deodar_studio.messages import to_page
 from deodar_studio.messages.message import Message, union
-from deodar_studio.messages.protocol import schema
-from deodar_studio.requests import dispatch, handlers
+from deodar_studio.pages.hub import Hub
+from deodar_studio.pages.page import Page
+from deodar_studio.requests.protocol import schema
+from deodar_studio.requests.request import MESSAGES, Text, asks
 
 
 def _declared(module: Any, base: type[Any]) -> set[str]:
-    """Return the classes that a module derives from a base, without the bases themselves."""
+    """Return the classes that a module derives from a base."""
     own = [
         cls
         for cls in vars(module).values()
         if isinstance(cls, type) and issubclass(cls, base) and cls.__module__ == module.__name__
     ]
-    bases = (base, to_server.Request, to_server.DocumentRequest, to_server.OpeningRequest)
-    return {cls.__name__ for cls in own if cls not in bases}
+    return {cls.__name__ for cls in own if cls is not base}
 
 
 @pytest.mark.parametrize(
@@ -38,10 +39,9 @@ def _declared(module: Any, base: type[Any]) -> set[str]:
     [
         (events, events.Event, events.EVENTS),
         (actions, actions.Action, actions.ACTIONS),
-        (to_server, Message, to_server.MESSAGES),
         (to_page, Message, to_page.MESSAGES),
     ],
-    ids=["events", "actions", "to_server", "to_page"],
+    ids=["events", "actions", "to_page"],
 )
 def test_every_declared_class_is_registered(module: Any, base: type[Any], family: Family[Any]) -> None:
     assert set(family) == _declared(module, base) and family
@@ -63,25 +63,28 @@ def test_a_new_event_is_read_written_and_in_the_schema(monkeypatch: pytest.Monke
 
 
 def test_a_new_message_is_in_the_protocol(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(to_server.MESSAGES, "_members", dict(to_server.MESSAGES))
+    monkeypatch.setattr(MESSAGES, "_members", dict(MESSAGES))
 
-    @to_server.MESSAGES.register
-    class Whistle(to_server.Request, frozen=True, kw_only=True, tag="whistle"):
-        loud: bool
+    @asks(tag="blow")
+    async def whistle_twice(hub: Hub, page: Page, *, loud: bool, tune: Text = "C") -> None:
+        """Whistle."""
 
-    assert "Whistle" in schema()["$defs"]
-    read = msgspec.json.decode(b'{"type": "whistle", "loud": true}', type=union(to_server.MESSAGES))
-    assert read == Whistle(loud=True)
+    form = schema()["$defs"]["WhistleTwice"]
+    assert form["description"] == "Whistle." and set(form["required"]) == {"type", "loud"}
+    read = msgspec.json.decode(b'{"type": "blow", "loud": true}', type=union(MESSAGES))
+    assert read == MESSAGES["WhistleTwice"](loud=True, tune="C")
+    with pytest.raises(msgspec.ValidationError, match="length <= 4096"):
+        msgspec.convert({"type": "blow", "loud": True, "tune": "C" * 4097}, union(MESSAGES))
+    with pytest.raises(msgspec.ValidationError, match="unknown field `pitch`"):
+        msgspec.convert({"type": "blow", "loud": True, "pitch": 1}, union(MESSAGES))
 
 
-def test_every_message_to_the_server_has_a_handler() -> None:
-    """`Drawn` is not a request: the connection itself reads it."""
-    assert set(dispatch.HANDLERS) == set(to_server.MESSAGES.values()) - {to_server.Drawn}
+def test_a_second_request_of_a_name_is_refused() -> None:
+    async def undo(hub: Hub, page: Page) -> None:
+        """Undo."""
 
-
-def test_a_second_handler_of_a_message_is_refused() -> None:
-    with pytest.raises(ModelError, match="Undo has a handler already"):
-        handlers.handles(to_server.Undo)(handlers.HANDLERS[to_server.Redo])
+    with pytest.raises(ModelError, match="the Request 'Undo' is registered twice"):
+        asks()(undo)
 
 
 def test_a_name_is_registered_once_and_only_under_its_base() -> None:

@@ -20,10 +20,6 @@ Python.
 STATE = {
     ("compiler.hosts", "_joined"): "JAX joins hosts once for the process",
     ("registry", "_kinds"): "the registry itself",
-    (
-        "deodar_studio.requests.handlers",
-        "HANDLERS",
-    ): "the handlers of messages, filled by `handles` in this file",
     ("worlds._capture", "_silenced"): "the log of OpenCV has one level for the process",
 }
 MUTABLE_CALLS = {

@@ -35,7 +35,6 @@ from deodar_studio.files.file_thread import in_file_thread, try_in_file_thread
 from deodar_studio.files.state_store import StateStore, StoredExperiment
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.messages.to_page import ExperimentView, RunView, TrialRows
-from deodar_studio.messages.to_server import RunExperiment
 from deodar_studio.project.confirmation import ConfirmationRequired
 from deodar_studio.project.file_state import plain
 from deodar_studio.project.open_project import OpenProject
@@ -480,9 +479,9 @@ class OpenExperiment:
 
     # --------------------------------------------------------------------------------------------- the trials
 
-    async def start(self, asked: RunExperiment) -> None:
-        """Run the experiment where a page asks for it; a run of the same experiment that was stopped
-        continues.
+    async def start(self, workers: int, address: str, at: Callable[[str], Cluster]) -> None:
+        """Run the experiment where a page asks for it (`RunPlace.of`); a run of the same experiment that was
+        stopped continues.
 
         Raises:
             DocumentError: it runs already, also in another process, or may not run there.
@@ -491,7 +490,7 @@ class OpenExperiment:
         """
         if self.run is not None and self.run.state == "running":
             raise DocumentError("the experiment runs already")
-        place = RunPlace.of(asked, self._workspace, self._private)
+        place = RunPlace.of(workers, address, at, self._workspace, self._private)
         setup = await asyncio.to_thread(self._setup)
         before = self.run
         if before is not None and before.state == "followed" and _same(before.setup, setup):

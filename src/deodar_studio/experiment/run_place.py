@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses as dc
 import os
+from collections.abc import Callable
 
 from deodar.cluster import Cluster
 from deodar.errors import DocumentError
 from deodar_studio.files.workspace import Workspace
-from deodar_studio.messages.to_server import RunExperiment
 
 USUAL_WORKERS = max(1, min(8, (os.cpu_count() or 2) - 1))
 """Number of worker processes, unless a page states one: a core is left to the studio (8 is a guess: each
@@ -34,14 +34,18 @@ class RunPlace:
     cluster: Cluster | None = None
 
     @classmethod
-    def of(cls, asked: RunExperiment, space: Workspace, free: bool) -> RunPlace:
+    def of(
+        cls, workers: int, address: str, at: Callable[[str], Cluster], space: Workspace, free: bool
+    ) -> RunPlace:
         """Return the place that a page asks for.
 
         A scheduler can run programs in the process that connects to it, and a file of SLURM has commands. So
         a page may name both only if `free`: its user can start programs here anyway.
 
         Args:
-            asked: the request.
+            workers: number of processes on this machine; 0: the usual one.
+            address: that of a cluster; empty: none.
+            at: returns the cluster at an address.
             space: the files of the studio; `slurm:FILE` is one of them.
             free: whether pages may name clusters beyond the processes of `local:N`.
 
@@ -50,7 +54,7 @@ class RunPlace:
             ParameterError: the address of the cluster is wrong.
             WorkerError: it leads beyond this machine, without encryption.
         """
-        address, cluster = asked.cluster.strip(), None
+        cluster = None
         if address:
             if not free and not address.startswith("local:"):
                 raise DocumentError(
@@ -60,10 +64,10 @@ class RunPlace:
                 )
             if address.startswith(SLURM) and address != SLURM:
                 address = f"{SLURM}{space.inside(address.removeprefix(SLURM).strip())}"
-            cluster = Cluster(address, asked.trust_network, asked.mixed, asked.patience)
-        count = asked.workers if cluster is None else cluster.processes
+            cluster = at(address)
+        count = workers if cluster is None else cluster.processes
         if count > MOST_WORKERS:
             raise DocumentError(
                 f"{count} processes are too many for this machine", fix=f"Use at most {MOST_WORKERS}"
             )
-        return cls(asked.workers or USUAL_WORKERS, cluster)
+        return cls(workers or USUAL_WORKERS, cluster)

@@ -134,7 +134,7 @@ class Workspace:
     def _named(self, place: Path) -> str:
         return place.relative_to(self.root).as_posix() if place.is_relative_to(self.root) else str(place)
 
-    def listed(self, request: int, path: str) -> Folder:
+    def listed(self, path: str) -> Folder:
         """List folders, documents and pictures in a folder, without hidden ones and links to the outside."""
         place = self.inside(path)
         if not place.is_dir():
@@ -148,7 +148,7 @@ class Workspace:
         inside = [e for e in found if self.holds(Path(e.path))]
         records = [e.name for e in inside if _is(lambda e=e: _is_record(Path(e.path)))]
         return Folder(
-            request=request,
+            request=0,
             path="" if place == self.root else self.shown(place),
             folders=[e.name for e in inside if _is(e.is_dir) and e.name not in records],
             files=_ending(inside, (*DOCUMENTS, *opening.endings())),

@@ -1,8 +1,8 @@
 """Base classes of the messages between the studio's server and its page.
 
-The two families are `to_server.MESSAGES` and `to_page.MESSAGES`. JSON Schema and TypeScript are generated
-from them (`python -m deodar_studio.messages.protocol`). Arrays are not sent as messages but as binary
-frames: see `deodar_studio.messages.frames`.
+The two families are `requests.request.MESSAGES` and `to_page.MESSAGES`. JSON Schema and TypeScript are
+generated from them (`python -m deodar_studio.requests.protocol`). Arrays are not sent as messages but as
+binary frames: see `deodar_studio.messages.frames`.
 """
 
 from __future__ import annotations

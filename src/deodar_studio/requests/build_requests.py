@@ -1,39 +1,68 @@
-"""Handlers of requests that build a document: new elements, connections, groups, copies."""
+"""Requests that build a document: new elements, connections, groups, copies."""
 
 from __future__ import annotations
 
 import asyncio
 import dataclasses as dc
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from typing import Annotated, Any, TypeVar
+
+import msgspec
 
 from deodar.errors import DeodarError, DocumentError, UnknownName, did_you_mean
 from deodar.importers import stored_report
 from deodar.model import building, clipboard, document_files, edit, fits, plain_values, script
-from deodar.model.building import Around, BoxPosition, EndPorts
+from deodar.model.building import Around, BoxPosition, ElementPort, EndPorts
 from deodar.model.document import Document
-from deodar.model.paths import PathNames
 from deodar_studio.catalogue import templates
-from deodar_studio.messages import to_server
+from deodar_studio.messages.message import Data, Id
 from deodar_studio.messages.to_page import Answer, Fits
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
-from deodar_studio.requests.handlers import handles
+from deodar_studio.requests.request import (
+    MESSAGES,
+    Count,
+    DocumentRequest,
+    Text,
+    answer,
+    asks,
+    changes,
+    edits,
+)
 from deodar_studio.views import view
 
 T = TypeVar("T")
 
+Coordinate = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
+Position = tuple[Coordinate, Coordinate]
+Group = Annotated[tuple[Text, ...], msgspec.Meta(max_length=64)]
+Many = msgspec.Meta(max_length=100_000)
+Ids = Annotated[tuple[Id, ...], Many]
+Groups = Annotated[tuple[Group, ...], Many]
 
-def _ends(given: to_server.Ends | to_server.Connect | to_server.Disconnect) -> EndPorts:
-    return (given.source, given.source_port, given.target, given.target_port)
+
+class PortEnd(Data, frozen=True, kw_only=True):
+    """A port of an element; an empty `port` means the default one: the output, the first input."""
+
+    element: Id
+    port: Text = ""
+
+    @property
+    def key(self) -> ElementPort:
+        return self.element, self.port
 
 
-def _port(given: to_server.PortEnd | None) -> building.ElementPort | None:
-    return None if given is None else (given.element, given.port)
+class Ends(Data, frozen=True, kw_only=True):
+    """The ends of a connection; an empty port means the default one."""
 
+    source: Id
+    source_port: Text = ""
+    target: Id
+    target_port: Text = ""
 
-def _groups(given: list[list[str]]) -> list[PathNames]:
-    return [tuple(g) for g in given]
+    @property
+    def ports(self) -> EndPorts:
+        return self.source, self.source_port, self.target, self.target_port
 
 
 async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]]) -> T:
@@ -49,100 +78,159 @@ async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]]) -> T
     return found[0]
 
 
-@handles(to_server.NewDocument)
-async def _new(hub: Hub, page: Page, m: to_server.NewDocument) -> None:
-    await hub.project.open_copy(lambda: Document("untitled"), "untitled", m.discard)
+@MESSAGES.register
+class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
+    """Add an element of a kind; the answer has its id in `made`.
+
+    `values` has the format of documents. Parameters without a value get one that works at once: axes are
+    those of the ports that the element is connected with, else those of the first field, else a new axis x.
+    `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into;
+    `replaces`: a connection that is removed. An empty name means a free one after its kind; a taken one gets
+    a number. `at` is the position of its box.
+    """
+
+    kind: Text
+    values: dict[str, Any] = {}
+    name: Text = ""
+    group: Group = ()
+    at: Position | None = None
+    source: PortEnd | None = None
+    target: PortEnd | None = None
+    wire: Ends | None = None
+    replaces: Ends | None = None
+
+    async def serve(self, hub: Hub, page: Page) -> Answer:
+        source, target = (None if end is None else end.key for end in (self.source, self.target))
+        wire, replaces = (None if ends is None else ends.ports for ends in (self.wire, self.replaces))
+        around = Around(source, target, wire, replaces)
+        values = hub.embodiment.starting_values(self.kind, self.values)
+        made = await _changed(
+            hub, lambda doc: building.add(doc, self.kind, values, self.name, self.group, self.at, around)
+        )
+        return answer(made=made)
 
 
-@handles(to_server.AddElement)
-async def _add_element(hub: Hub, page: Page, m: to_server.AddElement) -> Answer:
-    wire, replaces = (None if ends is None else _ends(ends) for ends in (m.wire, m.replaces))
-    around = Around(_port(m.source), _port(m.target), wire, replaces)
-    values = hub.embodiment.starting_values(m.kind, m.values)
-    made = await _changed(
-        hub, lambda doc: building.add(doc, m.kind, values, m.name, tuple(m.group), m.at, around)
-    )
-    return Answer(request=m.request, made=made)
+@edits(tag="insert")
+def insert_element(
+    doc: Document, *, element: Id, wire: Ends, positions: Mapping[Id, Position] = {}
+) -> Document:
+    """Insert an existing element into a connection, by its default ports; `positions` are those of boxes."""
+    return _placed(building.insert_element(doc, element, wire.ports), positions)
 
 
-@handles(to_server.InsertElement)
-async def _insert(hub: Hub, page: Page, m: to_server.InsertElement) -> None:
-    def change(doc: Document) -> Document:
-        return building.placed(building.insert_element(doc, m.element, _ends(m.wire)), _of(doc, m.positions))
-
-    await hub.project.history.change(change)
-
-
-@handles(to_server.Connect)
-async def _connect(hub: Hub, page: Page, m: to_server.Connect) -> None:
-    await hub.project.history.change(lambda doc: building.connect(doc, _ends(m), m.reads))
-
-
-@handles(to_server.Disconnect)
-async def _disconnect(hub: Hub, page: Page, m: to_server.Disconnect) -> None:
-    await hub.project.history.change(lambda doc: building.disconnect(doc, [_ends(m)]))
+@edits()
+def connect(
+    doc: Document,
+    *,
+    source: Id,
+    source_port: Text = "",
+    target: Id,
+    target_port: Text = "",
+    reads: Text = "",
+) -> Document:
+    """Connect an output port to an input port; `reads` is previous, current, delayed, or empty."""
+    return building.connect(doc, (source, source_port, target, target_port), reads)
 
 
-@handles(to_server.Reconnect)
-async def _reconnect(hub: Hub, page: Page, m: to_server.Reconnect) -> None:
-    await hub.project.history.change(lambda doc: building.reconnect(doc, _ends(m.old), _ends(m.new)))
+@edits()
+def disconnect(
+    doc: Document, *, source: Id, source_port: Text = "", target: Id, target_port: Text = ""
+) -> Document:
+    """Remove a connection."""
+    return building.disconnect(doc, [(source, source_port, target, target_port)])
 
 
-@handles(to_server.RemoveElements)
-async def _remove(hub: Hub, page: Page, m: to_server.RemoveElements) -> None:
-    wires = [_ends(c) for c in m.connections]
-    await hub.project.history.change(lambda doc: building.remove(doc, m.elements, _groups(m.groups), wires))
+@edits()
+def reconnect(doc: Document, *, old: Ends, new: Ends) -> Document:
+    """Move the ends of a connection."""
+    return building.reconnect(doc, old.ports, new.ports)
 
 
-@handles(to_server.Rename)
-async def _rename(hub: Hub, page: Page, m: to_server.Rename) -> None:
-    if m.element:
-        await hub.project.history.change(lambda doc: building.rename(doc, m.element, m.name))
-    else:
-        await hub.project.history.change(lambda doc: building.rename_group(doc, tuple(m.group), m.name))
+@edits(tag="remove")
+def remove_elements(
+    doc: Document,
+    *,
+    elements: Ids = (),
+    groups: Groups = (),
+    connections: Annotated[tuple[Ends, ...], Many] = (),
+) -> Document:
+    """Remove elements, groups with their content, and connections."""
+    return building.remove(doc, elements, groups, [ends.ports for ends in connections])
 
 
-@handles(to_server.MoveInto)
-async def _move_into(hub: Hub, page: Page, m: to_server.MoveInto) -> None:
-    def change(doc: Document) -> Document:
-        moved = building.move_into(doc, m.elements, _groups(m.groups), tuple(m.group))
-        return building.placed(moved, _of(doc, m.positions))
-
-    await hub.project.history.change(change)
-
-
-@handles(to_server.MakeGroup)
-async def _group(hub: Hub, page: Page, m: to_server.MakeGroup) -> Answer:
-    path = await _changed(hub, lambda doc: building.group(doc, m.elements, _groups(m.groups), m.name, m.at))
-    return Answer(request=m.request, group=list(path))
+@edits()
+def rename(doc: Document, *, name: Text, element: Id = "", group: Group = ()) -> Document:
+    """Rename an element, or with an empty `element` a group. A name that is taken is refused."""
+    if element:
+        return building.rename(doc, element, name)
+    return building.rename_group(doc, group, name)
 
 
-@handles(to_server.Ungroup)
-async def _ungroup(hub: Hub, page: Page, m: to_server.Ungroup) -> None:
-    await hub.project.history.change(lambda doc: building.ungroup(doc, tuple(m.group)))
+@edits()
+def move_into(
+    doc: Document,
+    *,
+    elements: Ids = (),
+    groups: Groups = (),
+    group: Group = (),
+    positions: Mapping[Id, Position] = {},
+) -> Document:
+    """Move elements and groups into a group; an empty `group` is the top level.
+
+    `positions` are those of boxes, which change in the same step of undo.
+    """
+    return _placed(building.move_into(doc, elements, groups, group), positions)
 
 
-@handles(to_server.CopyElements)
-async def _copy(hub: Hub, page: Page, m: to_server.CopyElements) -> Answer:
+@changes(tag="group")
+async def make_group(
+    hub: Hub,
+    page: Page,
+    *,
+    elements: Ids = (),
+    groups: Groups = (),
+    name: Text = "",
+    at: Position | None = None,
+) -> Answer:
+    """Put elements and groups into a new group, whose names are `group` of the answer.
+
+    An empty name means a free one. `at`: the boxes are moved together, their corner to there.
+    """
+    path = await _changed(hub, lambda doc: building.group(doc, elements, groups, name, at))
+    return answer(group=list(path))
+
+
+@edits()
+def ungroup(doc: Document, *, group: Group) -> Document:
+    """Move the content of a group to its parent."""
+    return building.ungroup(doc, group)
+
+
+@asks(tag="copy")
+async def copy_elements(hub: Hub, page: Page, *, elements: Ids = (), groups: Groups = ()) -> Answer:
+    """Return elements and groups as a document of their own, the JSON text `text` of the answer."""
     doc = hub.project.history.document()
-    text = await asyncio.to_thread(
-        lambda: clipboard.text(building.excerpt(doc, m.elements, _groups(m.groups)))
+    return answer(
+        text=await asyncio.to_thread(lambda: clipboard.text(building.excerpt(doc, elements, groups)))
     )
-    return Answer(request=m.request, text=text)
 
 
-@handles(to_server.ExportScript)
-async def _export_script(hub: Hub, page: Page, m: to_server.ExportScript) -> Answer:
+@asks()
+async def export_script(hub: Hub, page: Page) -> Answer:
+    """Return a Python script that makes the document, the `text` of the answer."""
     # a script says how the model is built, not what was imported
     doc, path = stored_report.without_report(hub.project.history.document()), hub.project.file.path
-    written = await asyncio.to_thread(script.script, doc, "" if path is None else path.name)
-    return Answer(request=m.request, text=written)
+    return answer(text=await asyncio.to_thread(script.script, doc, "" if path is None else path.name))
 
 
-@handles(to_server.Paste)
-async def _paste(hub: Hub, page: Page, m: to_server.Paste) -> Answer:
+@changes()
+async def paste(hub: Hub, page: Page, *, text: str, group: Group = (), at: Position | None = None) -> Answer:
+    """Add the content of a document, given as text, to a group; the answer has the new ids in `made`.
+
+    `at` is the position of its upper left corner. Other text is refused, and nothing changes.
+    """
     try:
-        read = await asyncio.to_thread(clipboard.read, m.text)
+        read = await asyncio.to_thread(clipboard.read, text)
     except DeodarError as error:
         first, *more = error.problems
         what = f"the clipboard holds no elements that can be pasted: {first.what}"
@@ -151,73 +239,99 @@ async def _paste(hub: Hub, page: Page, m: to_server.Paste) -> Answer:
         ) from None
     # functions that the text names run only where the studio was started with trust, as those of a file
     template = dc.replace(read, foreign=not hub.project.trust)
-    made = await _changed(hub, lambda doc: building.paste(doc, template, tuple(m.group), m.at))
-    return Answer(request=m.request, made=made)
+    return answer(made=await _changed(hub, lambda doc: building.paste(doc, template, group, at)))
 
 
-@handles(to_server.SetMany)
-async def _set_many(hub: Hub, page: Page, m: to_server.SetMany) -> Answer:
-    ids = list(dict.fromkeys(m.elements))
-    gesture = (page.number, m.gesture) if m.gesture else None
-    cost = await hub.project.history.change(
-        lambda doc: plain_values.put(doc, ids, m.parameter, m.value), gesture
-    )
-    return Answer(request=m.request, cost=cost)
+@changes()
+async def set_many(
+    hub: Hub, page: Page, *, elements: Ids, parameter: Text, value: Any, gesture: Count = 0
+) -> Answer:
+    """Change one parameter of several elements to the same value, as `set` does for one."""
+    ids = list(dict.fromkeys(elements))
+    drag = (page.number, gesture) if gesture else None
+    cost = await hub.project.history.change(lambda doc: plain_values.put(doc, ids, parameter, value), drag)
+    return answer(cost=cost)
 
 
-@handles(to_server.ChangeAxis)
-async def _change_axis(hub: Hub, page: Page, m: to_server.ChangeAxis) -> Answer:
+@changes()
+async def change_axis(hub: Hub, page: Page, *, key: Text, axis: Mapping[str, Any]) -> Answer:
+    """Change an axis, given by its key, for all elements that have it.
+
+    `axis` has the properties of the new one: name, lower, upper, samples, periodic, unit.
+    """
+
     def change(doc: Document) -> Document:
         known = document_files.axes(doc)
-        if m.key not in known:
-            raise UnknownName(f"the document has no axis {m.key!r}", fix=did_you_mean(m.key, known))
-        return edit.replace_axis(doc, known[m.key], plain_values.axis(m.axis))
+        if key not in known:
+            raise UnknownName(f"the document has no axis {key!r}", fix=did_you_mean(key, known))
+        return edit.replace_axis(doc, known[key], plain_values.axis(axis))
 
-    return Answer(request=m.request, cost=await hub.project.history.change(change))
-
-
-@handles(to_server.AddTemplate)
-async def _add_template(hub: Hub, page: Page, m: to_server.AddTemplate) -> Answer:
-    template = await asyncio.to_thread(templates.document, m.name)
-    group: list[str] = []
-
-    def insert(doc: Document) -> tuple[Document, list[str]]:
-        new, ids, path = building.insert(doc, template, m.name, tuple(m.group), m.at)
-        group.extend(path)
-        return new, ids
-
-    made = await _changed(hub, insert)
-    return Answer(request=m.request, made=made, group=group)
+    return answer(cost=await hub.project.history.change(change))
 
 
-@handles(to_server.Comment)
-async def _comment(hub: Hub, page: Page, m: to_server.Comment) -> Answer:
-    values: dict[str, Any] = {} if m.text is None else {"text": m.text}
-    values |= {} if m.at is None else {"x": m.at[0], "y": m.at[1]}
-    values |= {} if m.size is None else {"width": m.size[0], "height": m.size[1]}
+@changes()
+async def add_template(
+    hub: Hub, page: Page, *, name: Text, group: Group = (), at: Position | None = None
+) -> Answer:
+    """Add a template of `welcome` as a new group; the answer has its ids in `made` and its names in `group`.
+
+    `group` is the group that it is added to, `at` the position of its upper left corner.
+    """
+    template = await asyncio.to_thread(templates.document, name)
+
+    def insert(doc: Document) -> tuple[Document, Answer]:
+        new, ids, path = building.insert(doc, template, name, group, at)
+        return new, answer(made=ids, group=list(path))
+
+    return await _changed(hub, insert)
+
+
+@changes()
+async def comment(
+    hub: Hub,
+    page: Page,
+    *,
+    comment: Id = "",
+    text: str | None = None,
+    at: Position | None = None,
+    size: Position | None = None,
+    remove: bool = False,
+) -> Answer:
+    """Add, change or remove a comment on the graph; the answer has the id of a new one in `made`.
+
+    An empty `comment` adds one. None leaves text, position or size (width, height) unchanged. Comments are in
+    the layout, `comments` by id, with `text`, `x`, `y`, `width` and `height`.
+    """
+    values: dict[str, Any] = {} if text is None else {"text": text}
+    values |= {} if at is None else {"x": at[0], "y": at[1]}
+    values |= {} if size is None else {"width": size[0], "height": size[1]}
     found: list[str] = []
 
     def change(doc: Document) -> Document:
-        new, ident = building.comment(doc, m.comment, None if m.remove else values)
+        new, ident = building.comment(doc, comment, None if remove else values)
         found.append(ident)
         return new
 
     await hub.project.history.lay_out(change)
-    return Answer(request=m.request, made=[] if m.comment else found)
+    return answer(made=[] if comment else found)
 
 
-@handles(to_server.FindFits)
-async def _find_fits(hub: Hub, page: Page, m: to_server.FindFits) -> Fits:
-    doc = hub.project.history.document()
-    ports, kinds = await asyncio.to_thread(fits.fits, doc, m.element, m.port)
-    return view.fits(m, ports, kinds)
+@asks(tag="fits")
+async def find_fits(hub: Hub, page: Page, *, element: Id, port: Text = "") -> Fits:
+    """Judge what a port can be connected with; a `fitting` message follows.
+
+    An empty `port` means the default output, or the first input of an element without outputs.
+    """
+    ports, kinds = await asyncio.to_thread(fits.fits, hub.project.history.document(), element, port)
+    return view.fits((element, port), ports, kinds)
 
 
-@handles(to_server.PlaceBoxes)
-async def _place(hub: Hub, page: Page, m: to_server.PlaceBoxes) -> None:
-    await hub.project.history.lay_out(lambda doc: building.placed(doc, _of(doc, m.positions)))
+@changes(tag="place")
+async def place_boxes(hub: Hub, page: Page, *, positions: dict[Id, Position]) -> None:
+    """Move boxes to positions, by the ids of their elements."""
+    await hub.project.history.lay_out(lambda doc: _placed(doc, positions))
 
 
-def _of(doc: Document, positions: Mapping[str, BoxPosition]) -> dict[str, BoxPosition]:
-    """Return the positions of elements that exist: another page may have removed the others."""
-    return {i: at for i, at in positions.items() if i in doc.by_id()}
+def _placed(doc: Document, positions: Mapping[str, BoxPosition]) -> Document:
+    """Move the boxes of elements that exist: another page may have removed the others."""
+    return building.placed(doc, {i: at for i, at in positions.items() if i in doc.by_id()})

@@ -1,111 +1,129 @@
-"""Handlers of requests that change values, the layout and the history of the document."""
+"""Requests that change values, the layout and the history of the document."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from typing import Any
 
 from deodar.errors import ParameterError
 from deodar.importers import presets
 from deodar.importers.report import Line
 from deodar.model import edit, find
+from deodar.model.document import Document
 from deodar.model.kept_presets import kept_preset
 from deodar_studio.files import content
 from deodar_studio.files.file_thread import in_file_thread
-from deodar_studio.messages import to_server
+from deodar_studio.messages.message import Id
 from deodar_studio.messages.to_page import Answer
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
-from deodar_studio.requests.handlers import handles
+from deodar_studio.requests.request import Count, Text, answer, changes, edits
 
 
-@handles(to_server.SetParameter)
-async def _set(hub: Hub, page: Page, m: to_server.SetParameter) -> Answer:
-    gesture = (page.number, m.gesture) if m.gesture else None
-    cost = await hub.project.history.set(m.element, m.parameter, m.value, gesture)
-    return Answer(request=m.request, cost=cost)
-
-
-@handles(to_server.Describe)
-async def _describe(hub: Hub, page: Page, m: to_server.Describe) -> None:
-    given = {key: value for key in ("name", "notes", "dt") if (value := getattr(m, key)) is not None}
-    await hub.project.history.describe(given)
-
-
-@handles(to_server.AddDocumentParameter)
-async def _add_document_parameter(hub: Hub, page: Page, m: to_server.AddDocumentParameter) -> None:
-    def change(doc: edit.Document) -> edit.Document:
-        if m.name in [k.name for k in doc.parameters]:
-            raise ParameterError("there is already a document parameter of that name", where=m.name)
-        return edit.link(
-            edit.document_parameter(doc, m.name, find.number(doc, m.element, m.parameter)),
-            m.element,
-            m.parameter,
-            m.name,
-        )
-
-    await hub.project.history.change(change)
-
-
-@handles(to_server.Link)
-async def _link(hub: Hub, page: Page, m: to_server.Link) -> None:
-    await hub.project.history.change(lambda doc: edit.link(doc, m.element, m.parameter, m.name))
-
-
-@handles(to_server.Unlink)
-async def _unlink(hub: Hub, page: Page, m: to_server.Unlink) -> None:
-    await hub.project.history.change(lambda doc: edit.unlink(doc, m.element, m.parameter))
-
-
-@handles(to_server.RemoveDocumentParameter)
-async def _remove_document_parameter(hub: Hub, page: Page, m: to_server.RemoveDocumentParameter) -> None:
-    await hub.project.history.change(lambda doc: edit.remove_document_parameter(doc, m.name))
-
-
-@handles(to_server.Arrange)
-async def _arrange(hub: Hub, page: Page, m: to_server.Arrange) -> None:
-    await hub.project.history.arrange(m.layout, m.undoable)
-
-
-@handles(to_server.ApplyPreset)
-async def _apply_preset(hub: Hub, page: Page, m: to_server.ApplyPreset) -> Answer:
-    place = hub.workspace.inside(m.path)
-    preset = await in_file_thread(lambda: content.load(hub.workspace, place), m.path)
-    return await _take_over(hub, m.request, lambda doc: presets.applied(doc, preset))
-
-
-@handles(to_server.ApplyKeptPreset)
-async def _apply_kept_preset(hub: Hub, page: Page, m: to_server.ApplyKeptPreset) -> Answer:
-    return await _take_over(hub, m.request, lambda doc: presets.kept(doc, kept_preset(doc, m.name)))
-
-
-@handles(to_server.ApplyPresetText)
-async def _apply_preset_text(hub: Hub, page: Page, m: to_server.ApplyPresetText) -> Answer:
-    preset = await asyncio.to_thread(content.read, m.text, m.name)
-    return await _take_over(hub, m.request, lambda doc: presets.applied(doc, preset))
-
-
-async def _take_over(
-    hub: Hub, request: int, take: Callable[[edit.Document], tuple[edit.Document, list[Line]]]
+@changes(tag="set")
+async def set_parameter(
+    hub: Hub, page: Page, *, element: Id, parameter: Text, value: Any, gesture: Count = 0
 ) -> Answer:
+    """Change a parameter of an element (`kernel.0.sigma`), or the document parameter if `element` is empty.
+
+    `value` has the format of documents: numbers, text, parts with their kind, axes by their key. Changes with
+    the same `gesture` (not 0) are one step of undo, such as the drag of a slider.
+    """
+    drag = (page.number, gesture) if gesture else None
+    return answer(cost=await hub.project.history.set(element, parameter, value, drag))
+
+
+@changes()
+async def describe(
+    hub: Hub, page: Page, *, name: Text | None = None, notes: str | None = None, dt: float | None = None
+) -> None:
+    """Change general properties of the document; None leaves a property unchanged."""
+    given = {"name": name, "notes": notes, "dt": dt}
+    await hub.project.history.describe({key: value for key, value in given.items() if value is not None})
+
+
+@edits()
+def add_document_parameter(doc: Document, *, name: Text, element: Id, parameter: Text) -> Document:
+    """Add a document parameter with the value of the first parameter that it sets."""
+    if name in [k.name for k in doc.parameters]:
+        raise ParameterError("there is already a document parameter of that name", where=name)
+    added = edit.document_parameter(doc, name, find.number(doc, element, parameter))
+    return edit.link(added, element, parameter, name)
+
+
+@edits()
+def link(doc: Document, *, name: Text, element: Id, parameter: Text) -> Document:
+    """Link a parameter of an element to a document parameter."""
+    return edit.link(doc, element, parameter, name)
+
+
+@edits()
+def unlink(doc: Document, *, element: Id, parameter: Text) -> Document:
+    """Unlink a parameter of an element from its document parameter."""
+    return edit.unlink(doc, element, parameter)
+
+
+@edits()
+def remove_document_parameter(doc: Document, *, name: Text) -> Document:
+    """Remove a document parameter; the parameters that it set keep their values."""
+    return edit.remove_document_parameter(doc, name)
+
+
+@changes()
+async def arrange(hub: Hub, page: Page, *, layout: dict[str, Any], undoable: bool = True) -> None:
+    """Change parts of the layout: each key replaces that key of the document's layout, None removes it."""
+    await hub.project.history.arrange(layout, undoable)
+
+
+@changes()
+async def apply_preset(hub: Hub, page: Page, *, path: Text) -> Answer:
+    """Apply the values of another file below the root, by names and kinds, as one step of undo.
+
+    Connections stay. The answer lists the values that did not match.
+    """
+    place = hub.workspace.inside(path)
+    preset = await in_file_thread(lambda: content.load(hub.workspace, place), path)
+    return await _take_over(hub, lambda doc: presets.applied(doc, preset))
+
+
+@changes()
+async def apply_kept_preset(hub: Hub, page: Page, *, name: Text) -> Answer:
+    """Apply a preset that the document keeps in its layout, as one step of undo.
+
+    The answer lists the values that could not be applied.
+    """
+    return await _take_over(hub, lambda doc: presets.kept(doc, kept_preset(doc, name)))
+
+
+@changes()
+async def apply_preset_text(hub: Hub, page: Page, *, name: Text, text: str) -> Answer:
+    """Apply the values of a file as `apply_preset` does, given its text."""
+    preset = await asyncio.to_thread(content.read, text, name)
+    return await _take_over(hub, lambda doc: presets.applied(doc, preset))
+
+
+async def _take_over(hub: Hub, take: Callable[[Document], tuple[Document, list[Line]]]) -> Answer:
     """Apply the values of a preset to the open document."""
     lines: list[Line] = []
 
-    def change(doc: edit.Document) -> edit.Document:
+    def change(doc: Document) -> Document:
         new, found = take(doc)
         lines.extend(found)
         return new
 
     cost = await hub.project.history.change(change)
     unmatched = [str(line) for line in lines if line.verdict == "dropped"]
-    return Answer(request=request, cost=cost, carried=len(lines) - len(unmatched), unmatched=unmatched)
+    return answer(cost=cost, carried=len(lines) - len(unmatched), unmatched=unmatched)
 
 
-@handles(to_server.Undo)
-async def _undo(hub: Hub, page: Page, m: to_server.Undo) -> None:
+@changes()
+async def undo(hub: Hub, page: Page) -> None:
+    """Undo the last change."""
     await hub.project.history.undo()
 
 
-@handles(to_server.Redo)
-async def _redo(hub: Hub, page: Page, m: to_server.Redo) -> None:
+@changes()
+async def redo(hub: Hub, page: Page) -> None:
+    """Redo the change that was undone last."""
     await hub.project.history.redo()

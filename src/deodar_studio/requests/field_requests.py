@@ -1,34 +1,48 @@
-"""Handlers of requests about one field: its regime and its tuning."""
+"""Requests about one field: its regime and its tuning."""
 
 from __future__ import annotations
 
-from deodar_studio.messages import to_server
+from collections.abc import Sequence
+from typing import Any
+
+from deodar_studio.messages.message import Id
 from deodar_studio.messages.to_page import Answer
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
-from deodar_studio.requests.handlers import handles
+from deodar_studio.requests.request import Text, answer, asks, changes
 
 
-@handles(to_server.MeasureRegime)
-async def _measure_regime(hub: Hub, page: Page, m: to_server.MeasureRegime) -> None:
-    hub.measure_regime(m.element)
+@asks()
+async def measure_regime(hub: Hub, page: Page, *, element: Id) -> None:
+    """Measure what a field or node does alone, without noise: the `regime` follows when it is found."""
+    hub.measure_regime(element)
 
 
-@handles(to_server.StopRegime)
-async def _stop_regime(hub: Hub, page: Page, m: to_server.StopRegime) -> None:
+@asks()
+async def stop_regime(hub: Hub, page: Page) -> None:
+    """End the measurement of a regime."""
     hub.measurement.stop()
 
 
-@handles(to_server.TuneField)
-async def _tune_field(hub: Hub, page: Page, m: to_server.TuneField) -> None:
-    hub.tune_field(m.element, m.parameters, m.requirements)
+@asks()
+async def tune_field(
+    hub: Hub, page: Page, *, element: Id, parameters: Sequence[Text], requirements: Sequence[Any]
+) -> None:
+    """Find values of parameters at which a field meets requirements: `tuning` follows.
+
+    `parameters` are names of parameters of the field, such as `kernel.0.sigma`. A requirement is a name, or
+    an object such as `{"detects": {"at": 3, "within": 0.2}}`, as in the files of `deodar tune`.
+    """
+    hub.tune_field(element, parameters, requirements)
 
 
-@handles(to_server.StopTuning)
-async def _stop_tuning(hub: Hub, page: Page, m: to_server.StopTuning) -> None:
+@asks()
+async def stop_tuning(hub: Hub, page: Page) -> None:
+    """End the tuning of a field, and forget what was found."""
     hub.field_tuning.stop()
 
 
-@handles(to_server.ApplyTuning)
-async def _apply_tuning(hub: Hub, page: Page, m: to_server.ApplyTuning) -> Answer:
-    return Answer(request=m.request, cost=await hub.project.history.change(hub.field_tuning.applied))
+@changes()
+async def apply_tuning(hub: Hub, page: Page) -> Answer:
+    """Give the parameters of the field the values that were found, as one change."""
+    return answer(cost=await hub.project.history.change(hub.field_tuning.applied))

@@ -1,105 +1,135 @@
-"""Handlers of requests about files: documents are opened, saved and recovered, and snapshots and presets."""
+"""Requests about files: documents are opened, saved and recovered, and snapshots and presets."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import Literal
 
 from deodar.model import document_files
+from deodar.model.document import Document
 from deodar_studio.catalogue import gallery
-from deodar_studio.files import content
+from deodar_studio.files.content import is_experiment, read_package
 from deodar_studio.files.file_thread import in_file_thread
-from deodar_studio.messages import to_server
 from deodar_studio.messages.to_page import Answer, Folder
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
-from deodar_studio.requests.handlers import handles
+from deodar_studio.requests.request import Text, answer, asks, changes, opens
 
 
-@handles(to_server.OpenFile)
-async def _open_file(hub: Hub, page: Page, m: to_server.OpenFile) -> Answer:
-    place = hub.workspace.inside(m.path)
-    if await in_file_thread(lambda: content.is_experiment(hub.workspace, place), m.path):
-        await hub.experiment.open(place, m.discard, m.discard_experiment)
-        await hub.experiment.check()
-        return Answer(request=m.request)
-    imported = await hub.project.open_file(place, m.discard)
-    return Answer(request=m.request, imported=imported)
+@opens()
+async def open_file(
+    hub: Hub, page: Page, *, path: Text, discard: bool = False, discard_experiment: bool = False
+) -> Answer:
+    """Open a document, a record or an experiment below the root.
+
+    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
+    """
+    place = hub.workspace.inside(path)
+    if not await in_file_thread(lambda: is_experiment(hub.workspace, place), path):
+        return answer(imported=await hub.project.open_file(place, discard))
+    await hub.experiment.open(place, discard, discard_experiment)
+    await hub.experiment.check()
+    return answer()
 
 
-@handles(to_server.OpenExample)
-async def _open_example(hub: Hub, page: Page, m: to_server.OpenExample) -> None:
-    path = gallery.example_file(m.name)
-    await hub.project.open_copy(lambda: document_files.load(path), m.name, m.discard)
+@opens(tag="new")
+async def new_document(hub: Hub, page: Page, *, discard: bool = False) -> None:
+    """Open an empty document without a file."""
+    await hub.project.open_copy(lambda: Document("untitled"), "untitled", discard)
 
 
-@handles(to_server.OpenPackage)
-async def _open_package(hub: Hub, page: Page, m: to_server.OpenPackage) -> None:
-    await hub.project.open_copy(lambda: content.read_package(m.content, m.name), m.name, m.discard)
+@opens()
+async def open_example(hub: Hub, page: Page, *, name: Text, discard: bool = False) -> None:
+    """Open an example, as a document without a file."""
+    path = gallery.example_file(name)
+    await hub.project.open_copy(lambda: document_files.load(path), name, discard)
 
 
-@handles(to_server.OpenText)
-async def _open_text(hub: Hub, page: Page, m: to_server.OpenText) -> Answer:
-    imported = await hub.project.open_text(m.text, m.name, m.discard)
-    return Answer(request=m.request, imported=imported)
+@opens()
+async def open_package(hub: Hub, page: Page, *, name: Text, content: str, discard: bool = False) -> None:
+    """Open a package (`NAME.deodar`) that was dropped on the page, as a document without a file.
+
+    `content` is base64.
+    """
+    await hub.project.open_copy(lambda: read_package(content, name), name, discard)
 
 
-@handles(to_server.Recover)
-async def _recover(hub: Hub, page: Page, m: to_server.Recover) -> None:
-    stored = await in_file_thread(lambda: hub.store.experiment(m.name), m.name)
-    if stored is None:
-        await hub.project.recover(m.name, m.discard)
+@opens()
+async def open_text(hub: Hub, page: Page, *, name: Text, text: str, discard: bool = False) -> Answer:
+    """Open the text of a file that was dropped on the page, as a document without a file."""
+    return answer(imported=await hub.project.open_text(text, name, discard))
+
+
+@opens()
+async def recover(
+    hub: Hub, page: Page, *, name: Text, discard: bool = False, discard_experiment: bool = False
+) -> None:
+    """Open stored unsaved edits of a document, or of an experiment with its model.
+
+    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
+    """
+    if await in_file_thread(lambda: hub.store.experiment(name), name) is None:
+        await hub.project.recover(name, discard)
     else:
-        await hub.experiment.recover(m.name, m.discard, m.discard_experiment)
+        await hub.experiment.recover(name, discard, discard_experiment)
         await hub.experiment.check()
 
 
-@handles(to_server.Forget)
-async def _forget(hub: Hub, page: Page, m: to_server.Forget) -> None:
-    await in_file_thread(lambda: hub.store.forget(m.name), m.name)
+@asks()
+async def forget(hub: Hub, page: Page, *, name: Text) -> None:
+    """Delete stored unsaved edits."""
+    await in_file_thread(lambda: hub.store.forget(name), name)
     hub.project.history.touch()
 
 
-@handles(to_server.Close)
-async def _close(hub: Hub, page: Page, m: to_server.Close) -> None:
-    await hub.project.close(m.discard)
+@changes()
+async def close(hub: Hub, page: Page, *, discard: bool = False) -> None:
+    """Close the document and show the gallery."""
+    await hub.project.close(discard)
 
 
-@handles(to_server.Save)
-async def _save(hub: Hub, page: Page, m: to_server.Save) -> Answer:
-    path: Path = await hub.project.save(m.path, m.replace)
-    return Answer(request=m.request, file=hub.workspace.shown(path))
+@changes()
+async def save(hub: Hub, page: Page, *, path: Text = "", replace: bool = False) -> Answer:
+    """Write the document to `path`, or to its own file if `path` is empty.
+
+    `replace` allows another file, or a file that changed on disk since it was read, to be overwritten.
+    """
+    return answer(file=hub.workspace.shown(await hub.project.save(path, replace)))
 
 
-@handles(to_server.ListFolder)
-async def _list_folder(hub: Hub, page: Page, m: to_server.ListFolder) -> Folder:
-    return await in_file_thread(lambda: hub.workspace.listed(m.request, m.path), m.path)
+@asks()
+async def list_folder(hub: Hub, page: Page, *, path: Text = "") -> Folder:
+    """List the documents and folders in a folder below the root; a `folder` message follows."""
+    return await in_file_thread(lambda: hub.workspace.listed(path), path)
 
 
-@handles(to_server.ListSaved)
-async def _list_saved(hub: Hub, page: Page, m: to_server.ListSaved) -> None:
+@asks()
+async def list_saved(hub: Hub, page: Page) -> None:
+    """List snapshots and presets again; a `saved_files` message follows if the list changed."""
     await hub.project.list_saved()
 
 
-@handles(to_server.SaveSnapshot)
-async def _save_snapshot(hub: Hub, page: Page, m: to_server.SaveSnapshot) -> Answer:
-    path = await hub.project.save_snapshot(m.name)
-    return Answer(request=m.request, file=hub.workspace.shown(path))
+@changes()
+async def save_snapshot(hub: Hub, page: Page, *, name: Text) -> Answer:
+    """Save the present state of the run as a snapshot under a new name."""
+    return answer(file=hub.workspace.shown(await hub.project.save_snapshot(name)))
 
 
-@handles(to_server.ReturnTo)
-async def _return_to(hub: Hub, page: Page, m: to_server.ReturnTo) -> None:
-    await hub.project.return_to(m.name)
+@changes()
+async def return_to(hub: Hub, page: Page, *, name: Text) -> None:
+    """Return to a snapshot: states, time, noise, world and parameters; the run pauses."""
+    await hub.project.return_to(name)
     page.seek(None)
 
 
-@handles(to_server.SavePreset)
-async def _save_preset(hub: Hub, page: Page, m: to_server.SavePreset) -> Answer:
+@changes()
+async def save_preset(hub: Hub, page: Page, *, name: Text) -> Answer:
+    """Save the present values of the parameters as a preset under a new name."""
     doc = hub.project.history.require_edited().document
-    path = await hub.project.file.save_preset(doc, m.name)
-    return Answer(request=m.request, file=hub.workspace.shown(path))
+    return answer(file=hub.workspace.shown(await hub.project.file.save_preset(doc, name)))
 
 
-@handles(to_server.RemoveSaved)
-async def _remove_saved(hub: Hub, page: Page, m: to_server.RemoveSaved) -> None:
+@changes()
+async def remove_saved(hub: Hub, page: Page, *, sort: Literal["snapshot", "preset"], name: Text) -> None:
+    """Delete a snapshot or a preset."""
     title = hub.project.history.require_edited().name
-    await hub.project.file.remove_saved(title, m.sort, m.name)
+    await hub.project.file.remove_saved(title, sort, name)

@@ -1,83 +1,115 @@
-"""Handlers of requests about the world of the document."""
+"""Requests about the world of the document."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from deodar.credentials import masked
 from deodar.session.session import Session
 from deodar.worlds._base import World
 from deodar_studio.files.file_thread import in_file_thread
-from deodar_studio.messages import to_server
 from deodar_studio.messages.to_page import Answer
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
-from deodar_studio.requests.handlers import handles
+from deodar_studio.requests.request import MESSAGES, Request, Text, answer, asks, changes
 from deodar_studio.world.embodiment import preview
 from deodar_studio.world.scene import SentBodies
 
 
-@handles(to_server.UseWorld)
-async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
-    world = await in_file_thread(lambda: _world(hub, m), masked(m.path))
-    await hub.project.embody(world, m.kind, m.path)
+@changes()
+async def use_world(
+    hub: Hub, page: Page, *, kind: Text, path: Text, settings: Mapping[str, Any] = {}
+) -> None:
+    """Use a world of a kind, opened with a file below the root, or with another argument of `open`.
+
+    `settings` are further arguments of its constructor.
+    """
+    world = await in_file_thread(lambda: _world(hub, kind, path, settings), masked(path))
+    await hub.project.embody(world, kind, path)
 
 
-@handles(to_server.PreviewWorld)
-async def _preview_world(hub: Hub, page: Page, m: to_server.PreviewWorld) -> Answer:
+@asks()
+async def preview_world(
+    hub: Hub, page: Page, *, kind: Text, path: Text, settings: Mapping[str, Any] = {}
+) -> Answer:
+    """Open a world as `use_world` does, without using it; the answer has its `preview`."""
     model = hub.project.history.model
     doc = None if model is None else model.document
-    shown = await in_file_thread(lambda: preview(_world(hub, m), doc), masked(m.path))
-    return Answer(request=m.request, preview=shown)
+    shown = await in_file_thread(lambda: preview(_world(hub, kind, path, settings), doc), masked(path))
+    return answer(preview=shown)
 
 
-def _world(hub: Hub, m: to_server.UseWorld | to_server.PreviewWorld) -> World:
+def _world(hub: Hub, kind: str, path: str, settings: Mapping[str, Any]) -> World:
     """Open a world with a file below the root, a name that it knows, or another text."""
-    cls = hub.embodiment.kind(m.kind)
-    if not cls.opens or m.path in cls.names():
-        return hub.embodiment.open(m.kind, m.path, m.path, m.settings)
-    place = hub.workspace.inside(m.path)
+    cls = hub.embodiment.kind(kind)
+    if not cls.opens or path in cls.names():
+        return hub.embodiment.open(kind, path, path, settings)
+    place = hub.workspace.inside(path)
     hub.workspace.require_file(place)
-    return hub.embodiment.open(m.kind, str(place), m.path, m.settings)
+    return hub.embodiment.open(kind, str(place), path, settings)
 
 
-@handles(to_server.UseWorldContent)
-async def _use_world_content(hub: Hub, page: Page, m: to_server.UseWorldContent) -> None:
-    world = await asyncio.to_thread(hub.embodiment.open_content, m.kind, m.name, m.content, m.settings)
-    await hub.project.embody(world, m.kind, m.name)
+@changes()
+async def use_world_content(
+    hub: Hub, page: Page, *, kind: Text, name: Text, content: str, settings: Mapping[str, Any] = {}
+) -> None:
+    """Use a world of a kind, made from the content (base64) of a file that was dropped on the page."""
+    world = await asyncio.to_thread(hub.embodiment.open_content, kind, name, content, settings)
+    await hub.project.embody(world, kind, name)
 
 
-@handles(to_server.WatchWorld)
-async def _watch_world(hub: Hub, page: Page, m: to_server.WatchWorld) -> None:
-    page.sent_bodies = SentBodies(m.solid) if m.on else None
+@asks()
+async def watch_world(hub: Hub, page: Page, *, on: bool, solid: bool = False) -> None:
+    """Start or stop sending `bodies`; `solid`: with the solids and their poses."""
+    page.sent_bodies = SentBodies(solid) if on else None
 
 
-@handles(to_server.MoveObject)
-async def _move_object(hub: Hub, page: Page, m: to_server.MoveObject) -> None:
-    await _rearrange(hub, page, lambda session: session.move(m.name, (m.x, m.y)))
+@asks()
+async def move_object(hub: Hub, page: Page, *, name: Text, x: float, y: float) -> None:
+    """Move an object or a mark of the world; `x` and `y` are its new middle."""
+    await _rearrange(hub, lambda session: session.move(name, (x, y)))
 
 
-@handles(to_server.PlaceObject)
-async def _place_object(hub: Hub, page: Page, m: to_server.PlaceObject) -> None:
-    place = m.name, (m.x, m.y), (m.width, m.height), m.color
-    await _rearrange(hub, page, lambda session: session.place(*place))
+@MESSAGES.register
+class PlaceObject(Request, frozen=True, kw_only=True, tag="place_object"):
+    """Add an object to the world, with its middle and its size.
+
+    `color` is red, green and blue, 0 to 1; None: that of the world.
+    """
+
+    name: Text
+    x: float
+    y: float
+    width: float
+    height: float
+    color: list[float] | None = None
+
+    async def serve(self, hub: Hub, page: Page) -> None:
+        place = self.name, (self.x, self.y), (self.width, self.height), self.color
+        await _rearrange(hub, lambda session: session.place(*place))
 
 
-@handles(to_server.RemoveObject)
-async def _remove_object(hub: Hub, page: Page, m: to_server.RemoveObject) -> None:
-    await _rearrange(hub, page, lambda session: session.remove(m.name))
+@asks()
+async def remove_object(hub: Hub, page: Page, *, name: Text) -> None:
+    """Remove an object from the world."""
+    await _rearrange(hub, lambda session: session.remove(name))
 
 
-@handles(to_server.PushBody)
-async def _push_body(hub: Hub, page: Page, m: to_server.PushBody) -> None:
-    if any(m.force):
-        page.pushed.add(m.body)
+@asks()
+async def push_body(hub: Hub, page: Page, *, body: Text, force: Sequence[float]) -> None:
+    """Push a body of the world with a force along x, y and z, in N, until the next one; zeros end it.
+
+    It ends too when the page disconnects.
+    """
+    if any(force):
+        page.pushed.add(body)
     else:
-        page.pushed.discard(m.body)
-    await _rearrange(hub, page, lambda session: session.push_body(m.body, m.force))
+        page.pushed.discard(body)
+    await _rearrange(hub, lambda session: session.push_body(body, force))
 
 
-async def _rearrange(hub: Hub, page: Page, how: Callable[[Session], None]) -> None:
+async def _rearrange(hub: Hub, how: Callable[[Session], None]) -> None:
     hub.project.require_run()
     await hub.in_engine(lambda: hub.engine.rearrange(how))

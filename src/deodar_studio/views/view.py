@@ -18,6 +18,7 @@ from deodar.model.document import Document
 from deodar.model.fits import Fit, FittingKind
 from deodar.parameters import Part
 from deodar.recording.replay import RecordReader
+from deodar.session.port_reader import PortKey
 from deodar_studio.messages.to_page import (
     CopyDimension,
     DocumentView,
@@ -32,7 +33,6 @@ from deodar_studio.messages.to_page import (
     RecordView,
     ReportLineView,
 )
-from deodar_studio.messages.to_server import FindFits
 from deodar_studio.views import converted
 from deodar_studio.views.converted import Converted
 
@@ -104,8 +104,8 @@ def record(reader: RecordReader, path: str) -> RecordView:
     )
 
 
-def fits(m: FindFits, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fits:
-    """Convert what a port can be connected with."""
+def fits(of: PortKey, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fits:
+    """Convert what a port, an empty one by default, can be connected with."""
     shown = [
         FitView(
             element=f.element,
@@ -117,7 +117,7 @@ def fits(m: FindFits, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fit
         for f in ports
     ]
     found = [FittingKindView(kind=k.kind, port=k.port) for k in kinds]
-    return Fits(request=m.request, element=m.element, port=m.port, ports=shown, kinds=found)
+    return Fits(request=0, element=of[0], port=of[1], ports=shown, kinds=found)
 
 
 def problems(

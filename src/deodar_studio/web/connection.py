@@ -44,10 +44,9 @@ from deodar_studio.messages.to_page import (
     Tuning,
     WorldScene,
 )
-from deodar_studio.messages.to_server import MESSAGES, Drawn, RepeatTrial, RunRecordFrom
 from deodar_studio.pages.hub import Hub
 from deodar_studio.project.confirmation import ConfirmationRequired
-from deodar_studio.requests import dispatch
+from deodar_studio.requests.request import MESSAGES, Drawn, RepeatRequest, Request
 from deodar_studio.streams.source import FrameSource
 from deodar_studio.views import view
 from deodar_studio.world import scene
@@ -121,7 +120,7 @@ class PageConnection:
                     self._hub.engine.want()
                     self.page.wake()
                 continue
-            if isinstance(message, (RunRecordFrom, RepeatTrial)):  # they may take as long as the whole run
+            if isinstance(message, RepeatRequest):
                 self._hub.project.queue.start_task(self._do(message))
                 continue
             await self._do(message)
@@ -129,9 +128,9 @@ class PageConnection:
                 self._room.clear()
                 await self._room.wait()
 
-    async def _do(self, message: Any) -> None:
+    async def _do(self, message: Request) -> None:
         try:
-            answers = await dispatch.do(self._hub, self.page, message)
+            answers = await message.answers(self._hub, self.page)
         except ConfirmationRequired as required:
             answers = [Answer(request=message.request, ask=required.question, file=required.file)]
         except DeodarError as error:

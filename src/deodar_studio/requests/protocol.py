@@ -1,6 +1,6 @@
 """JSON Schema and TypeScript of the messages, generated from their declaration.
 
-    python -m deodar_studio.messages.protocol
+    python -m deodar_studio.requests.protocol
 
 writes `protocol.schema.json` beside this file and, in a copy of the repository, `studio/src/protocol.ts`.
 """
@@ -15,20 +15,21 @@ import msgspec
 
 from deodar import codec
 from deodar.model import output
-from deodar_studio.messages import to_page, to_server
+from deodar_studio.messages import to_page
 from deodar_studio.messages.message import union
+from deodar_studio.requests.request import MESSAGES, DocumentRequest, OpeningRequest
 
 SCHEMA = Path(__file__).with_name("protocol.schema.json")
 TYPESCRIPT = Path(__file__).parents[3] / "studio" / "src" / "protocol.ts"
 HEAD = (
-    "// Generated from src/deodar_studio/messages/to_server.py and to_page.py; change those, not this one:\n"
+    "// Generated from src/deodar_studio/requests and messages/to_page.py; change those, not this one:\n"
     "// python tools/generate.py\n"
 )
 
 
 def schema() -> dict[str, Any]:
     """Return the JSON Schema of both unions and all types in them."""
-    unions = [union(to_server.MESSAGES), union(to_page.MESSAGES)]
+    unions = [union(MESSAGES), union(to_page.MESSAGES)]
     (server, page), defs = msgspec.json.schema_components(unions, ref_template="#/$defs/{name}")
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -72,8 +73,8 @@ def meant() -> list[str]:
     """Return the types of the requests that are meant for the open document, and do not open another one."""
     return sorted(
         str(cls.__struct_config__.tag)
-        for cls in to_server.MESSAGES.values()
-        if issubclass(cls, to_server.DocumentRequest) and not issubclass(cls, to_server.OpeningRequest)
+        for cls in MESSAGES.values()
+        if issubclass(cls, DocumentRequest) and not issubclass(cls, OpeningRequest)
     )
 
 
