@@ -34,6 +34,7 @@ from deodar_studio.files import content
 from deodar_studio.files.file_thread import in_file_thread, try_in_file_thread
 from deodar_studio.files.state_store import StateStore, StoredExperiment
 from deodar_studio.files.workspace import Workspace
+from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import ExperimentView, RunView, TrialRows
 from deodar_studio.project.confirmation import ConfirmationRequired
 from deodar_studio.project.file_state import plain
@@ -121,31 +122,27 @@ class OpenExperiment:
         shown = None
         if run is not None:
             now = run.standing if run.state in ("running", "followed") else None
-            shown = RunView(
+            shown = made_of(
+                RunView,
+                run,
                 number=self.number,
                 folder=self._workspace.shown(run.folder),
-                state=run.state,
                 rows=len(run.rows),
                 trials=run.setup.trials,
-                left=run.left,
                 problems=view.problems(run.problems),
-                stopping=run.stopping,
                 cluster="" if run.place.cluster is None else self._named_cluster(run.place.cluster),
                 workers=run.staffing.workers,
                 pieces=run.staffing.running,
                 slowest="" if now is None else now.slowest,
                 diverged=[] if now is None else list(now.diverged),
             )
-        return ExperimentView(
-            data=self.data,
-            version=self.version,
+        return made_of(
+            ExperimentView,
+            self,
             file="" if self.file is None else self._workspace.shown(self.file),
-            unsaved=self.unsaved,
             undo=self._history.undo_steps,
             redo=self._history.redo_steps,
             problems=view.problems(self.problems),
-            trials=self.trials,
-            repeated=self.repeated,
             run=shown,
         )
 

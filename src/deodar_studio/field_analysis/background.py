@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Generic, TypeVar
+
+import msgspec
 
 from deodar.batch.pool import Pool
 from deodar.errors import DeodarError, Problem
+from deodar_studio.messages.to_page import Regime, Tuning
+from deodar_studio.views import view
 
-R = TypeVar("R")
+M = TypeVar("M", Regime, Tuning)
 
 Ended = Callable[[Any, Sequence[Problem]], None]
 """A function that gets the result, or None and the problems."""
@@ -102,23 +106,43 @@ class BackgroundTask:
             pool.__exit__(KeyboardInterrupt, None, None)
 
 
-class FieldTask(Generic[R]):
-    """A task about one field at a time, and a report on it; a new request ends the one before.
+class FieldTask(Generic[M]):
+    """A task about one field at a time, and a message on it; a new request ends the one before.
 
     Args:
-        empty: the report while nothing was asked.
+        nothing: the message while nothing was asked.
+        busy: its field that is true while the task runs.
         task: runs the function.
-        changed: called from any thread when the report has changed.
+        changed: called from any thread when the message has changed.
+
+    Attributes:
+        message: what was found so far.
+        session: number of the document of the field.
     """
 
-    def __init__(self, empty: R, task: BackgroundTask, changed: Callable[[], None]) -> None:
-        self.report = self._empty = empty
-        self._task, self._changed = task, changed
+    def __init__(self, nothing: M, busy: str, task: BackgroundTask, changed: Callable[[], None]) -> None:
+        self.message = self._nothing = nothing
+        self.session = 0
+        self._busy, self._task, self._changed = busy, task, changed
+
+    def ask(self, session: int, element: str, function: Callable[..., Any], arguments: Sequence[Any]) -> None:
+        """Run a function, which sends and returns fields of the message, in the worker process."""
+
+        def ended(found: Mapping[str, Any] | None, problems: Sequence[Problem]) -> None:
+            self._tell({**(found or {}), self._busy: False, "problems": view.problems(problems)})
+
+        self.session, self.message = session, self._nothing
+        self._tell({"element": element, self._busy: True})
+        self._task.start(function, arguments, ended, self._tell)
+
+    def _tell(self, fields: Mapping[str, Any]) -> None:
+        self.message = msgspec.structs.replace(self.message, **fields)
+        self._changed()
 
     def stop(self) -> None:
         """End the task; its result is gone."""
         self._task.stop()
-        self.report = self._empty
+        self.message = self._nothing
         self._changed()
 
     def end(self) -> None:

@@ -2,77 +2,42 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
+
+import msgspec
 
 from deodar.batch.packed_model import PackedModel
-from deodar.errors import DocumentError, Problem
-from deodar.model import edit
+from deodar.errors import DeodarError, DocumentError
+from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar_studio.field_analysis.background import BackgroundTask, FieldTask
+from deodar_studio.messages.to_page import RequirementView, TunedValue, Tuning
 
 TELL_EVERY = 0.2
 """Wall time between two messages on the progress, in seconds."""
 
-
-class MetRequirement(NamedTuple):
-    """A requirement by its text, its margin (0 or above: met), its value if it has one, and whether that is
-    exact.
-    """
-
-    text: str
-    margin: float
-    value: float | None
-    exact: bool
-
-
-class TunedField(NamedTuple):
-    """What was found, as plain data.
-
-    Attributes:
-        requirements: the requirements.
-        before, values: each parameter by path.
-        tolerated: the relative change that all parameters may have at once.
-        reasons: why not all requirements are met.
-    """
-
-    requirements: list[MetRequirement]
-    before: dict[str, float]
-    values: dict[str, float]
-    tolerated: float
-    reasons: list[str]
+NOTHING = Tuning(
+    element="",
+    tuning=False,
+    candidates=0,
+    requirements=[],
+    values=[],
+    tolerated=0.0,
+    reasons=[],
+    applied=False,
+    problems=[],
+)
 
 
-@dataclass(frozen=True)
-class TuningReport:
-    """How far the tuning is.
-
-    Attributes:
-        session: number of the document.
-        element: id of the field; empty: nothing was tuned.
-        tuning: whether it is being tuned.
-        candidates: number of candidates so far.
-        found: what was found; None: nothing yet.
-        problems: why nothing was found.
-    """
-
-    session: int = 0
-    element: str = ""
-    tuning: bool = False
-    candidates: int = 0
-    found: TunedField | None = None
-    problems: Sequence[Problem] = ()
-
-
-class FieldTuning(FieldTask[TuningReport]):
-    """Tunes one field at a time; `changed` is called from any thread when the report has changed."""
+class FieldTuning(FieldTask[Tuning]):
+    """Tunes one field at a time; `changed` is called from any thread when the message has changed."""
 
     def __init__(self, changed: Callable[[], None]) -> None:
-        super().__init__(TuningReport(), BackgroundTask("deodar-tuning", keep=False), changed)
+        super().__init__(NOTHING, "tuning", BackgroundTask("deodar-tuning", keep=False), changed)
 
     def start(
         self, session: int, model: Model, element: str, parameters: Sequence[str], requirements: Sequence[Any]
@@ -95,18 +60,13 @@ class FieldTuning(FieldTask[TuningReport]):
             "requirements": list(requirements),
             "field": path,
         }
+        self.ask(session, element, tuned, [packed, wanted])
 
-        def heard(candidates: int) -> None:
-            self.report = TuningReport(session, element, True, candidates)
-            self._changed()
-
-        def ended(found: TunedField | None, problems: Sequence[Problem]) -> None:
-            self.report = dc.replace(self.report, tuning=False, found=found, problems=problems)
-            self._changed()
-
-        self.report = TuningReport(session, element, tuning=True)
-        self._task.start(tuned, [packed, wanted], ended, heard)
-        self._changed()
+    def shown(self, doc: Document | None) -> Tuning:
+        """Return the message; what was tuned is applied if the document has its values."""
+        values = self.message.values
+        applied = bool(values) and doc is not None and all(_has(doc, v) for v in values)
+        return msgspec.structs.replace(self.message, applied=applied)
 
     def applied(self, doc: Document) -> Document:
         """Return a document with the values that were found.
@@ -114,16 +74,25 @@ class FieldTuning(FieldTask[TuningReport]):
         Raises:
             DocumentError: nothing was found, or its parameters are no longer there.
         """
-        found = self.report.found
-        if found is None:
+        if not self.message.values:
             raise DocumentError("nothing was tuned", fix="Tune a field first")
-        for path, value in found.values.items():
-            doc = edit.change(doc, path, value)
+        for tuned in self.message.values:
+            doc = edit.change(doc, tuned.path, tuned.value)
         return doc
 
 
-def tuned(send: Callable[[object], None], packed: PackedModel, wanted: Mapping[str, Any]) -> TunedField:
-    """Tune a field; called in the worker process.
+def _has(doc: Document, tuned: TunedValue) -> bool:
+    """Return whether a parameter of the document has the value that was found."""
+    try:
+        return bool(find.value(doc, tuned.path) == tuned.value)
+    except DeodarError:  # it was removed
+        return False
+
+
+def tuned(
+    send: Callable[[object], None], packed: PackedModel, wanted: Mapping[str, Any]
+) -> Mapping[str, Any]:
+    """Tune a field; called in the worker process. Return fields of the message.
 
     Raises:
         DocumentError: the requirements are not those of a file.
@@ -141,15 +110,22 @@ def tuned(send: Callable[[object], None], packed: PackedModel, wanted: Mapping[s
         nonlocal told
         if time.monotonic() > told + TELL_EVERY:
             told = time.monotonic()
-            send(int(candidates))
+            send({"candidates": int(candidates)})
 
     found = tune(
         packed.model, asked.parameters, asked.requirements, on=Resources(progress=tell), **asked.options
     )
-    requirements = [
-        MetRequirement(text, margin, found.reached.get(text), text in found.exact)
-        for text, margin in found.margins.items()
-    ]
-    return TunedField(
-        requirements, dict(found.before), dict(found.values), found.tolerated, list(found.reasons)
-    )
+    return {
+        "requirements": [
+            RequirementView(
+                text=text,
+                margin=margin if math.isfinite(margin) else None,
+                value=found.reached.get(text),
+                exact=text in found.exact,
+            )
+            for text, margin in found.margins.items()
+        ],
+        "values": [TunedValue(path=p, before=found.before[p], value=v) for p, v in found.values.items()],
+        "tolerated": found.tolerated,
+        "reasons": list(found.reasons),
+    }

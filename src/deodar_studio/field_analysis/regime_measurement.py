@@ -2,65 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from typing import Any
 
+import msgspec
 import numpy as np
 
 from deodar.batch.packed_model import PackedModel
 from deodar.element import Element
-from deodar.errors import Problem
+from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar_studio.field_analysis.background import BackgroundTask, FieldTask
+from deodar_studio.messages.to_page import Regime, RegimeCurve, RegimeRow
+
+NOTHING = Regime(element="", measuring=False, stale=False, words=[], rows=[], curve=None, problems=[])
 
 
-class MeasuredRegime(NamedTuple):
-    """The regime of a field as plain data.
-
-    Attributes:
-        words: the regime, the most important first.
-        rows: names of the measurements, and their values in words.
-        strengths: the strengths of the localised input of the curves.
-        up, down: the settled activation at its maximum, for growing and for falling input; None where it is
-            not finite.
-        threshold: the activation above which a peak exists.
-    """
-
-    words: tuple[str, ...]
-    rows: list[tuple[str, str]]
-    strengths: list[float]
-    up: list[float | None]
-    down: list[float | None]
-    threshold: float
-
-
-@dataclass(frozen=True)
-class RegimeReport:
-    """How far the measurement is.
-
-    Attributes:
-        session: number of the document.
-        element: id of the field; empty: nothing was measured.
-        measured: the field that was measured.
-        measuring: whether it is being measured.
-        found: what was found; None: nothing yet.
-        problems: why nothing was found.
-    """
-
-    session: int = 0
-    element: str = ""
-    measured: Element | None = None
-    measuring: bool = False
-    found: MeasuredRegime | None = None
-    problems: Sequence[Problem] = ()
-
-
-class RegimeMeasurement(FieldTask[RegimeReport]):
-    """Measures one field at a time; `changed` is called from any thread when the report has changed."""
+class RegimeMeasurement(FieldTask[Regime]):
+    """Measures one field at a time; `changed` is called from any thread when the message has changed."""
 
     def __init__(self, changed: Callable[[], None]) -> None:
-        super().__init__(RegimeReport(), BackgroundTask("deodar-regime", keep=True), changed)
+        super().__init__(NOTHING, "measuring", BackgroundTask("deodar-regime", keep=True), changed)
+        self._measured: Element | None = None
 
     def start(self, session: int, model: Model, element: str) -> None:
         """Measure a field of a model, in a thread.
@@ -69,32 +32,33 @@ class RegimeMeasurement(FieldTask[RegimeReport]):
             WorkerError: a part of the model cannot be sent to another process.
         """
         entry, packed = model.document.by_id()[element], PackedModel.of(model, None)
+        self._measured = entry.element
+        self.ask(session, element, measured, [packed, entry.path])
 
-        def ended(found: MeasuredRegime | None, problems: Sequence[Problem]) -> None:
-            self.report = RegimeReport(session, element, entry.element, False, found, problems)
-            self._changed()
+    def shown(self, doc: Document | None) -> Regime:
+        """Return the message; it is stale if the element of the document is another one by now."""
+        element = self.message.element
+        entry = None if doc is None else doc.by_id().get(element)
+        stale = bool(element) and (entry is None or entry.element is not self._measured)
+        return msgspec.structs.replace(self.message, stale=stale)
 
-        self.report = RegimeReport(session, element, entry.element, measuring=True)
-        self._task.start(measured, [packed, entry.path], ended)
-        self._changed()
 
-
-def measured(send: Callable[[object], None], packed: PackedModel, path: str) -> MeasuredRegime:
-    """Measure a field; called in the worker process."""
+def measured(send: Callable[[object], None], packed: PackedModel, path: str) -> Mapping[str, Any]:
+    """Measure a field; called in the worker process. Return fields of the message."""
     # start-up time of the studio: this brings SciPy
     from deodar.analysis import regime_words
     from deodar.analysis.regimes import regimes
 
     found = regimes(packed.model, path)
     ramp = found.ramp
-    return MeasuredRegime(
-        found.words,
-        regime_words.rows(found)[1:],
-        ramp.values.tolist(),
-        _finite(ramp.up.activation),
-        _finite(ramp.down.activation),
-        found.isolated.threshold,
+    curve = RegimeCurve(
+        input=ramp.values.tolist(),
+        up=_finite(ramp.up.activation),
+        down=_finite(ramp.down.activation),
+        threshold=found.isolated.threshold,
     )
+    rows = [RegimeRow(name=name, text=text) for name, text in regime_words.rows(found)[1:]]
+    return {"words": list(found.words), "rows": rows, "curve": curve}
 
 
 def _finite(values: np.ndarray) -> list[float | None]:

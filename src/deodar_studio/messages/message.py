@@ -8,7 +8,7 @@ binary frames: see `deodar_studio.messages.frames`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, TypeVar, Union, cast
+from typing import Annotated, Any, TypeVar, Union, cast
 
 import msgspec
 
@@ -29,3 +29,12 @@ def union(messages: Mapping[str, type[M]]) -> type[M]:
 
 class Data(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A part of a message."""
+
+
+S = TypeVar("S", bound=Message | Data)
+
+
+def made_of(kind: type[S], of: object, **others: Any) -> S:
+    """Return a message, or a part of one, whose fields are attributes of an object, except those given."""
+    same = {name: getattr(of, name) for name in kind.__struct_fields__ if name not in others}
+    return kind(**same, **others)

@@ -18,7 +18,6 @@ from deodar.worlds._base import World
 from deodar_studio.catalogue import gallery, plots, templates
 from deodar_studio.experiment.open_experiment import OpenExperiment
 from deodar_studio.experiment.run_place import MOST_WORKERS, USUAL_WORKERS
-from deodar_studio.field_analysis import analyses
 from deodar_studio.field_analysis.field_tuning import FieldTuning
 from deodar_studio.field_analysis.regime_measurement import RegimeMeasurement
 from deodar_studio.files.file_thread import try_in_file_thread
@@ -27,6 +26,7 @@ from deodar_studio.files.workspace import Workspace
 from deodar_studio.live.compilation import CompileTimes
 from deodar_studio.live.engine import Engine
 from deodar_studio.live.published import CostReport
+from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import (
     CompilingView,
     Costs,
@@ -84,7 +84,6 @@ class Hub:
         self.experiment = OpenExperiment(self.project, self.workspace, self.store, self.from_thread, private)
         self.measurement = RegimeMeasurement(self.from_thread)
         self.field_tuning = FieldTuning(self.from_thread)
-        self._analyses: tuple[tuple[Any, ...], list[Regime | Tuning]] | None = None
         self.welcome = Welcome(
             version=__version__,
             root=str(self.workspace.root),
@@ -131,7 +130,9 @@ class Hub:
         """Return the time and status of the run, and the timeline of a page."""
         engine, published, session = self.engine, self.engine.published, self.engine.session
         injection, meter = engine.injection, Meter() if session is None else engine.pace.meter(session)
-        return RunClock(
+        return made_of(
+            RunClock,
+            meter,
             frame=0,
             running=engine.running,
             time=published.time,
@@ -141,12 +142,7 @@ class Hub:
             speed=engine.pace.speed,
             factor=engine.pace.factor if engine.running else 0.0,
             steps=engine.pace.steps if engine.running else 0.0,
-            lag=meter.lag,
-            worst=meter.worst,
-            lost=meter.lost,
-            overruns=meter.overruns,
             longest=engine.pace.longest,
-            lengthened=meter.lengthened,
             busy=self.project.run.busy or engine.busy,
             compiling=self._compiling(),
             failure=self.project.run.failures(),
@@ -224,10 +220,7 @@ class Hub:
         if self._sent_costs is None or self._sent_costs[0] is not report:
             found = report.costs
             listed = () if found is None else found.elements
-            elements = [
-                CostView(element=c.id, path=c.path, kind=c.kind, us=c.us, alike=c.alike, once=c.once)
-                for c in listed
-            ]
+            elements = [made_of(CostView, c, element=c.id) for c in listed]
             problems = view.problems(report.problems, None)
             step = 0.0 if found is None else found.step
             self._sent_costs = (
@@ -268,16 +261,10 @@ class Hub:
         """
         model, session = self.project.history.model, self.project.session
         for one in (self.measurement, self.field_tuning):
-            if one.report.element and (model is None or one.report.session != session):
+            if one.message.element and (model is None or one.session != session):
                 one.stop()
-        key = self.measurement.report, self.field_tuning.report, None if model is None else model.document
-        if self._analyses is None or any(a is not b for a, b in zip(self._analyses[0], key, strict=True)):
-            views: list[Regime | Tuning] = [
-                analyses.regime(self.measurement.report, key[2]),
-                analyses.tuning(self.field_tuning.report, key[2]),
-            ]
-            self._analyses = key, views
-        return self._analyses[1]
+        doc = None if model is None else model.document
+        return [self.measurement.shown(doc), self.field_tuning.shown(doc)]
 
     # ----------------------------------------------------------------------------------------------- watching
 

@@ -12,6 +12,7 @@ import numpy as np
 from deodar.errors import DeodarError, Problem
 from deodar.recording.first_difference import FirstDifference, common_ports, first_differences
 from deodar.recording.replay import RecordReader
+from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import Comparison, DifferenceView
 from deodar_studio.views import view
 
@@ -70,12 +71,12 @@ class RecordComparison:
 
 def shown(found: RecordComparison, path: str) -> Comparison:
     """Return a comparison as a message; `path` is the other record as the page names it."""
-    return Comparison(
+    return made_of(
+        Comparison,
+        found,
         path=path,
-        progress=found.progress,
         compared=len(found.ports),
         differences=[_difference(found.record, d) for d in found.differences],
-        notes=found.notes,
         problems=view.problems(found.problems),
     )
 
@@ -86,15 +87,7 @@ def _difference(reader: RecordReader, found: FirstDifference) -> DifferenceView:
         f"{a.name} {a.points[i]:g} {a.unit}".rstrip() for a, i in zip(axes, found.index, strict=True)
     )
     value, other = (v if math.isfinite(v) else None for v in found.values)
-    return DifferenceView(
-        element=found.place[0],
-        path=found.path,
-        time=found.time,
-        copy=dict(found.copy),
-        at=at,
-        value=value,
-        other=other,
-    )
+    return made_of(DifferenceView, found, element=found.place[0], at=at, value=value, other=other)
 
 
 def _notes(one: RecordReader, other: RecordReader, shared: int) -> list[str]:

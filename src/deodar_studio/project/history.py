@@ -12,6 +12,7 @@ from deodar.importers import stored_report
 from deodar.model import edit, plain_values
 from deodar.model.document import Document
 from deodar.model.model import Model
+from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import Changed, ImportReportView
 from deodar_studio.project.change_queue import ChangeQueue
 from deodar_studio.project.checker import Checker
@@ -211,21 +212,9 @@ class DocumentHistory:
         if leaf is None or cost == "recompile":
             self._edited(before, cost)
         else:
-            self.version += 1
             element, parameter, value = leaf
-            change = Changed(
-                version=self.version,
-                element=element,
-                parameter=parameter,
-                value=value,
-                cost=cost,
-                unsaved=self.unsaved,
-                undo=model.history.depth,
-                redo=model.history.ahead,
-            )
-            self._recent.add(change)
-            self._changed()
-            self.checker.start()
+            status = self._status(cost)
+            self._add(made_of(Changed, status, element=element, parameter=parameter, value=value))
         return cost
 
     # ----------------------------------------------------------------------------------------------- versions
@@ -234,13 +223,23 @@ class DocumentHistory:
         """Start a new version after an edit, which pages receive as a patch."""
         model = self._require()
         old, new = self._conversions.of(before), self._conversions.of(model.document)
-        status = Status(self.version + 1, self.unsaved, model.history.depth, model.history.ahead, cost)
-        found = converted.patch(old, new, status, lambda: view.problems(new.problems, model.document))
+        found = converted.patch(
+            old, new, self._status(cost), lambda: view.problems(new.problems, model.document)
+        )
         if found is None:
             self.touch()
-            return
-        self.version += 1
-        self._recent.add(found)
+        else:
+            self._add(found)
+
+    def _status(self, cost: Cost) -> Status:
+        """Return what the next version states besides its document."""
+        history = self._require().history
+        return Status(self.version + 1, self.unsaved, history.depth, history.ahead, cost)
+
+    def _add(self, change: DocumentChange) -> None:
+        """Start a new version by a change, which pages receive alone."""
+        self.version = change.version
+        self._recent.add(change)
         self._changed()
         if self.record is None:
             self.checker.start()

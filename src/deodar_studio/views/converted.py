@@ -17,12 +17,13 @@ from deodar.errors import Problem
 from deodar.importers import stored_report
 from deodar.model import document_files, find
 from deodar.model.check import structure
-from deodar.model.document import Connection, Document, Entry
+from deodar.model.document import Document, Entry
 from deodar.model.parts import to_json
 from deodar.model.resolve import Node
 from deodar.model.sketch import effect
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import FrozenArray
+from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import (
     AxisView,
     ConnectionView,
@@ -98,34 +99,13 @@ def axes(converted: Converted) -> list[AxisView]:
 
 def axis(a: Axis, key: str = "") -> AxisView:
     """Convert an axis; `key` is its key in the document, empty if it has none."""
-    return AxisView(
-        key=key,
-        name=a.name,
-        lower=a.lower,
-        upper=a.upper,
-        samples=a.samples,
-        periodic=a.periodic,
-        unit=a.unit,
-    )
-
-
-def connection(c: Connection) -> ConnectionView:
-    """Convert a connection."""
-    return ConnectionView(
-        source=c.source,
-        source_port=c.source_port,
-        target=c.target,
-        target_port=c.target_port,
-        reads=c.reads,
-    )
+    return made_of(AxisView, a, key=key)
 
 
 def parameters(doc: Document) -> list[DocumentParameterView]:
     """Convert the document parameters."""
     return [
-        DocumentParameterView(
-            name=k.name, value=k.value, links=[LinkView(element=i, parameter=p) for i, p in k.links]
-        )
+        made_of(DocumentParameterView, k, links=[LinkView(element=i, parameter=p) for i, p in k.links])
         for k in doc.parameters
     ]
 
@@ -161,10 +141,11 @@ def patch(
     if added is None or disconnected is None:
         return None
     changed = [e for i, e in after.elements.items() if before.elements.get(i) != e]
-    moved = {e.id: _path(e) for e in changed if _has_moved(before.elements.get(e.id), e)}
+    moved = {e.id: made_of(PathView, e) for e in changed if _has_moved(before.elements.get(e.id), e)}
     layout, boxes = _layout(shown_layout(old), shown_layout(new))
-    return Edited(
-        version=status.version,
+    return made_of(
+        Edited,
+        status,
         elements=[e for e in changed if e.id not in moved],
         moved=moved,
         added=added,
@@ -178,27 +159,15 @@ def patch(
         layout=layout,
         layout_entries=boxes,
         problems=list(problems()) if after.problems or before.problems else None,
-        unsaved=status.unsaved,
-        undo=status.undo,
-        redo=status.redo,
-        cost=status.cost,
     )
-
-
-def _path(e: ElementView) -> PathView:
-    return PathView(path=e.path, name=e.name, group=e.group)
 
 
 def _has_moved(before: ElementView | None, after: ElementView) -> bool:
     """Return whether only the path of an element is another one."""
     if before is None or before.path == after.path:
         return False
-    path = _path(after)
-    return msgspec.structs.replace(before, path=path.path, name=path.name, group=path.group) == after
-
-
-def _ends(c: Connection) -> EndsView:
-    return EndsView(source=c.source, source_port=c.source_port, target=c.target, target_port=c.target_port)
+    moved = msgspec.structs.replace(before, path=after.path, name=after.name, group=after.group)
+    return moved == after
 
 
 def _added(before: Sequence[H], after: Sequence[H]) -> dict[H, int] | None:
@@ -223,17 +192,17 @@ def _wires(
         return None, []
     kept = set(new.connections)
     gone = [
-        _ends(c)
+        made_of(EndsView, c)
         for c in old.connections
         if c not in kept and c.source not in removed and c.target not in removed
     ]
-    return gone, [PlacedConnection(index=k, connection=connection(c)) for c, k in added.items()]
+    return gone, [PlacedConnection(index=k, connection=made_of(ConnectionView, c)) for c, k in added.items()]
 
 
 def _general(old: Document, new: Document) -> GeneralView | None:
     if all(getattr(old, key) == getattr(new, key) for key in ("name", "time_unit", "dt", "notes")):
         return None
-    return GeneralView(title=new.name, time_unit=new.time_unit, dt=new.dt, notes=new.notes)
+    return made_of(GeneralView, new, title=new.name)
 
 
 def shown_layout(doc: Document) -> Mapping[str, Any]:

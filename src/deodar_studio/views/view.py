@@ -19,7 +19,9 @@ from deodar.model.fits import Fit, FittingKind
 from deodar.parameters import Part
 from deodar.recording.replay import RecordReader
 from deodar.session.port_reader import PortKey
+from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import (
+    ConnectionView,
     CopyDimension,
     DocumentView,
     ExperimentForms,
@@ -66,15 +68,15 @@ def document(
 ) -> DocumentView:
     """Convert a whole document; `known`: what is converted already."""
     made = converted.convert(doc) if known is None else known
-    return DocumentView(
+    return made_of(
+        DocumentView,
+        doc,
         file=file,
         title=doc.name,
-        time_unit=doc.time_unit,
-        dt=doc.dt,
-        notes=doc.notes,
+        record=None,
         axes=converted.axes(made),
         elements=list(made.elements.values()),
-        connections=[converted.connection(c) for c in doc.connections],
+        connections=[made_of(ConnectionView, c) for c in doc.connections],
         groups=[list(g) for g in doc.groups],
         parameters=converted.parameters(doc),
         layout=dict(converted.shown_layout(doc)),
@@ -94,29 +96,13 @@ def record(reader: RecordReader, path: str) -> RecordView:
         CopyDimension(name=name, values=[f"{v:g}" for v in values.tolist()])
         for name, values in reader.copies.items()
     ]
-    return RecordView(
-        path=path,
-        complete=reader.complete,
-        growing=reader.growing,
-        notes=reader.notes,
-        copies=copies,
-        ports=ports,
-    )
+    return made_of(RecordView, reader, path=path, copies=copies, ports=ports)
 
 
 def fits(of: PortKey, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fits:
     """Convert what a port, an empty one by default, can be connected with."""
-    shown = [
-        FitView(
-            element=f.element,
-            port=f.port,
-            fits=f.fits,
-            reason=f.reason,
-            offers=[OfferView(kind=o.kind, values=dict(o.values), note=o.note) for o in f.offers],
-        )
-        for f in ports
-    ]
-    found = [FittingKindView(kind=k.kind, port=k.port) for k in kinds]
+    shown = [made_of(FitView, f, offers=[made_of(OfferView, o) for o in f.offers]) for f in ports]
+    found = [made_of(FittingKindView, k) for k in kinds]
     return Fits(request=0, element=of[0], port=of[1], ports=shown, kinds=found)
 
 
@@ -128,12 +114,8 @@ def problems(
     out: list[ListedProblem] = []
     for p in found:
         concerned = [i for path in (p.where, *paths) for i in _named(path, ids)] or [""]
-        out += [
-            ListedProblem(
-                what=p.what, where=p.where, fix=p.fix_at("page"), element=ident, severity=p.severity
-            )
-            for ident in dict.fromkeys(concerned)
-        ]
+        fix = p.fix_at("page")
+        out += [made_of(ListedProblem, p, fix=fix, element=ident) for ident in dict.fromkeys(concerned)]
     return out
 
 

@@ -23,7 +23,7 @@ from deodar.errors import DeodarError
 from deodar.model.unit import unit_seconds
 from deodar.session.port_reader import PortKey
 from deodar_studio.live.published import PublishedState
-from deodar_studio.messages.message import Message, union
+from deodar_studio.messages.message import Message, made_of, union
 from deodar_studio.messages.to_page import (
     Answer,
     Checked,
@@ -271,11 +271,9 @@ class PageConnection:
         span, (unit, step) = source.span(), source.time_unit
         if span is None:
             return None
-        return TimelineView(
-            first=span.first,
-            last=span.last,
-            frames=span.frames,
-            full_from=span.full_from,
+        return made_of(
+            TimelineView,
+            span,
             frame=span.frames - 1 if at is None else at[0],
             time=None if at is None else at[1],
             second=1 / unit_seconds(unit),

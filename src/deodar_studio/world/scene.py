@@ -9,6 +9,7 @@ from deodar.worlds._base import World
 from deodar.worlds._solids import Solid
 from deodar_studio.live.published import PublishedState
 from deodar_studio.live.track import Trail
+from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import (
     Bodies,
     BodyView,
@@ -40,23 +41,12 @@ def scene(seen: _scene.Scene | None, note: str = "", world: World | None = None)
     """
     if seen is None:
         return WorldScene(scene=None, note=note)
-    boxes = [
-        BoxView(
-            name=b.name,
-            x=b.center[0],
-            y=b.center[1],
-            width=b.size[0],
-            height=b.size[1],
-            color=list(b.color),
-            fixed=b.fixed,
-        )
-        for b in seen.boxes
-    ]
-    marks = [MarkView(name=m.name, x=m.center[0], y=m.center[1], fixed=m.fixed) for m in seen.marks]
-    plan = SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks)
+    boxes = [made_of(BoxView, b, **_place(b), width=b.size[0], height=b.size[1]) for b in seen.boxes]
+    plan = made_of(
+        SceneView, seen, boxes=boxes, marks=[made_of(MarkView, m, **_place(m)) for m in seen.marks]
+    )
     camera = world is not None and CAMERA in world.sensors
-    drawn = seen.picture
-    picture = None if drawn is None else PictureView(name=drawn.name, columns=drawn.columns, rows=drawn.rows)
+    picture = None if seen.picture is None else made_of(PictureView, seen.picture)
     return WorldScene(
         scene=plan,
         note=note,
@@ -72,8 +62,7 @@ def robot_link(world: World | None) -> RobotLink:
     link = None if world is None else world.link()
     if link is None:
         return RobotLink()
-    age, round_trip = round(link.age, -1), round(link.round_trip, 1)
-    return RobotLink(robot=link.robot, age=age, lost=link.lost, refused=link.refused, round_trip=round_trip)
+    return made_of(RobotLink, link, age=round(link.age, -1), round_trip=round(link.round_trip, 1))
 
 
 class SentBodies:
@@ -95,7 +84,7 @@ class SentBodies:
     def news(self, state: PublishedState) -> list[WorldSolids | Bodies]:
         """Return the solids, bodies and the part of their path that the page does not have."""
         seen, path, count = state.scene, state.trail, state.passed
-        bodies = [] if seen is None else [_body(b) for b in seen.bodies]
+        bodies = [] if seen is None else [made_of(BodyView, b, **_place(b)) for b in seen.bodies]
         out: list[WorldSolids | Bodies] = []
         shown, poses = (seen.solids, seen.poses) if seen is not None and self._solid else ((), b"")
         if shown != self._solids:
@@ -120,23 +109,14 @@ class SentBodies:
 
 
 def _solid(solid: Solid) -> SolidView:
-    return SolidView(
-        body=solid.body,
-        shape=solid.shape,
-        size=list(solid.size),
-        color=list(solid.color),
-        thing=solid.thing,
-        pushable=solid.pushable,
-        points="" if solid.mesh is None else _text(solid.mesh.points),
-        faces="" if solid.mesh is None else _text(solid.mesh.faces),
-    )
+    points, faces = (b"", b"") if solid.mesh is None else (solid.mesh.points, solid.mesh.faces)
+    return made_of(SolidView, solid, points=_text(points), faces=_text(faces))
 
 
 def _text(data: bytes) -> str:
     return base64.b64encode(data).decode()
 
 
-def _body(body: _scene.SceneBody) -> BodyView:
-    return BodyView(
-        name=body.name, x=body.center[0], y=body.center[1], heading=body.heading, radius=body.radius
-    )
+def _place(of: _scene.SceneBox | _scene.Mark | _scene.SceneBody) -> dict[str, float]:
+    """Return where the middle of something lies."""
+    return {"x": of.center[0], "y": of.center[1]}
