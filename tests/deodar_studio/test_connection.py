@@ -13,7 +13,7 @@ from deodar_studio.messages.message import Message
 from deodar_studio.messages.to_page import Answer, ListedProblem
 from deodar_studio.pages.page import Page
 from deodar_studio.project.confirmation import ConfirmationRequired
-from deodar_studio.requests import dispatch
+from deodar_studio.requests.request import Request
 from deodar_studio.web.connection import PageConnection
 
 
@@ -81,7 +81,7 @@ class Said:
 def test_a_request_with_a_number_is_answered_and_one_without_is_not(
     outcome: list[Answer] | Exception, expected: Answer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    async def do(hub: object, page: object, message: Any) -> list[Answer]:
+    async def answers(request: Request, hub: object, page: object) -> list[Answer]:
         if isinstance(outcome, Exception):
             raise outcome
         return outcome
@@ -97,7 +97,7 @@ def test_a_request_with_a_number_is_answered_and_one_without_is_not(
         await one._receive()
         return list(one._answers)
 
-    monkeypatch.setattr(dispatch, "do", do)
+    monkeypatch.setattr(Request, "answers", answers)
     first, *rest, last = asyncio.run(main())
     assert first == expected and not rest
     assert last.request == 9 and "is not understood" in last.problems[0].what

@@ -165,7 +165,7 @@ def test_a_launcher_of_cosivina_opens_with_pins_and_presets(tmp_path: Path) -> N
 
     with studio(tmp_path) as address:
         play(address, scene)
-    listed = Workspace(tmp_path).listed(1, "").files
+    listed = Workspace(tmp_path).listed("").files
     assert listed == ["calm.json", "launcherPair.m", "own.json"]
     assert '"go: on"' in (tmp_path / "own.json").read_text()
 
@@ -185,7 +185,7 @@ def test_a_folder_lists_files_of_dnf_composer_and_one_opens_with_its_weights(tmp
     shutil.copyfile(SIMULATIONS / "all-elements.dnf", tmp_path / "a.dnf")
     shutil.copyfile(SIMULATIONS / "field coupling_weights.txt", tmp_path / "field coupling_weights.txt")
     space = Workspace(tmp_path)
-    assert space.listed(1, "").files == ["a.dnf"]
+    assert space.listed("").files == ["a.dnf"]
     document = content.load(space, tmp_path / "a.dnf")
     coupling = next(e.element for e in document.entries if e.path == "field coupling")
     assert isinstance(coupling, Weights) and isinstance(coupling.weights, FrozenArray)

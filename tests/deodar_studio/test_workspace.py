@@ -57,16 +57,16 @@ def test_a_folder_lists_what_can_be_opened(tmp_path: Path) -> None:
         (tmp_path / name).touch()
     (tmp_path / "sub").mkdir()
     (tmp_path / "sub" / "c.json").touch()
-    listed = Workspace(tmp_path).listed(7, "")
+    listed = Workspace(tmp_path).listed("")
     assert (listed.files, listed.folders, listed.pictures, listed.path) == (
         ["A.JSON", "b.json"],
         ["sub"],
         ["photo.JPG"],
         "",
     )
-    assert Workspace(tmp_path).listed(7, "sub").path == "sub"
+    assert Workspace(tmp_path).listed("sub").path == "sub"
     with pytest.raises(DocumentError, match="no such folder"):
-        Workspace(tmp_path).listed(7, "gone")
+        Workspace(tmp_path).listed("gone")
 
 
 def test_targets_end_in_json_and_are_in_an_existing_folder(tmp_path: Path) -> None:
@@ -120,7 +120,7 @@ def test_a_folder_with_broken_links_is_listed(tmp_path: Path) -> None:
     (tmp_path / "b").symlink_to(tmp_path / "a")
     (tmp_path / "gone.json").symlink_to(tmp_path / "nowhere")
     os.mkfifo(tmp_path / "pipe.json")
-    listed = Workspace(tmp_path).listed(1, "")
+    listed = Workspace(tmp_path).listed("")
     assert (listed.files, listed.folders) == (["good.json"], [])
     for path in ("loop.json", "a/x.json", "x" * 5000, "/".join(["d"] * 3000)):
         with pytest.raises(DeodarError):
