@@ -351,9 +351,8 @@ class Slow(PageConnection):
         self.sent.append(message)
         await self._between("experiment" if isinstance(message, ExperimentView) else "")
 
-    async def _send_frames(self, *args: object) -> bool:
+    async def _send_frames(self, *args: object) -> None:
         await self._between("frames")
-        return False
 
     async def exchange(self) -> None:
         """Send what is new."""

@@ -5,13 +5,11 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-from collections.abc import Awaitable, Callable, Iterable, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any
 
 from deodar import __version__
-from deodar.errors import DocumentError, UnknownName, WorldError
-from deodar.model.model import Model
+from deodar.errors import UnknownName, WorldError
 from deodar.session.meter import Meter
 from deodar.session.session import Session
 from deodar.worlds._base import World
@@ -25,18 +23,13 @@ from deodar_studio.files.state_store import StateStore, state_folder
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.live.compilation import CompileTimes
 from deodar_studio.live.engine import Engine
-from deodar_studio.live.published import CostReport
-from deodar_studio.messages.message import made_of
+from deodar_studio.messages.message import Message, made_of
 from deodar_studio.messages.to_page import (
     CompilingView,
-    Costs,
-    CostView,
     Gallery,
     RecordingView,
-    Regime,
     RunClock,
     TimelineView,
-    Tuning,
     Welcome,
 )
 from deodar_studio.pages.page import Page
@@ -70,13 +63,12 @@ class Hub:
         self._loop = asyncio.get_running_loop()
         self._wake_scheduled = False
         self._gallery = Gallery(recent=[], recoveries=[])
-        self._sent_costs: tuple[CostReport, Costs] | None = None
         self.pages: set[Page] = set()
         self._connected = 0
         self.workspace = Workspace(root)
         self.store = StateStore(state_folder())
         self.embodiment = Embodiment(world)
-        self.engine = Engine(self._from_engine)
+        self.engine = Engine(self.from_thread)
         self.engine.compile_times = CompileTimes(self.store.compile_times())
         self.project = OpenProject(
             self.workspace, self.store, self.engine, self.embodiment, trust, self.notify
@@ -107,8 +99,8 @@ class Hub:
         for page in self.pages:
             page.wake()
 
-    def _from_engine(self) -> None:
-        """Call `notify` from the engine's thread; further calls before it has run are merged."""
+    def from_thread(self) -> None:
+        """Call `notify` from any thread; further calls before it has run are merged."""
         if not self._wake_scheduled:
             self._wake_scheduled = True
             with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left
@@ -183,7 +175,7 @@ class Hub:
             page.frames = None
             return RunFrames(self.engine)
         if page.frames is None or page.frames.record is not record:
-            page.frames = RecordFrames(record, self.project.record.scene[0], self._from(page))
+            page.frames = RecordFrames(record, self.project.record.scene[0], self.from_thread)
         return page.frames
 
     def other_source(self, page: Page) -> RecordFrames | None:
@@ -192,7 +184,7 @@ class Hub:
         if comparison is None or frames is None:
             page.others = None
         elif page.others is None or page.others.record is not comparison.other:
-            page.others = RecordFrames(comparison.other, None, self._from(page))
+            page.others = RecordFrames(comparison.other, None, self.from_thread)
             page.others.choose(frames.copy)
         return page.others
 
@@ -200,71 +192,22 @@ class Hub:
         """Run a function in the engine's thread, and wait for its end."""
         await asyncio.wrap_future(self.engine.call(function))
 
-    def from_thread(self) -> None:
-        """Wake all pages, from any thread."""
-        with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left
-            self._loop.call_soon_threadsafe(self.notify)
-
-    def _from(self, page: Page) -> Callable[[], None]:
-        """Return a function that wakes a page from any thread."""
-
-        def wake() -> None:
-            with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left
-                self._loop.call_soon_threadsafe(page.wake)
-
-        return wake
-
-    def costs(self) -> Costs:
-        """Return the cost of the elements as last measured."""
-        report = self.engine.cost_report
-        if self._sent_costs is None or self._sent_costs[0] is not report:
-            found = report.costs
-            listed = () if found is None else found.elements
-            elements = [made_of(CostView, c, element=c.id) for c in listed]
-            problems = view.problems(report.problems, None)
-            step = 0.0 if found is None else found.step
-            self._sent_costs = (
-                report,
-                Costs(measuring=report.measuring, step=step, elements=elements, problems=problems),
-            )
-        return self._sent_costs[1]
-
-    def measure_regime(self, element: str) -> None:
-        """Measure the regime of a field or node of the open document.
-
-        Raises:
-            DocumentError: no document is open, or it has no such element.
-            WorkerError: a part of the model cannot be sent to another process.
-        """
-        self.measurement.start(self.project.session, self._copied(element), element)
-
-    def tune_field(self, element: str, parameters: Sequence[str], requirements: Sequence[Any]) -> None:
-        """Tune a field of the open document.
-
-        Raises:
-            DocumentError: no document is open, or it has no such element.
-            WorkerError: a part of the model cannot be sent to another process.
-        """
-        model = self._copied(element)
-        self.field_tuning.start(self.project.session, model, element, parameters, requirements)
-
-    def _copied(self, element: str) -> Model:
-        """Return the model of the open document, which has this element."""
-        doc = self.project.history.document()
-        if element not in doc.by_id():
-            raise DocumentError("the document has no such element", where=element)
-        return Model(document=doc, trusted=self.project.trust)
-
-    def analyses(self) -> list[Regime | Tuning]:
-        """Return the regime and the tuning as last computed; empty ones if another document was opened
-        since.
-        """
-        model, session = self.project.history.model, self.project.session
-        for one in (self.measurement, self.field_tuning):
-            if one.message.element and (model is None or one.session != session):
-                one.stop()
+    def topics(self) -> Iterator[Message | None]:
+        """Yield what every page knows besides the document, each as a message; None: nothing to say."""
+        project = self.project
+        model = project.history.model
         doc = None if model is None else model.document
-        return [self.measurement.shown(doc), self.field_tuning.shown(doc)]
+        yield project.file.problems()
+        yield project.history.checker.found
+        yield project.history.report()
+        yield self.engine.cost_report.message
+        for analysis in (self.measurement, self.field_tuning):
+            if analysis.message.element and (doc is None or analysis.session != project.session):
+                analysis.stop()
+            yield analysis.shown(doc)
+        yield project.record.compared()
+        yield project.file.saved_files
+        yield self.experiment.view()
 
     # ----------------------------------------------------------------------------------------------- watching
 

@@ -14,9 +14,10 @@ from deodar_studio.files.file_thread import in_file_thread, try_in_file_thread
 from deodar_studio.files.saved_files import SavedFolder, Sort
 from deodar_studio.files.state_store import StateStore
 from deodar_studio.files.workspace import Workspace
-from deodar_studio.messages.to_page import SavedFiles
+from deodar_studio.messages.to_page import FileProblems, SavedFiles
 from deodar_studio.project.confirmation import ConfirmationRequired
 from deodar_studio.project.file_state import FileState, plain
+from deodar_studio.views import view
 
 
 class DocumentFile:
@@ -73,6 +74,10 @@ class DocumentFile:
     def refuse(self, title: str, problems: Sequence[Problem]) -> None:
         """State that a file could not be opened."""
         self.refused = (title, problems)
+
+    def problems(self) -> FileProblems:
+        """Return the file that could not be opened, as a message."""
+        return FileProblems(file=self.refused[0], problems=view.problems(self.refused[1]))
 
     def close(self) -> None:
         """Continue without a file."""

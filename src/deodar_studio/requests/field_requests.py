@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from deodar.errors import DocumentError
+from deodar.model.model import Model
 from deodar_studio.messages.message import Id
 from deodar_studio.messages.to_page import Answer
 from deodar_studio.pages.hub import Hub
@@ -12,10 +14,18 @@ from deodar_studio.pages.page import Page
 from deodar_studio.requests.request import Text, answer, asks, changes
 
 
+def _model(hub: Hub, element: str) -> Model:
+    """Return the model of the open document, which has this element."""
+    doc = hub.project.history.document()
+    if element not in doc.by_id():
+        raise DocumentError("the document has no such element", where=element)
+    return Model(document=doc, trusted=hub.project.trust)
+
+
 @asks()
 async def measure_regime(hub: Hub, page: Page, *, element: Id) -> None:
     """Measure what a field or node does alone, without noise: the `regime` follows when it is found."""
-    hub.measure_regime(element)
+    hub.measurement.start(hub.project.session, _model(hub, element), element)
 
 
 @asks()
@@ -33,7 +43,8 @@ async def tune_field(
     `parameters` are names of parameters of the field, such as `kernel.0.sigma`. A requirement is a name, or
     an object such as `{"detects": {"at": 3, "within": 0.2}}`, as in the files of `deodar tune`.
     """
-    hub.tune_field(element, parameters, requirements)
+    model = _model(hub, element)
+    hub.field_tuning.start(hub.project.session, model, element, parameters, requirements)
 
 
 @asks()

@@ -24,26 +24,7 @@ from deodar.model.unit import unit_seconds
 from deodar.session.port_reader import PortKey
 from deodar_studio.live.published import PublishedState
 from deodar_studio.messages.message import Message, made_of, union
-from deodar_studio.messages.to_page import (
-    Answer,
-    Checked,
-    Comparison,
-    Costs,
-    ExperimentView,
-    FileProblems,
-    Fits,
-    Folder,
-    Gallery,
-    ImportReportView,
-    ListedProblem,
-    Regime,
-    RobotLink,
-    RunClock,
-    SavedFiles,
-    TimelineView,
-    Tuning,
-    WorldScene,
-)
+from deodar_studio.messages.to_page import Answer, Fits, Folder, ListedProblem, RobotLink, TimelineView
 from deodar_studio.pages.hub import Hub
 from deodar_studio.project.confirmation import ConfirmationRequired
 from deodar_studio.requests.request import MESSAGES, Drawn, RepeatRequest, Request
@@ -74,7 +55,8 @@ class PageConnection:
         self._exchange = 0
         self._ready = True
         self._published = self._published_other = -1
-        self._known: dict[str, Any] = {"robot_link": RobotLink()}
+        self._spoke = False
+        self._known: dict[type[Message], Message] = {RobotLink: RobotLink()}
         self._link_sent = 0.0
         self._timeline: TimelineView | None = None
         self._session, self._version, self._experiment = -1, -1, -1
@@ -109,7 +91,8 @@ class PageConnection:
                 message = self._decoder.decode(text)
             except (msgspec.DecodeError, RecursionError, UnicodeEncodeError) as error:
                 self._malformed += 1
-                self._refuse(_request(text), f"The message is not understood: {error}")
+                self._answers.append(_refused(_request(text), f"The message is not understood: {error}"))
+                self.page.wake()
                 if self._malformed >= MOST_MALFORMED:
                     await self._socket.close(1008, "too many messages that are not understood")
                     return
@@ -139,19 +122,15 @@ class PageConnection:
             answers = [Answer(request=message.request, problems=problems)]
         except OSError as error:
             what = f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}"
-            answers = [Answer(request=message.request, problems=[ListedProblem(what=what)])]
+            answers = [_refused(message.request, what)]
         except Exception as error:
             logging.getLogger("deodar.studio").exception("a request of the page failed")
             what = (
                 f"This is an error of deodar itself ({type(error).__name__}: {error}). The terminal of the"
                 " studio shows the details."
             )
-            answers = [Answer(request=message.request, problems=[ListedProblem(what=what)])]
+            answers = [_refused(message.request, what)]
         self._answers.extend(a for a in answers if message.request)
-        self.page.wake()
-
-    def _refuse(self, request: int, what: str) -> None:
-        self._answers.append(Answer(request=request, problems=[ListedProblem(what=what)]))
         self.page.wake()
 
     # -------------------------------------------------------------------------------------------- to the page
@@ -173,13 +152,12 @@ class PageConnection:
     async def _say(self) -> None:
         """Send everything that is new, followed by a clock."""
         hub, engine = self._hub, self._hub.engine
-        spoke = False
+        self._spoke = False
         while True:
             source = hub.source(self.page)
             state = await self._shown(source)
             for message in await self._news_of_state():
                 await self._text(message)
-                spoke = True
             # an answer is never sent before its change, and frames belong to the document that was sent
             now = hub.project.session, hub.project.history.version, hub.experiment.version
             known = self._session, self._version, self._experiment
@@ -188,25 +166,22 @@ class PageConnection:
                 break
         for message in self._news_of_world(state):
             await self._text(message)
-            spoke = True
         sent = state.number != self._published
         self._published = state.number
-        spoke = await self._send_frames(source, state, self.page.moment, False, sent) or spoke
+        await self._send_frames(source, state, self.page.moment, False, sent)
         others = hub.other_source(self.page)
         if others is not None:
             found = await others.at(state.time, 0, self._places(True))
             if found is not None:
                 sent = found[1].number != self._published_other
                 self._published_other = found[1].number
-                spoke = await self._send_frames(others, found[1], found[1], True, sent) or spoke
+                await self._send_frames(others, found[1], found[1], True, sent)
         for answer in answers:
             self._answers.popleft()
             await self._text(answer)
             self._room.set()
-            spoke = True
         clock = hub.clock(self._timeline)
-        if spoke or clock != self._known.get("clock"):
-            self._known["clock"] = clock
+        if self._new(clock) or self._spoke:
             self._exchange += 1
             self._ready = False
             await self._text(msgspec.structs.replace(clock, frame=self._exchange))
@@ -226,21 +201,19 @@ class PageConnection:
         past: PublishedState | None,
         other: bool,
         sent: bool,
-    ) -> bool:
-        """Send what is new of the streams of one source; return whether anything was sent."""
-        spoke = False
+    ) -> None:
+        """Send what is new of the streams of one source."""
         for stream in [s for s in self.page.streams.values() if s.other == other]:
             news = stream.news(source, past)
             if news is not None:
                 await self._text(news)
-                sent = spoke = True
+                sent = True
             trace = None if stream.request is None else source.trace(stream.request)
             more = sent or (trace is not None and source.present() is None)  # a record is being read
             data = stream.frame(state, trace) if more else None
             if data is not None:
                 await self._socket.send_bytes(data)
-                spoke = True
-        return spoke
+                self._spoke = True
 
     async def _shown(self, source: FrameSource) -> PublishedState:
         """Return the state that the page shows, after what it asked for, and keep its timeline."""
@@ -281,74 +254,50 @@ class PageConnection:
         )
 
     async def _news_of_state(self) -> list[Message]:
-        project = self._hub.project
+        project, experiment = self._hub.project, self._hub.experiment
         out: list[Message] = []
         now = project.session, project.history.version
         if (self._session, self._version) != now:
             changes = project.changes_since(self._session, self._version)
             if changes is None:
                 whole = await project.opened()
-                out.append(whole)
                 now = whole.session, whole.version
-                self._new("gallery", await self._hub.gallery(), out)
+                out += [whole, *self._new(await self._hub.gallery())]
             else:
                 out.extend(changes)
             self._session, self._version = now
-            file, problems = project.file.refused
-            self._new("file_problems", FileProblems(file=file, problems=view.problems(problems)), out)
-        if project.history.checker.found is not None:
-            self._new("checked", project.history.checker.found, out)
-        self._new("import_report", project.history.report(), out)
-        self._new("costs", self._hub.costs(), out)
-        for analysis in self._hub.analyses():
-            self._new(type(analysis).__name__, analysis, out)
-        self._new("comparison", project.record.compared(), out)
-        self._new("saved_files", project.file.saved_files, out)
-        experiment = self._hub.experiment.view()
+        out += self._new(*self._hub.topics())
         self._experiment = experiment.version
-        self._new("experiment", experiment, out)
-        rows = self._hub.experiment.rows_after(*self._rows)
+        rows = experiment.rows_after(*self._rows)
         if rows is not None:
             self._rows = rows.run, rows.first + len(rows.rows)
             out.append(rows)
         return out
 
     def _news_of_world(self, state: PublishedState) -> list[Message]:
-        out: list[Message] = []
-        session, note = self._hub.engine.session, self._hub.project.record.scene[1]
-        world = None if session is None or self._hub.project.record.reader is not None else session.world
-        self._new("scene", scene.scene(state.scene, note, world), out)
+        session, record = self._hub.engine.session, self._hub.project.record
+        world = None if session is None or record.reader is not None else session.world
+        out = self._new(scene.scene(state.scene, record.scene[1], world))
         now = time.monotonic()
         if now - self._link_sent >= LINK_EVERY:
             self._link_sent = now
-            self._new("robot_link", scene.robot_link(world), out)
+            out += self._new(scene.robot_link(world))
         sent = self.page.sent_bodies
         return out if sent is None else [*out, *sent.news(state)]
 
-    def _new(
-        self,
-        what: str,
-        message: Gallery
-        | SavedFiles
-        | ImportReportView
-        | FileProblems
-        | Checked
-        | RunClock
-        | Costs
-        | Regime
-        | Tuning
-        | Comparison
-        | ExperimentView
-        | WorldScene
-        | RobotLink,
-        out: list[Message],
-    ) -> None:
-        if self._known.get(what) != message:
-            self._known[what] = message
-            out.append(message)
+    def _new(self, *topics: Message | None) -> list[Message]:
+        """Return the messages that the page does not know; it has the latest one of each class."""
+        new = [m for m in topics if m is not None and m != self._known.get(type(m))]
+        self._known.update((type(m), m) for m in new)
+        return new
 
     async def _text(self, message: Message) -> None:
+        self._spoke = True
         await self._socket.send_text(msgspec.json.encode(message).decode())
+
+
+def _refused(request: int, what: str) -> Answer:
+    return Answer(request=request, problems=[ListedProblem(what=what)])
 
 
 def _request(text: str) -> int:
