@@ -418,10 +418,10 @@ def test_an_experiment_closes_while_one_of_its_trials_is_repeated(folder: Path) 
             run = d.hub.experiment.run
             assert run is not None
             repeated = asyncio.create_task(d.do("repeat_trial", trial=2))
-            while run._pool is None:
+            while not run._worker.started:
                 await asyncio.sleep(0.01)
             await d.do("close_experiment")
-            assert d.hub.experiment.data is None and run._pool is None
+            assert d.hub.experiment.data is None and not run._worker.started
             with pytest.raises(DeodarError, match="was closed"):
                 await repeated
             assert d.hub.project.record.reader is None

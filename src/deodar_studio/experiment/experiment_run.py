@@ -15,7 +15,7 @@ from typing import Any, Literal
 
 from deodar import codec
 from deodar.batch.driver import Staffing
-from deodar.batch.pool import Pool
+from deodar.batch.kept_worker import KeptWorker
 from deodar.errors import DeodarError, Problem, RecordError
 from deodar.experiments import packed_experiment
 from deodar.experiments.following import RowsTail, RowsWriter, Standing, standing
@@ -92,7 +92,7 @@ class ExperimentRun:
         self._thread: threading.Thread | None = None
         self._repeating = threading.Lock()
         self._closing = threading.Event()
-        self._pool: Pool | None = None
+        self._worker = KeptWorker(main=True)
 
     @property
     def workers(self) -> int:
@@ -163,7 +163,7 @@ class ExperimentRun:
         if self._thread is not None:
             self._thread.join()
         with self._repeating:
-            self._end_pool()
+            self._worker.end()
             self._closing.clear()
 
     # ---------------------------------------------------------------------------------------------- following
@@ -265,38 +265,19 @@ class ExperimentRun:
     def _prepare(self) -> None:
         # an error appears when a trial is repeated
         with self._repeating, contextlib.suppress(DeodarError, OSError):
-            if self.rows and self._pool is None and not self._closing.is_set():
+            if self.rows and not self._worker.started and not self._closing.is_set():
                 self._ask(packed_experiment.prepare, packed_experiment.PackedExperiment.of(self.setup))
 
     def _again(self, trial: int, path: Path) -> Row:
         handed = packed_experiment.PackedExperiment.of(self.setup)
-        found: list[Row] = self._ask(packed_experiment.repeat, handed, trial, self.recorded(), path)
-        if not found:
+        row: Row | None = self._ask(packed_experiment.repeat, handed, trial, self.recorded(), path)
+        if row is None:
             raise RecordError(f"trial {trial} was not repeated: its experiment was closed")
-        return found[0]
+        return row
 
-    def _ask(self, function: Callable[..., Any], *arguments: Any) -> list[Any]:
-        """Return the result of a function in a worker, which stays for the next one: its programs are
-        compiled. The list is empty if `close` was called meanwhile.
-        """
-        if self._pool is None:
-            self._pool = Pool(1, main=True).__enter__()
-        try:
-            self._pool.give(0, function, *arguments)
-            while not self._closing.is_set():
-                for _, result in self._pool.wait(0.2):
-                    return [result]
-        except BaseException:
-            self._end_pool()
-            raise
-        self._end_pool()
-        return []
-
-    def _end_pool(self) -> None:
-        pool, self._pool = self._pool, None
-        if pool is not None:
-            with contextlib.suppress(OSError):
-                pool.__exit__(KeyboardInterrupt, None, None)
+    def _ask(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Return the result of a function in a worker; None if `close` was called meanwhile."""
+        return self._worker.ask(function, arguments, lambda: not self._closing.is_set())
 
     def recorded(self) -> list[str]:
         """Return the ports that the record of a repeated trial contains, the small ones first: the activation

@@ -1,109 +1,19 @@
-"""A long computation for the studio: one at a time in a worker process, so that the run is not disturbed."""
+"""A long computation about one field: one at a time in a worker process, so that the run is not disturbed."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any, Generic, TypeVar
 
 import msgspec
 
-from deodar.batch.pool import Pool
+from deodar.batch.kept_worker import KeptWorker
 from deodar.errors import DeodarError, Problem
 from deodar_studio.messages.to_page import Regime, Tuning
 from deodar_studio.views import view
 
 M = TypeVar("M", Regime, Tuning)
-
-Ended = Callable[[Any, Sequence[Problem]], None]
-"""A function that gets the result, or None and the problems."""
-
-
-class BackgroundTask:
-    """Runs a function in a worker process; a new one ends the one before.
-
-    Args:
-        name: name of the threads that wait for it.
-        keep: whether the process stays for the next function, which then finds its programs compiled.
-    """
-
-    def __init__(self, name: str, keep: bool) -> None:
-        self._name, self._keep = name, keep
-        self._attempt = 0
-        self._lock = threading.Lock()
-        self._pool: Pool | None = None
-
-    def start(
-        self,
-        function: Callable[..., Any],
-        arguments: Sequence[Any],
-        ended: Ended,
-        heard: Callable[[Any], None] | None = None,
-    ) -> None:
-        """Run a function of a module, in a thread that waits for its process.
-
-        Args:
-            function: its first argument is a function that sends a message to this process.
-            arguments: its further arguments.
-            ended: called when it has ended, unless it was stopped.
-            heard: called with each message.
-        """
-        self._attempt += 1
-        attempt = self._attempt
-
-        def work() -> None:
-            problems: Sequence[Problem] = ()
-            found = None
-            with self._lock:  # the attempt before ends first
-                try:
-                    found = self._asked(attempt, function, arguments, heard or (lambda message: None))
-                except DeodarError as error:
-                    problems = error.problems
-                except Exception as error:  # functions that a document names run in the worker
-                    problems = [Problem("", f"{type(error).__name__}: {error}")]
-            if attempt == self._attempt:
-                ended(found, problems)
-
-        threading.Thread(target=work, name=self._name, daemon=True).start()
-
-    def stop(self) -> None:
-        """End the function; nothing is called any more."""
-        self._attempt += 1
-
-    def end(self) -> None:
-        """End the function and its process, and wait until they have ended."""
-        self.stop()
-        with self._lock:
-            self._close()
-
-    def _asked(
-        self,
-        attempt: int,
-        function: Callable[..., Any],
-        arguments: Sequence[Any],
-        heard: Callable[[Any], None],
-    ) -> Any:
-        """Return what the function returns; None if it was stopped."""
-        if attempt != self._attempt:
-            return None
-        done = False
-        try:
-            if self._pool is None:
-                self._pool = Pool(1, talks=True).__enter__()
-            self._pool.give(0, function, *arguments)
-            while attempt == self._attempt:
-                for _, result in self._pool.wait(0.2, lambda _, message: heard(message)):
-                    done = self._keep
-                    return result
-            return None
-        finally:
-            if not done:
-                self._close()
-
-    def _close(self) -> None:
-        pool, self._pool = self._pool, None
-        if pool is not None:
-            pool.__exit__(KeyboardInterrupt, None, None)
 
 
 class FieldTask(Generic[M]):
@@ -112,7 +22,7 @@ class FieldTask(Generic[M]):
     Args:
         nothing: the message while nothing was asked.
         busy: its field that is true while the task runs.
-        task: runs the function.
+        keep: whether the process stays for the next request.
         changed: called from any thread when the message has changed.
 
     Attributes:
@@ -120,20 +30,46 @@ class FieldTask(Generic[M]):
         session: number of the document of the field.
     """
 
-    def __init__(self, nothing: M, busy: str, task: BackgroundTask, changed: Callable[[], None]) -> None:
+    def __init__(self, nothing: M, busy: str, keep: bool, changed: Callable[[], None]) -> None:
         self.message = self._nothing = nothing
         self.session = 0
-        self._busy, self._task, self._changed = busy, task, changed
+        self._busy, self._keep, self._changed = busy, keep, changed
+        self._attempt = 0
+        self._lock = threading.Lock()
+        self._worker = KeptWorker(talks=True)
 
-    def ask(self, session: int, element: str, function: Callable[..., Any], arguments: Sequence[Any]) -> None:
-        """Run a function, which sends and returns fields of the message, in the worker process."""
+    def ask(self, session: int, element: str, function: Callable[..., Any], *arguments: Any) -> None:
+        """Run a function of a module, in a thread that waits for its process.
 
-        def ended(found: Mapping[str, Any] | None, problems: Sequence[Problem]) -> None:
-            self._tell({**(found or {}), self._busy: False, "problems": view.problems(problems)})
-
+        Args:
+            session: number of the document.
+            element: id of the field.
+            function: sends fields of the message by its first argument, and returns further ones.
+            arguments: its further arguments.
+        """
         self.session, self.message = session, self._nothing
         self._tell({"element": element, self._busy: True})
-        self._task.start(function, arguments, ended, self._tell)
+        self._attempt += 1
+        attempt = self._attempt
+
+        def work() -> None:
+            found: Mapping[str, Any] | None = None
+            problems: tuple[Problem, ...] = ()
+            with self._lock:  # the attempt before ends first
+                try:
+                    found = self._worker.ask(
+                        function, arguments, lambda: attempt == self._attempt, self._tell
+                    )
+                except DeodarError as error:
+                    problems = tuple(error.problems)
+                except Exception as error:  # functions that a document names run in the worker
+                    problems = (Problem("", f"{type(error).__name__}: {error}"),)
+                if not self._keep:
+                    self._worker.end()
+            if attempt == self._attempt:
+                self._tell({**(found or {}), self._busy: False, "problems": view.problems(problems)})
+
+        threading.Thread(target=work, name=f"deodar-{self._busy}", daemon=True).start()
 
     def _tell(self, fields: Mapping[str, Any]) -> None:
         self.message = msgspec.structs.replace(self.message, **fields)
@@ -141,10 +77,12 @@ class FieldTask(Generic[M]):
 
     def stop(self) -> None:
         """End the task; its result is gone."""
-        self._task.stop()
+        self._attempt += 1
         self.message = self._nothing
         self._changed()
 
     def end(self) -> None:
         """End the task and its process, and wait until they have ended."""
-        self._task.end()
+        self._attempt += 1
+        with self._lock:
+            self._worker.end()

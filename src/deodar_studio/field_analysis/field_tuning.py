@@ -14,7 +14,7 @@ from deodar.errors import DeodarError, DocumentError
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar_studio.field_analysis.background import BackgroundTask, FieldTask
+from deodar_studio.field_analysis.background import FieldTask
 from deodar_studio.messages.to_page import RequirementView, TunedValue, Tuning
 
 TELL_EVERY = 0.2
@@ -37,7 +37,7 @@ class FieldTuning(FieldTask[Tuning]):
     """Tunes one field at a time; `changed` is called from any thread when the message has changed."""
 
     def __init__(self, changed: Callable[[], None]) -> None:
-        super().__init__(NOTHING, "tuning", BackgroundTask("deodar-tuning", keep=False), changed)
+        super().__init__(NOTHING, "tuning", False, changed)
 
     def start(
         self, session: int, model: Model, element: str, parameters: Sequence[str], requirements: Sequence[Any]
@@ -60,7 +60,7 @@ class FieldTuning(FieldTask[Tuning]):
             "requirements": list(requirements),
             "field": path,
         }
-        self.ask(session, element, tuned, [packed, wanted])
+        self.ask(session, element, tuned, packed, wanted)
 
     def shown(self, doc: Document | None) -> Tuning:
         """Return the message; what was tuned is applied if the document has its values."""

@@ -12,7 +12,7 @@ from deodar.batch.packed_model import PackedModel
 from deodar.element import Element
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar_studio.field_analysis.background import BackgroundTask, FieldTask
+from deodar_studio.field_analysis.background import FieldTask
 from deodar_studio.messages.to_page import Regime, RegimeCurve, RegimeRow
 
 NOTHING = Regime(element="", measuring=False, stale=False, words=[], rows=[], curve=None, problems=[])
@@ -22,7 +22,7 @@ class RegimeMeasurement(FieldTask[Regime]):
     """Measures one field at a time; `changed` is called from any thread when the message has changed."""
 
     def __init__(self, changed: Callable[[], None]) -> None:
-        super().__init__(NOTHING, "measuring", BackgroundTask("deodar-regime", keep=True), changed)
+        super().__init__(NOTHING, "measuring", True, changed)
         self._measured: Element | None = None
 
     def start(self, session: int, model: Model, element: str) -> None:
@@ -33,7 +33,7 @@ class RegimeMeasurement(FieldTask[Regime]):
         """
         entry, packed = model.document.by_id()[element], PackedModel.of(model, None)
         self._measured = entry.element
-        self.ask(session, element, measured, [packed, entry.path])
+        self.ask(session, element, measured, packed, entry.path)
 
     def shown(self, doc: Document | None) -> Regime:
         """Return the message; it is stale if the element of the document is another one by now."""
