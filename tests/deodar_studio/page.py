@@ -53,6 +53,12 @@ def studio(
         assert not thread.is_alive(), "the studio did not stop"
 
 
+def unpacked(data: bytes) -> tuple[int, int, float, np.ndarray]:
+    """Return the stream, number, time and values (flat) of a frame."""
+    stream, frame, time = frames.HEADER.unpack_from(data)
+    return stream, frame, time, np.frombuffer(data, "<f4", offset=frames.HEADER.size)
+
+
 def replaced(values: Any, path: list[str], value: Any) -> Any:
     """Return nested values with another one at a path."""
     if not path:
@@ -124,7 +130,7 @@ class Page:
         """Read messages until the connection ends."""
         async for message in self.socket:
             if isinstance(message, bytes):
-                stream, _, time, values = frames.unpack(message)
+                stream, _, time, values = unpacked(message)
                 if stream in self.rows:
                     self._take_rows(stream, time, values)
                 elif self.forms[stream]["shape"] == [2] and not self.forms[stream]["axes"]:

@@ -12,6 +12,7 @@ import pytest
 from deodar.model import output
 from deodar_studio.messages import frames, to_page
 from deodar_studio.requests import protocol, request
+from tests.deodar_studio.page import unpacked
 
 SAY = "type: python tools/generate.py"
 
@@ -64,7 +65,7 @@ def test_tags_of_messages_are_unique_and_all_are_in_the_typescript() -> None:
 def test_an_encoded_frame_is_decoded_unchanged() -> None:
     values = np.arange(12, dtype=np.float32).reshape(3, 4)
     data = frames.pack(7, 2**32 + 5, 123.5, values)
-    stream, frame, time, back = frames.unpack(data)
+    stream, frame, time, back = unpacked(data)
     assert (stream, frame, time) == (7, 5, 123.5) and len(data) == 16 + 4 * 12
     np.testing.assert_array_equal(back, values.ravel())
-    assert frames.unpack(frames.pack(0, 0, 0, np.asarray(2.5)))[3].tolist() == [2.5]
+    assert unpacked(frames.pack(0, 0, 0, np.asarray(2.5)))[3].tolist() == [2.5]

@@ -10,9 +10,9 @@ from deodar.worlds.picture import Picture
 from deodar_studio.live.published import PublishedState
 from deodar_studio.live.section import Section
 from deodar_studio.live.trace import Trace, TraceRequest
-from deodar_studio.messages import frames
 from deodar_studio.messages.to_page import Announced
 from deodar_studio.streams import stream
+from tests.deodar_studio.page import unpacked
 
 X, Y, Z, W = (dd.Axis(name, 0, 10, samples=n) for name, n in zip("xyzw", (4, 5, 6, 3), strict=True))
 CHANNEL = Picture.example_axes("picture")[2]
@@ -122,6 +122,6 @@ def test_samples_that_a_thread_adds_while_a_frame_is_made_are_in_the_next_one() 
         trace.add(float(trace.count), 0.5)
         frame = course.frame(PublishedState(1, 0.0, 0, {}), trace)
         assert frame is not None
-        _, _, start, values = frames.unpack(frame)
+        _, _, start, values = unpacked(frame)
         times += (start + values[::2]).tolist()
     assert times == [0, 1, 2, 3, 4], "each sample once; the last one is in the next frame"

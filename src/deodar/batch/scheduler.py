@@ -63,8 +63,9 @@ def connected(cluster: Cluster, stack: contextlib.ExitStack, look: Callable[[], 
     if cluster.processes:
         where = _local(cluster.processes, stack)
     elif cluster.file is not None:
-        where = _slurm(cluster.file)
+        where, jobs = _slurm(cluster.file)
         stack.callback(_closed, where)
+        where.scale(jobs=jobs)
     elif look is not None:
         _await_port(cluster, look)
     try:
@@ -136,17 +137,8 @@ def _library() -> Any:
     return distributed
 
 
-def slurm_script(cluster: Cluster) -> str:
-    """Return the script of a job that `slurm:FILE` submits."""
-    assert cluster.file is not None
-    cluster_of_jobs = _slurm(cluster.file, 0)
-    try:
-        return str(cluster_of_jobs.job_script())
-    finally:
-        _closed(cluster_of_jobs)
-
-
-def _slurm(file: Path, most: int | None = None) -> Any:
+def _slurm(file: Path) -> tuple[Any, int]:
+    """Return the cluster that a file describes, and the number of its jobs; none is submitted yet."""
     _library()
     try:
         # an extra
@@ -164,11 +156,9 @@ def _slurm(file: Path, most: int | None = None) -> Any:
         raise ParameterError(f"cannot be read ({first_line(error)})", where=str(file)) from None
     settings, jobs = slurm_settings(plain, str(file))
     try:
-        cluster_of_jobs = SLURMCluster(**settings)
+        return SLURMCluster(**settings), jobs
     except (TypeError, ValueError) as error:
         raise ParameterError(f"dask_jobqueue refuses it: {first_line(error)}", where=str(file)) from None
-    cluster_of_jobs.scale(jobs=jobs if most is None else most)
-    return cluster_of_jobs
 
 
 @contextlib.contextmanager

@@ -21,9 +21,3 @@ HEADER = struct.Struct("<IId")
 def pack(stream: int, frame: int, time: float, values: np.ndarray) -> bytes:
     """Encode a frame."""
     return HEADER.pack(stream, frame % 2**32, time) + np.ascontiguousarray(values, "<f4").tobytes()
-
-
-def unpack(data: bytes) -> tuple[int, int, float, np.ndarray]:
-    """Decode a frame to its stream, number, time and values (flat)."""
-    stream, frame, time = HEADER.unpack_from(data)
-    return stream, frame, time, np.frombuffer(data, "<f4", offset=HEADER.size)

@@ -6,6 +6,7 @@ import threading
 
 import psutil
 
+from deodar.batch import scheduler
 from deodar.elements.field import Field
 from deodar.experiments import setup
 from deodar.experiments.events import Crosses
@@ -16,6 +17,15 @@ from deodar.model.model import Model
 
 LIMIT = 60.0
 """Wall time after which a call counts as one that never ends, in seconds."""
+
+
+def slurm_script(file):
+    """Return the script of a job that `slurm:FILE` submits."""
+    cluster_of_jobs, _ = scheduler._slurm(file)
+    try:
+        return cluster_of_jobs.job_script()
+    finally:
+        scheduler._closed(cluster_of_jobs)
 
 
 def experiment(trials=24, limit=1500.0):

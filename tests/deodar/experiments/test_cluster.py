@@ -442,7 +442,7 @@ job_script_prologue:
 
 def test_a_job_of_slurm_has_a_process_for_each_core(tmp_path):
     (tmp_path / "jobs.yaml").write_text(SLURM)
-    script = schedulers.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
+    script = clustered.slurm_script(tmp_path / "jobs.yaml")
     for line in (
         "#SBATCH -p normal",
         "#SBATCH -A fields",
@@ -475,10 +475,10 @@ def test_the_library_of_slurm_is_opened_in_a_thread_and_keeps_ctrl_c(tmp_path):
     (tmp_path / "jobs.yaml").write_text(SLURM)
     code = (
         "import signal, threading\n"
-        "from deodar.batch import scheduler\n"
-        "from deodar.cluster import Cluster\n"
-        f"there = Cluster({f'slurm:{tmp_path}/jobs.yaml'!r}, trust_network=True)\n"
-        "one = threading.Thread(target=lambda: print(scheduler.slurm_script(there)))\n"
+        "from pathlib import Path\n"
+        "from tests.deodar.experiments.clustered import slurm_script\n"
+        f"file = Path({str(tmp_path / 'jobs.yaml')!r})\n"
+        "one = threading.Thread(target=lambda: print(slurm_script(file)))\n"
         "one.start()\n"
         "one.join()\n"
         "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler\n"
@@ -509,7 +509,7 @@ def test_the_library_of_slurm_is_opened_in_a_thread_and_keeps_ctrl_c(tmp_path):
 def test_a_wrong_file_of_slurm_is_refused(tmp_path, text, says):
     (tmp_path / "jobs.yaml").write_text(text)
     with pytest.raises(ParameterError, match=says):
-        schedulers.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
+        clustered.slurm_script(tmp_path / "jobs.yaml")
 
 
 def test_without_the_extra_an_error_says_what_to_install(monkeypatch):
@@ -517,7 +517,7 @@ def test_without_the_extra_an_error_says_what_to_install(monkeypatch):
         with monkeypatch.context() as patch:
             patch.setitem(sys.modules, name, None)
             with pytest.raises(MissingExtra, match=rf"{package}.*pip install 'deodar\[cluster\]'"):
-                schedulers.slurm_script(Cluster("slurm:none.yaml", trust_network=True))
+                clustered.slurm_script(Path("none.yaml"))
 
 
 # ---------------------------------------------------------------------------------------------------- watched
