@@ -6,6 +6,6 @@ Folders, each of which imports only those before it:
 `files` the root folder and the state folder, `catalogue` examples, templates and plots, `views` documents
 as messages, `streams` frames of arrays, `world` what the document senses and moves, `project` the open
 document, `field_analysis` regime and tuning of a field, `experiment` the open experiment, `pages` the pages
-and what they share, `requests` the handlers of requests, `web` the application, `commands` the command
+and what they share, `requests` the requests of a page, `web` the application, `commands` the command
 that starts it.
 """

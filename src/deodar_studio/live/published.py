@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import functools
 from collections.abc import Mapping
 
 import numpy as np
@@ -13,9 +12,6 @@ from deodar.session.cost import StepCost
 from deodar.session.port_reader import PortKey
 from deodar.worlds._scene import Scene
 from deodar_studio.live.track import Trail
-from deodar_studio.messages.message import made_of
-from deodar_studio.messages.to_page import Costs, CostView
-from deodar_studio.views import view
 
 
 @dc.dataclass(frozen=True)
@@ -40,22 +36,10 @@ class PublishedState:
     passed: int = 0
 
 
-@dc.dataclass(frozen=True)
+@dc.dataclass(frozen=True, eq=False)
 class CostReport:
     """Cost of elements: whether a measurement runs, the last result, and why a measurement failed."""
 
     measuring: bool = False
     costs: StepCost | None = None
     problems: tuple[Problem, ...] = ()
-
-    @functools.cached_property
-    def message(self) -> Costs:
-        """The report as a message."""
-        costs = self.costs or StepCost((), 0.0)
-        elements = [made_of(CostView, c, element=c.id) for c in costs.elements]
-        return Costs(
-            measuring=self.measuring,
-            step=costs.step,
-            elements=elements,
-            problems=view.problems(self.problems),
-        )

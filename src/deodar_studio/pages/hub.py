@@ -200,7 +200,7 @@ class Hub:
         yield project.file.problems()
         yield project.history.checker.found
         yield project.history.report()
-        yield self.engine.cost_report.message
+        yield view.costs(self.engine.cost_report)
         for analysis in (self.measurement, self.field_tuning):
             if analysis.message.element and (doc is None or analysis.session != project.session):
                 analysis.stop()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -18,11 +19,15 @@ from deodar.model.document import Document
 from deodar.model.fits import Fit, FittingKind
 from deodar.parameters import Part
 from deodar.recording.replay import RecordReader
+from deodar.session.cost import StepCost
 from deodar.session.port_reader import PortKey
+from deodar_studio.live.published import CostReport
 from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import (
     ConnectionView,
     CopyDimension,
+    Costs,
+    CostView,
     DocumentView,
     ExperimentForms,
     Fits,
@@ -104,6 +109,15 @@ def fits(of: PortKey, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fit
     shown = [made_of(FitView, f, offers=[made_of(OfferView, o) for o in f.offers]) for f in ports]
     found = [made_of(FittingKindView, k) for k in kinds]
     return Fits(request=0, element=of[0], port=of[1], ports=shown, kinds=found)
+
+
+@functools.lru_cache(maxsize=1)
+def costs(report: CostReport) -> Costs:
+    """Convert a report, once for all pages."""
+    found = report.costs or StepCost((), 0.0)
+    elements = [made_of(CostView, c, element=c.id) for c in found.elements]
+    measuring, listed = report.measuring, problems(report.problems)
+    return Costs(measuring=measuring, step=found.step, elements=elements, problems=listed)
 
 
 def problems(
