@@ -53,10 +53,10 @@ def studio(
         assert not thread.is_alive(), "the studio did not stop"
 
 
-def unpacked(data: bytes) -> tuple[int, int, float, np.ndarray]:
+def unpacked(message: bytes) -> tuple[int, int, float, np.ndarray]:
     """Return the stream, number, time and values (flat) of a frame."""
-    stream, frame, time = frames.HEADER.unpack_from(data)
-    return stream, frame, time, np.frombuffer(data, "<f4", offset=frames.HEADER.size)
+    stream, frame, time = frames.HEADER.unpack_from(message)
+    return stream, frame, time, np.frombuffer(message, "<f4", offset=frames.HEADER.size)
 
 
 def replaced(values: Any, path: list[str], value: Any) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 from deodar.batch.pool import Pool
 
 WAIT = 0.2
-"""Longest wall time between two looks whether a result is still wanted, in seconds."""
+"""Longest wall time between two calls of `needed`, in seconds."""
 
 
 class KeptWorker:
@@ -32,15 +32,15 @@ class KeptWorker:
         self,
         function: Callable[..., Any],
         arguments: tuple[Any, ...],
-        wanted: Callable[[], bool],
+        needed: Callable[[], bool],
         heard: Callable[[Any], None] = lambda message: None,
     ) -> Any:
-        """Return what a function of a module returns; None as soon as it is not wanted, without the process.
+        """Return what a function of a module returns; None as soon as it is not needed, without the process.
 
         Args:
             function: with `talks`, its first argument is a function that sends a message.
             arguments: its further arguments.
-            wanted: whether the result is still wanted; it is called several times a second.
+            needed: whether the result is still needed; it is called several times a second.
             heard: called with each message.
 
         Raises:
@@ -49,13 +49,13 @@ class KeptWorker:
         """
         with contextlib.ExitStack() as otherwise:
             otherwise.callback(self.end)
-            if wanted():
+            if needed():
                 pool = self._pool = self._pool or Pool(1, self._main, self._talks).__enter__()
                 pool.give(0, function, *arguments)
-                while wanted():
-                    for _, result in pool.wait(WAIT, lambda _, message: heard(message)):
+                while needed():
+                    for _, answer in pool.wait(WAIT, lambda _, message: heard(message)):
                         otherwise.pop_all()
-                        return result
+                        return answer
 
     def end(self) -> None:
         """End the process at once."""

@@ -104,10 +104,10 @@ class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
         wire, replaces = (None if ends is None else ends.ports for ends in (self.wire, self.replaces))
         around = Around(source, target, wire, replaces)
         values = hub.embodiment.starting_values(self.kind, self.values)
-        made = await _changed(
+        ids = await _changed(
             hub, lambda doc: building.add(doc, self.kind, values, self.name, self.group, self.at, around)
         )
-        return answer(made=made)
+        return answer(made=ids)
 
 
 @edits(tag="insert")
@@ -305,15 +305,15 @@ async def comment(
     values: dict[str, Any] = {} if text is None else {"text": text}
     values |= {} if at is None else {"x": at[0], "y": at[1]}
     values |= {} if size is None else {"width": size[0], "height": size[1]}
-    found: list[str] = []
+    ids: list[str] = []
 
     def change(doc: Document) -> Document:
         new, ident = building.comment(doc, comment, None if remove else values)
-        found.append(ident)
+        ids.append(ident)
         return new
 
     await hub.project.history.lay_out(change)
-    return answer(made=[] if comment else found)
+    return answer(made=[] if comment else ids)
 
 
 @asks(tag="fits")

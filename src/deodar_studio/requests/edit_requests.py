@@ -39,8 +39,8 @@ async def describe(
     hub: Hub, page: Page, *, name: Text | None = None, notes: str | None = None, dt: float | None = None
 ) -> None:
     """Change general properties of the document; None leaves a property unchanged."""
-    given = {"name": name, "notes": notes, "dt": dt}
-    await hub.project.history.describe({key: value for key, value in given.items() if value is not None})
+    properties = {"name": name, "notes": notes, "dt": dt}
+    await hub.project.history.describe({key: value for key, value in properties.items() if value is not None})
 
 
 @edits()

@@ -121,8 +121,8 @@ def edits(tag: str = "") -> Callable[[Edit[P]], Edit[P]]:
 
 def _declare(function: Callable[..., Awaitable[Served]], base: type[Request], tag: str) -> None:
     """Register the message whose fields are the keywords of a function."""
-    given = inspect.signature(function, eval_str=True).parameters.values()
-    fields = [p for p in given if p.kind is p.KEYWORD_ONLY]
+    parameters = inspect.signature(function, eval_str=True).parameters.values()
+    fields = [p for p in parameters if p.kind is p.KEYWORD_ONLY]
 
     async def serve(self: Request, hub: Hub, page: Page) -> Served:
         return await function(hub, page, **{p.name: getattr(self, p.name) for p in fields})

@@ -37,8 +37,8 @@ async def preview_world(
     """Open a world as `use_world` does, without using it; the answer has its `preview`."""
     model = hub.project.history.model
     doc = None if model is None else model.document
-    shown = await in_file_thread(lambda: preview(_world(hub, kind, path, settings), doc), masked(path))
-    return answer(preview=shown)
+    picture = await in_file_thread(lambda: preview(_world(hub, kind, path, settings), doc), masked(path))
+    return answer(preview=picture)
 
 
 def _world(hub: Hub, kind: str, path: str, settings: Mapping[str, Any]) -> World:

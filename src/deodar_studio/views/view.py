@@ -114,10 +114,10 @@ def fits(of: PortKey, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fit
 @functools.lru_cache(maxsize=1)
 def costs(report: CostReport) -> Costs:
     """Convert a report, once for all pages."""
-    found = report.costs or StepCost((), 0.0)
-    elements = [made_of(CostView, c, element=c.id) for c in found.elements]
+    cost = report.costs or StepCost((), 0.0)
+    elements = [made_of(CostView, c, element=c.id) for c in cost.elements]
     measuring, listed = report.measuring, problems(report.problems)
-    return Costs(measuring=measuring, step=found.step, elements=elements, problems=listed)
+    return Costs(measuring=measuring, step=cost.step, elements=elements, problems=listed)
 
 
 def problems(

@@ -12,7 +12,7 @@ from deodar.batch.kept_worker import KeptWorker
 from deodar.errors import WorkerError
 
 
-def told(send: Callable[[object], None], number: int) -> int:
+def counted(send: Callable[[object], None], number: int) -> int:
     send(number + 1)
     if number < 0:
         os._exit(1)
@@ -21,10 +21,10 @@ def told(send: Callable[[object], None], number: int) -> int:
 
 def test_a_worker_stays_until_its_result_is_not_wanted_or_it_dies() -> None:
     worker, heard, looks = KeptWorker(talks=True), list[object](), itertools.count()
-    assert worker.ask(told, (1,), lambda: False, heard.append) is None and not worker.started
-    first = worker.ask(told, (2,), lambda: True, heard.append)
-    assert worker.ask(told, (3,), lambda: True, heard.append) == first != os.getpid() and worker.started
-    assert worker.ask(told, (4,), lambda: next(looks) < 1) is None and not worker.started
+    assert worker.ask(counted, (1,), lambda: False, heard.append) is None and not worker.started
+    first = worker.ask(counted, (2,), lambda: True, heard.append)
+    assert worker.ask(counted, (3,), lambda: True, heard.append) == first != os.getpid() and worker.started
+    assert worker.ask(counted, (4,), lambda: next(looks) < 1) is None and not worker.started
     with pytest.raises(WorkerError, match="ended unexpectedly"):
-        worker.ask(told, (-7,), lambda: True, heard.append)
+        worker.ask(counted, (-7,), lambda: True, heard.append)
     assert heard == [3, 4, -6] and not worker.started
