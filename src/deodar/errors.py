@@ -284,6 +284,13 @@ def _again(kind: type[DeodarError], args: tuple[Any, ...], state: dict[str, Any]
     return error
 
 
+def problems_of(error: BaseException) -> tuple[Problem, ...]:
+    """Return the problems of an error of any class, such as one of a function that a document names."""
+    if isinstance(error, DeodarError):
+        return error.problems
+    return (Problem("", f"{type(error).__name__}: {error}"),)
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return a hint with the nearest known name, or with all names if they are few.
 

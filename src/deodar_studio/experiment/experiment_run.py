@@ -16,7 +16,7 @@ from typing import Any, Literal
 from deodar import codec
 from deodar.batch.driver import Staffing
 from deodar.batch.kept_worker import KeptWorker
-from deodar.errors import DeodarError, Problem, RecordError
+from deodar.errors import DeodarError, Problem, RecordError, problems_of
 from deodar.experiments import packed_experiment
 from deodar.experiments.following import RowsTail, RowsWriter, Standing, standing
 from deodar.experiments.merging import computed
@@ -121,10 +121,8 @@ class ExperimentRun:
             run_trials(self.setup, self.folder, on, watch=self._watched)
         except KeyboardInterrupt:
             self.state = "stopped"
-        except DeodarError as error:
-            self.state, self.problems = "failed", error.problems
         except Exception as error:  # functions that the document names run in the workers
-            self.state, self.problems = "failed", [Problem("", f"{type(error).__name__}: {error}")]
+            self.state, self.problems = "failed", problems_of(error)
         else:
             self.state = "complete"
         self.staffing = NOBODY

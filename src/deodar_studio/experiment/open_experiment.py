@@ -16,7 +16,7 @@ from typing import Any
 from deodar import codec
 from deodar.cluster import Cluster
 from deodar.codec import JsonObject
-from deodar.errors import DeodarError, DocumentError, Problem
+from deodar.errors import DeodarError, DocumentError, Problem, problems_of
 from deodar.experiments.design import EXAMPLE, VERSION
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.following import FOLLOW_SECONDS
@@ -223,12 +223,10 @@ class OpenExperiment:
         def find() -> tuple[Sequence[Problem], int]:
             try:
                 return (), self._setup().trials
-            except DeodarError as error:
-                return error.problems, 0
             except OSError as error:
                 return [Problem("world", f"cannot be read: {error.strerror}")], 0
             except Exception as error:  # worlds and functions that the experiment and its model name
-                return [Problem("", f"{type(error).__name__}: {error}")], 0
+                return problems_of(error), 0
 
         found = await asyncio.to_thread(find) if self.data is not None else ((), 0)
         if now == self._checked:

@@ -9,7 +9,7 @@ from typing import Any, Generic, TypeVar
 import msgspec
 
 from deodar.batch.kept_worker import KeptWorker
-from deodar.errors import DeodarError, Problem
+from deodar.errors import Problem, problems_of
 from deodar_studio.messages.to_page import Regime, Tuning
 from deodar_studio.views import view
 
@@ -60,10 +60,8 @@ class FieldTask(Generic[M]):
                     found = self._worker.ask(
                         function, arguments, lambda: attempt == self._attempt, self._tell
                     )
-                except DeodarError as error:
-                    problems = tuple(error.problems)
                 except Exception as error:  # functions that a document names run in the worker
-                    problems = (Problem("", f"{type(error).__name__}: {error}"),)
+                    problems = problems_of(error)
                 if not self._keep:
                     self._worker.end()
             if attempt == self._attempt:

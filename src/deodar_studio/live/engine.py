@@ -20,7 +20,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from deodar.errors import DeodarError, ModelError, NotFinite, Problem
+from deodar.errors import ModelError, NotFinite, Problem, problems_of
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.session.cost import StepCost, costs
@@ -457,7 +457,7 @@ class Engine:
     def _fail(self, error: Exception) -> None:
         self.running, self._steps, self.injection = False, 0, None
         paths = error.paths if isinstance(error, NotFinite) else ()
-        self.failure, self._stale = (said(error), paths), True
+        self.failure, self._stale = (problems_of(error), paths), True
         self._changed()
 
     def _forgive(self) -> None:
@@ -469,7 +469,9 @@ class Engine:
         if session is self.session:
             error = future.exception()
             self.cost_report = (
-                CostReport(costs=future.result()) if error is None else CostReport(problems=said(error))
+                CostReport(costs=future.result())
+                if error is None
+                else CostReport(problems=problems_of(error))
             )
 
     # ------------------------------------------------------------------------------- compiling beside the run
@@ -537,7 +539,7 @@ class Engine:
                 self._target = None
         except Exception as error:  # the program that runs continues
             self._target, self._uncompiled = None, True
-            self.failure = (said(error), ())
+            self.failure = (problems_of(error), ())
             return None
         self._forgive()
         if session.program is program:
@@ -552,12 +554,3 @@ class Engine:
 def _found(readers: Sequence[PortReader], program: Any, places: Iterable[PortKey]) -> PortReader | None:
     """Return a known `PortReader` of a program that reads exactly the groups of these places, or None."""
     return next((reader for reader in readers if reader.program is program and reader.fits(places)), None)
-
-
-def said(error: BaseException) -> tuple[Problem, ...]:
-    """Return the problems of an error of any class."""
-    return (
-        tuple(error.problems)
-        if isinstance(error, DeodarError)
-        else (Problem("", f"{type(error).__name__}: {error}"),)
-    )

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 from deodar.declarations import Cost
-from deodar.errors import DeodarError, DocumentError, Problem
+from deodar.errors import DeodarError, DocumentError, Problem, problems_of
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.progress import Progress
@@ -133,10 +133,8 @@ class DocumentRun:
 
         try:
             session = await asyncio.to_thread(make)
-        except DeodarError as error:
-            self._fail(attempt, error.problems)
         except Exception as error:  # functions that the document names run during compilation
-            self._fail(attempt, [Problem("", f"{type(error).__name__}: {error}")])
+            self._fail(attempt, problems_of(error))
         else:
             await self._queue.run(lambda: self._take(attempt, session, doc))
 
