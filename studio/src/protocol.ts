@@ -840,9 +840,10 @@ export type OpenExperimentFile = {
   discard_experiment?: boolean;
 };
 
-// Open a document, a record or an experiment below the root.
+// Open a document, a record, an experiment or a package below the root.
 //
 // `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
+// The `text` of the answer is a sentence on the package that was opened.
 export type OpenFile = {
   type: "open_file";
   request?: number;

@@ -135,12 +135,44 @@ def opened(path: Path, trust: bool, runs: bool = True) -> Generator[Path]:
         yield inner
 
 
-def packed_kind(path: Path) -> str:
-    """Return what a package holds; "" for a file that is none."""
+def has_contents(path: Path) -> bool:
+    """Return whether a file is a package that holds more than a model."""
     if not _is_package(path):
-        return ""
+        return False
     with _located(path), Package(path) as packed:
-        return packed.contents.kind
+        return bool(packed.contents.files)
+
+
+def unpack_beside(path: Path, trust: bool) -> tuple[Path, Contents]:
+    """Unpack a package into a folder beside it, or find it there; return the path of what was packed, and the
+    contents.
+
+    Args:
+        path: a package with contents.
+        trust: whether modules that come with it may be imported and run.
+
+    Raises:
+        DocumentError: the file is damaged; what it holds is a model or an experiment, and its modules are
+            missing or not trusted.
+    """
+    with _located(path), Package(path) as packed:
+        stated = packed.contents
+    folder = path.with_suffix("")
+    if not _holds(folder, stated):
+        folder = places.free(path.parent, path.stem) if folder.exists() else folder
+        unpack(path, folder)
+    if stated.kind != "record":  # a record is played without the modules that made it
+        with _located(path):
+            modules.require(stated, folder, trust)
+    return folder / stated.path, stated
+
+
+def _holds(folder: Path, stated: Contents) -> bool:
+    """Return whether a folder has all files of a package, unchanged."""
+    return all(
+        (folder / name).is_file() and package.stated_entry(folder / name) == file
+        for name, file in stated.files.items()
+    )
 
 
 def _is_package(path: Path) -> bool:

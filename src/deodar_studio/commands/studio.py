@@ -11,17 +11,20 @@ from deodar.cli import _options
 
 HELP = "open the studio in the browser: run a model, tune it, watch it"
 EPILOG = """\
-FILE is a document, or a record (.zarr, .nc, or a folder that deodar run wrote), which is played without
-running. Without FILE it opens the gallery of examples. The studio reads and writes files below FILE's folder
-(without FILE: below the working folder), and listens on this machine only; with --host it can be reached
-from others. The page needs the token in the printed address, also on this machine, which other users may
-share. A restart at the same port keeps the token; with --host each start has a new one."""
+FILE is a document, an experiment, or a record (.zarr, .nc, or a folder that deodar run wrote), which is
+played without running. A package of one of these (.deodar) is unpacked beside FILE. Without FILE it opens the
+gallery of examples. The studio reads and writes files below FILE's folder (without FILE: below the working
+folder), and listens on this machine only; with --host it can be reached from others. The page needs the token
+in the printed address, also on this machine, which other users may share. A restart at the same port keeps
+the token; with --host each start has a new one."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    _options.add_document(parser, "a document (.json, .deodar), a record, or example:NAME", nargs="?")
+    _options.add_document(
+        parser, "a document, an experiment, a record, a package of one (.deodar), or example:NAME", nargs="?"
+    )
     parser.add_argument(
         "--port",
         type=_options.whole,
@@ -51,6 +54,7 @@ def run(args: argparse.Namespace) -> int:
     """Serve the studio until Ctrl-C."""
     # start-up time: these bring JAX
     from deodar.importers import examples, opening
+    from deodar_studio.files.unpacked import unpacked
 
     if args.port is not None and args.port > 65535:
         args.wrong("a port is a number from 0 to 65535")
@@ -61,6 +65,9 @@ def run(args: argparse.Namespace) -> int:
         args.wrong(f"the folder {root} does not exist")
     if file is not None:
         opening.require(file)
+        file, sentence = unpacked(file, args.trust)
+        if sentence:
+            print(f"deodar studio: {sentence}")
     # start-up time: these bring JAX
     from deodar_studio.web.serve import serve
     from deodar_studio.web.service import Service

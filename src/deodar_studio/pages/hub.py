@@ -18,7 +18,8 @@ from deodar_studio.experiment.open_experiment import OpenExperiment
 from deodar_studio.experiment.run_place import MOST_WORKERS, USUAL_WORKERS
 from deodar_studio.field_analysis.field_tuning import FieldTuning
 from deodar_studio.field_analysis.regime_measurement import RegimeMeasurement
-from deodar_studio.files.file_thread import try_in_file_thread
+from deodar_studio.files.content import is_experiment
+from deodar_studio.files.file_thread import in_file_thread, try_in_file_thread
 from deodar_studio.files.state_store import StateStore, state_folder
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.live.compilation import CompileTimes
@@ -105,6 +106,19 @@ class Hub:
             self._wake_scheduled = True
             with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left
                 self._loop.call_soon_threadsafe(self.notify)
+
+    async def open(self, place: Path, discard: bool, discard_experiment: bool) -> str:
+        """Open a document, a record or an experiment; return a sentence on the import of a file of another tool.
+
+        Raises:
+            ConfirmationRequired: without `discard`, if the document has unsaved edits, or, without
+                `discard_experiment`, the open experiment.
+        """
+        if not await in_file_thread(lambda: is_experiment(self.workspace, place), str(place)):
+            return await self.project.open_file(place, discard)
+        await self.experiment.open(place, discard, discard_experiment)
+        await self.experiment.check()
+        return ""
 
     async def gallery(self) -> Gallery:
         """Return recent files and unsaved edits; the last result if the state folder does not answer."""

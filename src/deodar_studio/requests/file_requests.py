@@ -7,8 +7,9 @@ from typing import Literal
 from deodar.model import document_files
 from deodar.model.document import Document
 from deodar_studio.catalogue import gallery
-from deodar_studio.files.content import is_experiment, read_package
+from deodar_studio.files.content import read_package
 from deodar_studio.files.file_thread import in_file_thread
+from deodar_studio.files.unpacked import unpacked
 from deodar_studio.messages.to_page import Answer, Folder
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
@@ -19,16 +20,14 @@ from deodar_studio.requests.request import Text, answer, asks, changes, opens
 async def open_file(
     hub: Hub, page: Page, *, path: Text, discard: bool = False, discard_experiment: bool = False
 ) -> Answer:
-    """Open a document, a record or an experiment below the root.
+    """Open a document, a record, an experiment or a package below the root.
 
-    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
+    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment. The
+    `text` of the answer is a sentence on the package that was opened.
     """
     place = hub.workspace.inside(path)
-    if not await in_file_thread(lambda: is_experiment(hub.workspace, place), path):
-        return answer(imported=await hub.project.open_file(place, discard))
-    await hub.experiment.open(place, discard, discard_experiment)
-    await hub.experiment.check()
-    return answer()
+    inner, sentence = await in_file_thread(lambda: unpacked(place, hub.project.trust), path)
+    return answer(imported=await hub.open(inner, discard, discard_experiment), text=sentence)
 
 
 @opens(tag="new")

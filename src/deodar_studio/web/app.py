@@ -72,9 +72,12 @@ class Studio:
     async def _life(self, app: Starlette) -> AsyncGenerator[None]:
         service = self._service
         self._hub = Hub(service.root, service.trust, service.world, service.private)
-        project, file = self._hub.project, service.file
+        hub, file = self._hub, service.file
         if file is not None:
-            await project.queue.run(lambda: project.open_file(file.resolve(), True))
+            try:
+                await hub.project.queue.run(lambda: hub.open(file.resolve(), True, True))
+            except DeodarError as error:
+                hub.project.file.refuse(file.name, error.problems)
         try:
             self._ready()
             yield

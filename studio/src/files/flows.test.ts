@@ -165,6 +165,13 @@ describe("opening", () => {
     expect(openTool).toHaveBeenCalledWith("report");
   });
 
+  it("says what a package was", async () => {
+    server({ text: "a.deodar is unpacked in a: a record" });
+    person("a.deodar");
+    expect(await open()).toBe(true);
+    expect(notices()).toEqual(["info: a.deodar is unpacked in a: a record"]);
+  });
+
   it("can be cancelled", async () => {
     server();
     person(null);

@@ -237,8 +237,11 @@ async function showToSensors(file: string | File, name: string): Promise<boolean
   return (answer.problems ?? []).length === 0;
 }
 
-// Shows the report of a file of another tool.
-function arrived({ imported = "" }: Answer): boolean {
+// Shows the report of a file of another tool, and says what a package was.
+function arrived({ imported = "", text = "" }: Answer): boolean {
+  if (text !== "") {
+    useStudio.getState().notify({ what: text }, "info");
+  }
   if (imported !== "") {
     useStudio
       .getState()
