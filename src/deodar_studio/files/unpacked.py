@@ -12,8 +12,8 @@ from deodar.packing import packing
 def unpacked(place: Path, trust: bool) -> tuple[Path, str]:
     """Return the path to open in place of a file, and a sentence on the package that it is.
 
-    A package with contents is unpacked into a folder beside it, unless one with the same files is there. Other
-    files, and the package of a model alone, are opened as they are, without a sentence.
+    A package with contents is unpacked into a folder beside it, unless one with the same files is there.
+    Other files, and the package of a model alone, are opened as they are, without a sentence.
 
     Args:
         place: the file.
