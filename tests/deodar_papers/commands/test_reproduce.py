@@ -51,6 +51,13 @@ def toy(monkeypatch, tmp_path):
     return paper
 
 
+def add_condition(toy):
+    """Add a condition whose only trial computes nothing."""
+    jobs = toy.jobs
+    toy.jobs = lambda quick: [*jobs(quick), Job(("e/0",), lambda trial: [{"key": "e/0"}], {"trial": 0})]
+    toy.about = lambda quick: {"paper": "toy", "quick": quick, "runs": {"d": 6, "e": 1}}
+
+
 def call(*args):
     return cli.main(["reproduce", "toy", *args, "--no-progress"])
 
@@ -118,17 +125,18 @@ def test_a_quick_folder_is_not_resumed_by_the_whole_reproduction(toy, capsys):
 
 def test_a_folder_is_extended_when_the_paper_has_further_conditions(toy, tmp_path):
     assert call("--out", "here") == 0
-    jobs = toy.jobs
-    toy.jobs = lambda quick: [*jobs(quick), Job(("e/0",), lambda trial: [{"key": "e/0"}], {"trial": 0})]
-    toy.about, toy.ran = lambda quick: {"paper": "toy", "quick": quick, "runs": {"d": 6, "e": 1}}, []
+    add_condition(toy)
+    toy.ran = []
     assert call("--out", "here") == 0 and toy.ran == []
     assert json.loads((tmp_path / "here" / "results.json").read_text())["settings"]["runs"] == 7
 
 
 def test_only_selects_conditions_by_prefix(toy, capsys):
-    assert call("--only", "e") == 1
-    assert "no condition begins with 'e'" in capsys.readouterr().err
-    assert call("--only", "d") == 0
+    add_condition(toy)
+    assert call("--only", "f") == 1
+    assert "no condition begins with 'f'" in capsys.readouterr().err
+    toy.least = 1
+    assert call("--only", "e") == 0 and toy.ran == []
 
 
 def test_a_folder_with_other_content_is_not_changed(toy, capsys, tmp_path):

@@ -87,6 +87,7 @@ def test_a_thinned_time_course_keeps_every_extreme_in_parts_as_in_one_piece() ->
         [first + extremes(values[first:last], first, 10) for first, last in ((0, 45), (45, 103))]
     )
     assert set(whole.tolist()) <= set(cut.tolist())
+    assert extremes(np.array([0.0, 1.0, 2.0, 9.0]), 8, 10).tolist() == [0, 1, 2, 3], "two intervals"
     assert np.array_equal(extremes(values, 0, 1), np.arange(103)), "a short course is kept whole"
     values[50:60] = np.nan
     values[77] = np.nan

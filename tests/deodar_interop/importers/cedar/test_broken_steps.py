@@ -35,6 +35,7 @@ REFUSED = [
     ("SynapticConnection", {"convolution": LARGE}, {"matrix": LINE}, "result", "FFTW raises an exception"),
     ("RateMatrixToSpaceCode", {}, {"values": PLANE}, "output", "nothing is connected to 'bin map'"),
     ("RateMatrixToSpaceCode", {}, {"bin map": PLANE, "values": (5, 5)}, "output", "its values have the size"),
+    ("InnerProduct", {}, {"input": LINE, "input 2": PLANE}, "output", "the sizes [12] and [8, 7] differ"),
     ("Nullspace", {}, {"jacobian": (2, 4), "vector": (3,)}, "nullspace", "its vector has the size [3]"),
     ("SpaceCodeToRateMatrix", {}, {"input": PLANE}, "output", "its input has 2 dimensions"),
 ]
@@ -74,6 +75,26 @@ def test_a_picture_is_converted_from_blue_green_and_red():
     done = translate.read(written(body).encode(), "file.json")
     record = dd.simulate(done.model, 10, dt=10, record=["step.output"])
     assert record["step.output"].values[-1, 1, 3].tolist() == pytest.approx([0, 0, 51])
+
+
+def hebbian(**settings):
+    """Return the report lines of the parameters of a step that learns from a node to a cube, by name."""
+    given = {"source dimension": 0, "target dimension": 3, "target sizes": list(CUBE), **settings}
+    reads = {"source node": (), "target field": CUBE, "reward signal": ()}
+    done = translate.read(between("HebbianConnection", given, reads, "learned output", CUBE).encode(), "f.json")
+    return {line.what: line for line in done.report.lines if (line.where, line.part) == ("step", "parameter")}
+
+
+def test_a_step_of_three_dimensions_learns_nothing():
+    line = hebbian(**{"learning rate": 0.5})["learning rate"]
+    assert (line.verdict, line.why) == ("carried", "0: cedar learns up to 2 dimensions")
+
+
+def test_values_of_the_weights_at_the_start_are_without_effect_beside_those_that_are_given():
+    given = {"weight centers": [1, 2, 3], "weight sigmas": [2, 2, 2], "weight amplitude": 2}
+    lines = hebbian(**{"manual weights": True, "weight init value": 1, "weight init noise": 1}, **given)
+    for name in ("weight init value", "weight init noise"):
+        assert lines[name].why == "without effect beside weights that are given"
 
 
 def test_limits_that_cross_are_a_placeholder_where_one_has_a_replacement():
