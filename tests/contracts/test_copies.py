@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import pickle
 import subprocess
 import sys
@@ -24,6 +25,14 @@ COPIES = {
         for n in (0, 2, pickle.HIGHEST_PROTOCOL)
     },
 }
+
+
+def test_public_values_cannot_be_changed_so_that_copies_may_share_them():
+    names = {getattr(dd, name) for name in dd.__all__}
+    names |= {getattr(dd.analysis, name) for name in dd.analysis.__all__}
+    values = {value for value in names if isinstance(value, type) and dataclasses.is_dataclass(value)}
+    assert len(values) > 100
+    assert {value.__name__ for value in values if not value.__dataclass_params__.frozen} == set()
 
 
 @pytest.fixture(params=COPIES)

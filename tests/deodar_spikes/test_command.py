@@ -5,9 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import nir
+import numpy as np
 import pytest
 
 import deodar as dd
+from deodar_spikes.figure import spikes_figure
 from tests.command_line import typed
 
 
@@ -64,6 +66,16 @@ def test_chips_are_listed_with_sources() -> None:
     assert chips.status == 0 and "digital-8-bit" in chips.out and "MAX_COMPARTMENTS" in chips.out
     command = typed("neuromorphic chips --json")
     assert command.status == 0 and len(command.json["chips"]) == 3
+
+
+def test_a_figure_has_a_row_for_each_element_and_a_column_for_each_run() -> None:
+    outputs = {"field": np.zeros((5, 3), np.float32), "node": np.ones((5, 1), np.float32)}
+    figure = spikes_figure({"rates": outputs, "spikes": outputs}, np.arange(5.0), "ms")
+    panels, (scale,) = figure.axes[:4], figure.axes[4:]
+    assert [axes.get_title() for axes in panels] == ["rates", "spikes", "", ""]
+    assert [axes.get_ylabel() for axes in panels] == ["field", "", "node", ""]
+    assert [axes.get_xlabel() for axes in panels] == ["", "", "time (ms)", "time (ms)"]
+    assert scale.get_ylabel() == "output"
 
 
 def test_a_comparison_without_a_file_is_an_invalid_call() -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -104,6 +107,19 @@ def test_thinned_rows_keep_a_narrow_peak_at_each_time() -> None:
     thin = stream.thin_rows(rows, 20)
     assert thin.shape == (3, 20)
     assert thin.argmax(axis=1).tolist() == [2, 8, 14] and thin.max(axis=1).tolist() == [4, 4, 4]
+
+
+@pytest.mark.parametrize(
+    ("section", "width"), [(None, 1), (Section(("y",), most=1), 5), (Section(("z",), most=1), 6)]
+)
+def test_a_time_course_has_a_number_at_each_time_or_those_of_a_section(
+    section: Section | None, width: int
+) -> None:
+    place = ("u", "activation")
+    source: Any = SimpleNamespace(ready=True, axes=lambda place: (X, Y, Z))
+    form = stream.Stream(1, place, request=TraceRequest(place, section=section)).news(source, None)
+    assert isinstance(form, Announced) and form.shape == [1 + width]
+    assert [axis.samples for axis in form.axes] == ([] if section is None else [width])
 
 
 def test_samples_that_a_thread_adds_while_a_frame_is_made_are_in_the_next_one() -> None:

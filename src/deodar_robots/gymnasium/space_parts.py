@@ -145,7 +145,7 @@ def limits(space: Any) -> tuple[np.ndarray, np.ndarray]:
         return np.asarray(space.low, float), np.asarray(space.high, float)
     if kind == "MultiBinary":
         return np.zeros(shape), np.ones(shape)
-    start = np.broadcast_to(np.asarray(getattr(space, "start", 0), float), shape)
+    start = np.broadcast_to(np.asarray(space.start, float), shape)
     count = space.n if kind == "Discrete" else space.nvec
     return start, start + np.asarray(count, float) - 1
 

@@ -153,6 +153,21 @@ class Rail(dd.World):
     period = 10.0
 
 
+class Crane(dd.World):
+    """A hook that is commanded in cm along its first axis, and in mm along its second."""
+
+    motors: Mapping[str, dd.Signal] = {"reach": dd.Signal("place of the hook", (2,), "cm, mm")}
+    period = 10.0
+
+
+def test_each_number_of_a_command_has_a_unit_of_its_own() -> None:
+    model = dd.Model("crane", dt=10)
+    read = model.add(dd.Field("u", [PLANE[0]])) >> model.add(dd.PeakPosition(name="read"))
+    read >> dd.Weights(np.ones(2), axes=[PAIR]) >> model.add(dd.Motor("hook", [PAIR], motor="reach"))
+    (wrong,) = found(model, Crane())
+    assert "takes mm" in wrong and "10 times too small" in wrong
+
+
 @pytest.mark.parametrize(("factor", "wrong"), [(1.0, True), (10.0, False)])
 def test_a_motor_that_takes_another_unit_than_the_axis_is_refused(factor: float, wrong: bool) -> None:
     model = dd.Model("rail", dt=10)

@@ -74,6 +74,13 @@ def test_the_spatial_peak_is_a_dotted_line_for_each_motor_variable(drawn: Figure
         assert [line for line in lines if list(line.get_xdata()) == [CUE_AT / 1000] * 2]
 
 
+def test_the_spatial_field_has_the_corners_of_the_picture_and_no_numbers(drawn: Figure) -> None:
+    width, height = Picture.example().size
+    for axes in panels(drawn)[1:, 2]:
+        assert (axes.get_xlim(), axes.get_ylim()) == ((0, width), (height, 0))
+        assert not [*axes.get_xticks(), *axes.get_yticks()]
+
+
 def test_the_selected_place_is_a_circle_in_the_picture(drawn: Figure) -> None:
     labels = [axes.get_ylabel() for axes in panels(drawn)[:, 0]]
     assert labels == ["no cue", "cue: red (0°)", "cue: hue (240°)"]

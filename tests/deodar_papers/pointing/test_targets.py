@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
+from deodar.architectures.pointing import CUES
 from deodar_papers.pointing import targets
-from deodar_papers.pointing.cycle import EVENTS, PointingCycle
+from deodar_papers.pointing.cycle import EVENTS, PointingCycle, run_cycle
 from deodar_papers.pointing.sensitivity import changes
+from deodar_papers.pointing.table import Moment, Table
 from deodar_papers.pointing.targets import claims
 from deodar_papers.pointing.trials import CASES, VARIANTS
 
@@ -117,6 +121,53 @@ def test_an_event_that_is_missing_or_out_of_order_is_noticed(name: str):
     swapped = {**EVENT_TIMES, name: EVENT_TIMES[late], late: EVENT_TIMES[name]}
     assert not PointingCycle(events=swapped).ordered
     assert PointingCycle(events={k: v for k, v in EVENT_TIMES.items() if k != "movement"}).ordered
+
+
+class ToldTable:
+    """A table whose steps are told: each activation and the place of the tool from its step on.
+
+    Attributes:
+        changes: values by the number of the step from which on they hold.
+    """
+
+    session, discs = SimpleNamespace(dt=10.0), {}
+    world = SimpleNamespace(tool=lambda: (0.0, 0.0, 0.1))
+
+    def __init__(self, changes: dict[int, dict[str, Any]]) -> None:
+        self.changes, self.number = changes, 0
+        self.now = Moment(0.0, -1.0, -1.0, -1.0, (-1.0,) * len(CUES), (0.0, 0.0))
+
+    def step(self) -> Moment:
+        self.number += 1
+        self.now = replace(self.now, **self.changes.get(self.number, {}))
+        return self.now
+
+    def peaks(self) -> list[Any]:
+        return []
+
+    def say(self, cues: Any) -> None: ...
+
+
+def test_an_event_is_when_an_activation_crosses_its_threshold_after_the_event_before():
+    low = (-1.0,) * (len(CUES) - 1)
+    table = ToldTable(
+        {
+            1: {"satisfied": 0.5},  # not an event before detection
+            2: {"satisfied": -0.5, "nodes": (0.5, *low)},
+            3: {"perceptual": 0.5},
+            4: {"perceptual": 1.5},
+            5: {"tool": (0.001, 0.0)},
+            6: {"satisfied": 0.5},
+            7: {"perceptual": -0.5},
+            8: {"nodes": (-0.5, *low)},
+            9: {"satisfied": -0.5},
+        }
+    )
+    done = run_cycle(cast("Table", table), [CUES[0]])
+    times = {"cues": 2, "detection": 4, "movement": 5, "satisfaction": 6, "field off": 7, "nodes off": 8}
+    assert done.ordered and done.events == {
+        name: step / 100 for name, step in {**times, "satisfaction off": 9, "rest": 9}.items()
+    }
 
 
 def test_the_table_of_changed_parameters_begins_with_the_largest_effect():

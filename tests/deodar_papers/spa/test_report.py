@@ -245,6 +245,16 @@ def test_each_sentence_fails_for_rows_that_contradict_it(change, name):
     ]
 
 
+def test_a_wider_way_south_confirms_that_it_keeps_farther_from_walls():
+    def ways(c, k):
+        south = c.obstacle == "partial" and k % 2 > 0
+        return {"route": "south", "clearance": 9.0} if south else {"route": "north", "clearance": 6.0}
+
+    runs = Runs(all_rows(False, lambda c, k: ways(c, k) if c.obstacle else {}), False)
+    (claim,) = (c for c in sentences.claims(runs) if c.name.startswith("6.2: the south route keeps farther"))
+    assert (claim.value, claim.holds) == (1.5, True)
+
+
 def test_every_sentence_with_a_target_has_a_contradicting_case():
     names = tuple(name for _, _, name in FAILS)
     undecided = [

@@ -14,6 +14,7 @@ import deodar as dd
 from deodar.errors import MissingExtra, UnknownName, WorldError
 from deodar.numerics import homography
 from deodar.numerics.axes import Axis
+from deodar.worlds._scene import SceneBody
 from deodar_robots.mujoco.mujoco import MuJoCo
 
 FINE = Axis("column", 0, 159, 160), Axis("row", 0, 119, 120), Axis("channel", 0, 2, 3)
@@ -152,6 +153,16 @@ def test_a_reset_keeps_an_object_where_it_was_moved():
     world.move("block", (0.2, 0.4))
     world.reset(0)
     assert world.scene().boxes[0].center == pytest.approx((0.2, 0.4))
+
+
+def test_a_scene_without_an_arm_shows_its_first_body_and_is_as_large_as_needed(cart: Path):
+    world = MuJoCo(cart)
+    world.reset(0)
+    for _ in range(80):
+        world.act({"push": np.array([4.0])}, 0.0)
+    scene, x = world.scene(), float(world.sense("where", (), 0.0)[0])
+    assert x > 0.5 and scene.bodies == (SceneBody("cart", (x, 0.0), 0.0, 0.05),)
+    assert scene.border == (-0.5, -0.5, x, 0.5)
 
 
 def test_placing_and_removing_keep_the_state_of_all_else():

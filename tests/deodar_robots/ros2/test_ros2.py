@@ -130,6 +130,17 @@ def test_motors_go_to_rest_when_no_command_follows(robot):
     world.close()
 
 
+def test_motors_go_to_rest_while_commands_of_another_topic_follow(robot):
+    entry = {**DRIVE["forward"], "stops_after": 60_000}
+    motors = {"arm": {**entry, "topic": "/arm"}, "forward": {**DRIVE["forward"], "stops_after": 50}}
+    world = begun(robot, motors=motors)
+    world.act({"arm": np.array([0.1])}, 0.0)
+    world.act({"forward": np.array([0.2])}, 0.0)
+    wait_for(lambda: len(robot.commands) == 2)
+    assert [command[0] for command in robot.commands] == [0.2, 0.0]
+    world.close()
+
+
 def test_a_halt_puts_the_motors_to_rest_before_their_time(robot):
     motors = {name: {**entry, "stops_after": 60_000} for name, entry in DRIVE.items()}
     world = begun(robot, motors=motors)

@@ -253,7 +253,7 @@ def test_a_failure_stops_the_run_and_a_reset_ends_it(driven: Driven) -> None:
     model_of_trouble.add(dd.GaussianStimulus("s", [], amplitude=1e38)) >> dd.Gain(1e38) >> u
     driven.do(lambda: engine.load(dd.Session(model_of_trouble)))
     driven.do(lambda: engine.play(True))
-    driven.until(lambda: engine.failure[0])
+    driven.until(lambda: engine.failure != ((), ()))
     assert not engine.running and "infinite" in engine.failure[0][0].what and engine.failure[1]
     driven.do(engine.reset)
     assert engine.failure == ((), ())

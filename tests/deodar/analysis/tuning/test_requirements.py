@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.analysis.isolated import WHOLE
 from deodar.analysis.tuning.protocol import TuningProtocol
 from deodar.analysis.tuning.request import requested
+from deodar.analysis.tuning.response import MISSED, STEP, FieldResponse, SettledBatch
 from deodar.errors import ParameterError
 from tests.deodar.analysis.continuation.models import node_folds
 from tests.deodar.analysis.maps.test_regime_map import EXCITATION, INHIBITION, line, node
@@ -125,6 +127,19 @@ def test_the_time_of_relaxation_is_that_of_the_closed_form():
     response, _ = next(TuningProtocol(request).responses(np.array([[-5.0], [-4.0]])))
     times = request.requirements[0].value(response)
     assert times == pytest.approx(20 * np.log(8 / np.array([5.0, 4.0])), rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("below", "margin"), [(2 * STEP, 1.0), (0.5 * STEP, 0.5), (0.0, MISSED), (-STEP, -1.0)]
+)
+def test_a_peak_that_nearly_covers_its_field_has_a_small_margin(below: float, margin: float):
+    axis = dd.Axis("x", 0, 50, 51)
+    widest = WHOLE * axis.range
+    width = widest - below * widest
+    response = FieldResponse(lambda stages: batch, (axis,), 1.0, 1.0, np.zeros(1), (10, 40), 10.0)
+    ones = np.ones(1)
+    batch = SettledBatch(np.full((1, 51), 5.0), ones, width * ones, ones > 0, ones)
+    assert response.active(response.after()).tolist() == [pytest.approx(margin)]
 
 
 def test_a_margin_grows_towards_where_the_requirement_is_met():

@@ -81,7 +81,9 @@ def hebbian(**settings):
     """Return the report lines of the parameters of a step that learns from a node to a cube, by name."""
     given = {"source dimension": 0, "target dimension": 3, "target sizes": list(CUBE), **settings}
     reads = {"source node": (), "target field": CUBE, "reward signal": ()}
-    done = translate.read(between("HebbianConnection", given, reads, "learned output", CUBE).encode(), "f.json")
+    done = translate.read(
+        between("HebbianConnection", given, reads, "learned output", CUBE).encode(), "f.json"
+    )
     return {line.what: line for line in done.report.lines if (line.where, line.part) == ("step", "parameter")}
 
 

@@ -113,6 +113,7 @@ def test_expressions_have_the_values_of_matlab(written, number):
         ("p = struct('a', 1, 'b', 'c'); x = p.b;", "c"),
         ("s = 'u -> v'; x = s(1);", "u"),
         ("[x, y] = size(ones(3, 7)); x = y;", 7),
+        ("[a, b, c, d] = size(ones(3, 7)); x = [c d];", [1, 1]),
         ("x = 0; for i = 1:4, x = x + i; end", 10),
         ("x = 0; for i = [3 5; 1 1]; x = x + i(1); end", 8),
         ("x = ''; for s = {'a', 'b'}; x = [x s{1}]; end", "ab"),

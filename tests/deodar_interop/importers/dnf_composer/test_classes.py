@@ -11,6 +11,7 @@ import deodar as dd
 from deodar.importers.opening import read
 from deodar.model.check import problems
 from deodar_interop.importers.dnf_composer.classes import CLASSES
+from deodar_interop.importers.dnf_composer.interpolation import METHODS, matrix
 from tests.deodar_interop.importers.dnf_composer.files import BELL, FIELD, KERNEL, element, plane, written
 from tests.deodar_interop.importers.dnf_composer.oracle import Simulation
 
@@ -275,6 +276,12 @@ def test_a_plane_too_large_for_one_matrix_is_resampled_along_each_axis(tmp_path,
     assert "Product" in {type(e.element).__name__ for e in doc.entries}
     projections = {e.id for e in doc.entries if isinstance(e.element, dd.Project)}
     assert projections and projections <= {c.source for c in doc.connections}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_single_sample_is_that_in_the_middle(method):
+    assert matrix(method, 5, 1).tolist() == [[0, 0, 1, 0, 0]]
+    assert matrix(method, 4, 1).tolist() == [[0, 0, 1, 0]]
 
 
 def test_components_of_an_element_are_read_by_others(tmp_path):
