@@ -131,7 +131,6 @@ def lines(clock: Callable[[], float]) -> Callable[[Progress], None]:
         if (moment := clock()) < due[0]:
             return
         sys.stderr.write(f"{progress} (after {moment - began:.0f} s)\n")
-        sys.stderr.flush()
         due[0] = began + 2 * (moment - began)
 
     return show

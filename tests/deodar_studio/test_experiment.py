@@ -241,6 +241,22 @@ def test_a_row_whose_record_is_in_a_store_is_repeated(folder: Path) -> None:
         assert records[1]["u.activation"].equals(repeated["u.activation"])
 
 
+def test_a_trial_that_was_repeated_is_compared_with_its_own_row(folder: Path) -> None:
+    run = ExperimentRun(cast("Any", None), folder, lambda: None)
+    run.rows = [{"trial": trial, "place": 10.0 * trial} for trial in range(3)]
+    kept = folder / "repeats" / "000001.nc"
+    kept.parent.mkdir()
+    kept.touch()
+    row = kept.with_suffix(".json")
+    row.write_text(codec.line({"trial": 1, "place": 10.0}), encoding="utf-8")
+    assert run.repeat(1) == kept
+    row.write_text(codec.line({"trial": 1, "place": 20.0}), encoding="utf-8")
+    with pytest.raises(DeodarError, match="trial 1 gives another row"):
+        run.repeat(1)
+    with pytest.raises(DeodarError, match="no row of trial 3"):
+        run.repeat(3)
+
+
 @pytest.mark.parametrize("repeated", [False, True], ids=["never repeated", "repeated before"])
 def test_a_stored_row_that_was_changed_is_refused_on_replay(folder: Path, repeated: bool) -> None:
     few(1).run(folder / "results")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
 
 import numpy as np
 
@@ -187,15 +188,10 @@ def require(events: Sequence[Event], measures: Sequence[BaseMeasure] = ()) -> No
 
 def _order(events: Sequence[Event]) -> list[int]:
     """Return the numbers of the events in an order of evaluation: an event after those it is made of."""
-    done: list[str] = []
-    pending = list(events)
-    while pending:
-        ready = [e for e in pending if all(other in done for other in e.others)]
-        if not ready:
-            raise ParameterError(
-                "depends on itself", where=pending[0].name, fix="Leave its own name out of those it names"
-            )
-        done += [e.name for e in ready]
-        pending = [e for e in pending if e not in ready]
     number = {e.name: k for k, e in enumerate(events)}
-    return [number[name] for name in done]
+    try:
+        return [number[name] for name in TopologicalSorter({e.name: e.others for e in events}).static_order()]
+    except CycleError as error:
+        name = min(error.args[1], key=lambda name: number[name])
+        fix = "Leave its own name out of those it names"
+        raise ParameterError("depends on itself", where=name, fix=fix) from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
@@ -9,10 +10,10 @@ from typing import Any, cast
 import pytest
 
 from deodar.architectures.pointing import CUES
-from deodar_papers.pointing import targets
+from deodar_papers.pointing import targets, trials
 from deodar_papers.pointing.cycle import EVENTS, PointingCycle, run_cycle
 from deodar_papers.pointing.sensitivity import changes
-from deodar_papers.pointing.table import Moment, Table
+from deodar_papers.pointing.table import HuePeak, Moment, Table
 from deodar_papers.pointing.targets import claims
 from deodar_papers.pointing.trials import CASES, VARIANTS
 
@@ -128,13 +129,14 @@ class ToldTable:
 
     Attributes:
         changes: values by the number of the step from which on they hold.
+        seen: the peaks.
     """
 
-    session, discs = SimpleNamespace(dt=10.0), {}
+    session, discs = SimpleNamespace(dt=10.0, set=lambda path, value: None), {}
     world = SimpleNamespace(tool=lambda: (0.0, 0.0, 0.1))
 
-    def __init__(self, changes: dict[int, dict[str, Any]]) -> None:
-        self.changes, self.number = changes, 0
+    def __init__(self, changes: dict[int, dict[str, Any]], seen: Sequence[HuePeak] = ()) -> None:
+        self.changes, self.seen, self.number = changes, seen, 0
         self.now = Moment(0.0, -1.0, -1.0, -1.0, (-1.0,) * len(CUES), (0.0, 0.0))
 
     def step(self) -> Moment:
@@ -142,8 +144,10 @@ class ToldTable:
         self.now = replace(self.now, **self.changes.get(self.number, {}))
         return self.now
 
-    def peaks(self) -> list[Any]:
-        return []
+    def peaks(self) -> Sequence[HuePeak]:
+        return self.seen
+
+    def nearest(self, peak: HuePeak) -> None: ...
 
     def say(self, cues: Any) -> None: ...
 
@@ -168,6 +172,15 @@ def test_an_event_is_when_an_activation_crosses_its_threshold_after_the_event_be
     assert done.ordered and done.events == {
         name: step / 100 for name, step in {**times, "satisfaction off": 9, "rest": 9}.items()
     }
+
+
+def test_two_peaks_without_satisfaction_are_counted_until_two_seconds_after_detection():
+    seen = [HuePeak(x, 0.3, 0.0, 0.1) for x in (-0.2, 0.2)]
+    table = ToldTable({4: {"perceptual": 1.5}}, seen)
+    done = trials._held(cast("Table", table), trials.PAIRS[0])
+    assert (done.events, done.peaks, done.peak) == ({"detection": 0.03}, 2, seen[0])
+    # every fifth step, first when the peaks have settled
+    assert done.two == pytest.approx(0.05 * len(range(15, 206, 5))) and table.number == 206
 
 
 def test_the_table_of_changed_parameters_begins_with_the_largest_effect():
