@@ -28,11 +28,10 @@ COPIES = {
 
 
 def test_public_values_cannot_be_changed_so_that_copies_may_share_them():
-    names = {getattr(dd, name) for name in dd.__all__}
-    names |= {getattr(dd.analysis, name) for name in dd.analysis.__all__}
-    values = {value for value in names if isinstance(value, type) and dataclasses.is_dataclass(value)}
-    assert len(values) > 100
-    assert {value.__name__ for value in values if not value.__dataclass_params__.frozen} == set()
+    public = {getattr(module, name) for module in (dd, dd.analysis) for name in module.__all__}
+    kinds = {kind for kind in public if isinstance(kind, type) and dataclasses.is_dataclass(kind)}
+    assert len(kinds) > 100
+    assert {kind.__name__ for kind in kinds if not kind.__dataclass_params__.frozen} == set()
 
 
 @pytest.fixture(params=COPIES)

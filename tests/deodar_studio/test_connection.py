@@ -62,17 +62,21 @@ class Said:
 
 
 def test_the_next_frames_follow_when_the_page_has_drawn_the_last_ones() -> None:
-    wanted: list[bool] = []
-    hub = SimpleNamespace(new_page=lambda: Page(1), engine=SimpleNamespace(want=lambda: wanted.append(True)))
+    requests: list[bool] = []
+    hub = SimpleNamespace(
+        new_page=lambda: Page(1), engine=SimpleNamespace(want=lambda: requests.append(True))
+    )
 
     async def ready_after(frame: int) -> bool:
-        one = PageConnection(cast("Any", Said(f'{{"type": "drawn", "frame": {frame}}}')), cast("Any", hub))
-        one._exchange, one._ready = 3, False
-        await one._receive()
-        return one._ready
+        connection = PageConnection(
+            cast("Any", Said(f'{{"type": "drawn", "frame": {frame}}}')), cast("Any", hub)
+        )
+        connection._exchange, connection._ready = 3, False
+        await connection._receive()
+        return connection._ready
 
-    assert not asyncio.run(ready_after(2)) and not wanted
-    assert asyncio.run(ready_after(3)) and wanted == [True]
+    assert not asyncio.run(ready_after(2)) and not requests
+    assert asyncio.run(ready_after(3)) and requests == [True]
 
 
 @pytest.mark.parametrize(

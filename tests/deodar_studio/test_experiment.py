@@ -244,12 +244,12 @@ def test_a_row_whose_record_is_in_a_store_is_repeated(folder: Path) -> None:
 def test_a_trial_that_was_repeated_is_compared_with_its_own_row(folder: Path) -> None:
     run = ExperimentRun(cast("Any", None), folder, lambda: None)
     run.rows = [{"trial": trial, "place": 10.0 * trial} for trial in range(3)]
-    kept = folder / "repeats" / "000001.nc"
-    kept.parent.mkdir()
-    kept.touch()
-    row = kept.with_suffix(".json")
+    record = folder / "repeats" / "000001.nc"
+    record.parent.mkdir()
+    record.touch()
+    row = record.with_suffix(".json")
     row.write_text(codec.line({"trial": 1, "place": 10.0}), encoding="utf-8")
-    assert run.repeat(1) == kept
+    assert run.repeat(1) == record
     row.write_text(codec.line({"trial": 1, "place": 20.0}), encoding="utf-8")
     with pytest.raises(DeodarError, match="trial 1 gives another row"):
         run.repeat(1)

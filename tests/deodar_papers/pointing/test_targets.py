@@ -132,17 +132,17 @@ class ToldTable:
         seen: the peaks.
     """
 
-    session, discs = SimpleNamespace(dt=10.0, set=lambda path, value: None), {}
+    session, discs = SimpleNamespace(dt=10.0, set=lambda path, factor: None), {}
     world = SimpleNamespace(tool=lambda: (0.0, 0.0, 0.1))
 
     def __init__(self, changes: dict[int, dict[str, Any]], seen: Sequence[HuePeak] = ()) -> None:
         self.changes, self.seen, self.number = changes, seen, 0
-        self.now = Moment(0.0, -1.0, -1.0, -1.0, (-1.0,) * len(CUES), (0.0, 0.0))
+        self.moment = Moment(0.0, -1.0, -1.0, -1.0, (-1.0,) * len(CUES), (0.0, 0.0))
 
     def step(self) -> Moment:
         self.number += 1
-        self.now = replace(self.now, **self.changes.get(self.number, {}))
-        return self.now
+        self.moment = replace(self.moment, **self.changes.get(self.number, {}))
+        return self.moment
 
     def peaks(self) -> Sequence[HuePeak]:
         return self.seen

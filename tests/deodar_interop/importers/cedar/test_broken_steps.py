@@ -79,10 +79,10 @@ def test_a_picture_is_converted_from_blue_green_and_red():
 
 def hebbian(**settings):
     """Return the report lines of the parameters of a step that learns from a node to a cube, by name."""
-    given = {"source dimension": 0, "target dimension": 3, "target sizes": list(CUBE), **settings}
+    settings = {"source dimension": 0, "target dimension": 3, "target sizes": list(CUBE), **settings}
     reads = {"source node": (), "target field": CUBE, "reward signal": ()}
     done = translate.read(
-        between("HebbianConnection", given, reads, "learned output", CUBE).encode(), "f.json"
+        between("HebbianConnection", settings, reads, "learned output", CUBE).encode(), "f.json"
     )
     return {line.what: line for line in done.report.lines if (line.where, line.part) == ("step", "parameter")}
 
@@ -93,8 +93,8 @@ def test_a_step_of_three_dimensions_learns_nothing():
 
 
 def test_values_of_the_weights_at_the_start_are_without_effect_beside_those_that_are_given():
-    given = {"weight centers": [1, 2, 3], "weight sigmas": [2, 2, 2], "weight amplitude": 2}
-    lines = hebbian(**{"manual weights": True, "weight init value": 1, "weight init noise": 1}, **given)
+    bell = {"weight centers": [1, 2, 3], "weight sigmas": [2, 2, 2], "weight amplitude": 2}
+    lines = hebbian(**{"manual weights": True, "weight init value": 1, "weight init noise": 1}, **bell)
     for name in ("weight init value", "weight init noise"):
         assert lines[name].why == "without effect beside weights that are given"
 
