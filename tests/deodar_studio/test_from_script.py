@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import http.cookiejar
+import shutil
+import sys
 import urllib.request
 from pathlib import Path
+from typing import Any, cast
 
 import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError, OutputError, ParameterError
+from deodar_studio import from_script
 
 
 def model() -> dd.Model:
@@ -49,6 +53,25 @@ def test_a_document_that_was_saved_is_kept_and_a_failed_start_says_why(tmp_path:
     with pytest.raises(OutputError, match=r"the studio has ended: .*no such file"):
         _ = failed.address
     failed.stop()
+
+
+@pytest.mark.parametrize(
+    ("stated", "options"),
+    [
+        ({}, []),
+        ({"browser": False}, ["--no-browser"]),
+        ({"port": 9000}, ["--port", "9000"]),
+        ({"browser": False, "port": 0}, ["--no-browser", "--port", "0"]),
+    ],
+)
+def test_the_studio_has_the_options_that_are_stated_and_a_folder_of_its_own(
+    stated: dict[str, Any], options: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(from_script, "OpenedStudio", lambda *call: call)
+    path, command, folder = cast("Any", dd.studio(model(), **stated))
+    assert command == [sys.executable, "-m", "deodar", "studio", str(path), "--trust", *options]
+    assert path.parent == folder and [*folder.iterdir()] == [path]
+    shutil.rmtree(folder)
 
 
 def test_what_is_no_model_and_no_port_is_refused() -> None:

@@ -42,7 +42,10 @@ def test_all_jobs_are_run_and_progress_reaches_the_end(tmp_path, rows):
 def test_only_missing_jobs_are_run(tmp_path, rows):
     kept = Rows(tmp_path / "runs.jsonl", {})
     kept.append([row | {"outcome": "kept"} for row in rows[:2]])
-    run_jobs(jobs(), kept)
+    seen = []
+    run_jobs(jobs(), kept, Resources(progress=seen.append))
+    assert [*map(int, seen)] == [2, 3, 4, 5, 6] and seen[0].share == pytest.approx(3 / 21)
+    assert [row["outcome"] for row in seen[0].new] == ["kept"] * 2
     assert [r["outcome"] for r in kept.found.values()][:2] == ["kept"] * 2
     assert list(kept.found.values())[2:] == rows[2:]
 
