@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 import deodar as dd
+from deodar.analysis.thresholds import Transition
 from deodar.parameters import Part
 from deodar.summary import LARGEST, Summary
 
@@ -131,6 +132,18 @@ def test_long_tables_are_folded_and_end_with_the_number_of_further_rows() -> Non
     assert f"... and {1000 - len(rows)} more" in markup and "x" * 200 not in markup
     assert summary.text.count("\n") == 1000, "a console shows all"
     assert ET.fromstring(markup).tag == "div"
+
+
+def test_truth_nothing_and_numbers_are_words_and_six_digits() -> None:
+    rows = [("ready", True), ("left", False), ("file", None), ("share", 1 / 3)]
+    assert Summary("parts", rows).text == (
+        "<parts\n  ready  yes\n  left   no\n  file   none\n  share  0.333333>"
+    )
+
+
+def test_a_transition_is_its_input_and_half_of_its_interval() -> None:
+    words = [repr(Transition(2.0, 1.9, 2.1, (1.5, 2.5), jump, Any)) for jump in (True, False)]
+    assert words == ["<Transition at 2 +- 0.5, a jump>", "<Transition at 2 +- 0.5, gradual>"]
 
 
 def returned(function: Any) -> list[type]:
