@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from types import SimpleNamespace
 
 import pytest
 
@@ -63,6 +64,17 @@ def test_a_number_of_progress_is_a_whole_number_with_its_total() -> None:
         str(Progress(0, task="regimes", stage="ramp")) == "regimes: ramp"
         and str(Progress(7, unit="cells")) == "7 cells"
     )
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_bar_is_drawn_on_a_terminal_alone(terminal, monkeypatch) -> None:
+    written: list[str] = []
+    stream = SimpleNamespace(write=written.append, flush=lambda: None, isatty=lambda: terminal)
+    monkeypatch.setattr(sys, "stderr", stream)
+    with progress.telling(True, "simulating", "steps") as tell:
+        tell(5, 10)
+    bars = [text for text in written if "[###############...............] simulating: 5 of 10 steps" in text]
+    assert len(bars) == terminal
 
 
 def test_a_notebook_shows_a_bar_that_ends_with_an_empty_line(monkeypatch) -> None:
