@@ -1,12 +1,22 @@
-"""The tables of the files of a folder as one: each file of `classes` states those of one family."""
+"""What the files of a folder state, as one table: each file of `classes` is one family."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 from deodar.errors import ModelError
 from deodar.registry import imported
+
+
+class HasName(Protocol):
+    """Something with a name that a file can repeat."""
+
+    @property
+    def name(self) -> str: ...
+
+
+Named = TypeVar("Named", bound=HasName)
 
 
 def merged(package: str, table: str) -> dict[Any, Any]:
@@ -25,6 +35,16 @@ def merged(package: str, table: str) -> dict[Any, Any]:
     return found
 
 
-def union(package: str, names: str) -> frozenset[str]:
-    """Return the names in the set `names` of every file that has one."""
-    return frozenset[str]().union(*(getattr(module, names, ()) for module in imported(package)))
+def declared(package: str, kind: type[Named]) -> dict[str, Named]:
+    """Return what the files define of one class, by `name`.
+
+    Raises:
+        ModelError: two files define one name.
+    """
+    entries = {id(e): e for module in imported(package) for e in vars(module).values() if isinstance(e, kind)}
+    found: dict[str, Named] = {}
+    for entry in entries.values():
+        if entry.name in found:
+            raise ModelError(f"{package} defines {entry.name} twice")
+        found[entry.name] = entry
+    return found

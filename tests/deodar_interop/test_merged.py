@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from pathlib import Path
 
 import pytest
@@ -17,15 +18,14 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     folder = tmp_path / "merged_classes"
     folder.mkdir()
     (folder / "__init__.py").write_text("")
-    (folder / "fields.py").write_text("CLASSES = {'A': 1, 'B': 2}\nLOOPED = frozenset({'A'})\n")
-    (folder / "other.py").write_text("LOOPED = frozenset({'C'})\n")
+    (folder / "fields.py").write_text("CLASSES = {'A': 1, 'B': 2}\n")
+    (folder / "other.py").write_text("")
     monkeypatch.syspath_prepend(str(tmp_path))
     return folder.name
 
 
 def test_every_file_is_read_without_being_listed(package: str) -> None:
     assert _merged.merged(package, "CLASSES") == {"A": 1, "B": 2}
-    assert _merged.union(package, "LOOPED") == {"A", "C"}
 
 
 def test_a_key_in_two_files_is_refused(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -33,3 +33,20 @@ def test_a_key_in_two_files_is_refused(package: str, monkeypatch: pytest.MonkeyP
         monkeypatch.setattr(module, "CLASSES", {"A": 1}, raising=False)
     with pytest.raises(ModelError, match=r"merged_classes\.other\.CLASSES repeats A"):
         _merged.merged(package, "CLASSES")
+
+
+@dc.dataclass(frozen=True)
+class Kind:
+    """Something with a name, as `declared` asks for."""
+
+    name: str
+
+
+def test_what_files_define_is_found_by_its_name_once(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    shared = Kind("A")
+    for module in imported(package):
+        monkeypatch.setattr(module, "shared", shared, raising=False)
+    assert _merged.declared(package, Kind) == {"A": shared}
+    monkeypatch.setattr(imported(package)[1], "other", Kind("A"), raising=False)
+    with pytest.raises(ModelError, match="merged_classes defines A twice"):
+        _merged.declared(package, Kind)

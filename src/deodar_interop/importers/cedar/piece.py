@@ -5,17 +5,10 @@ slots.
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping, Sequence
-
-import numpy as np
 
 from deodar.element import Element
 from deodar.importers.report import Verdict
-from deodar.numerics.axes import Axis
-from deodar_interop.importers._names import FreeNames
-from deodar_interop.importers.cedar.file import CedarStep
-from deodar_interop.importers.cedar.grid import Counts, SampleGrid
-from deodar_interop.importers.cedar.side_file import SideFile
+from deodar_interop.importers.cedar.grid import Counts
 from deodar_interop.importers.cedar.values import StepValues
 
 
@@ -77,86 +70,6 @@ class StepPiece:
     fails: str = ""
     verdict: Verdict = "carried"
     why: str = ""
-
-
-class SourceStep:
-    """The context of the translation of one step: its parameters, the sizes that arrive, the axes, and names.
-
-    Attributes:
-        ins: sizes that arrive at each input slot, in the order of the connections; None of a step that cedar
-            does not run.
-        dt: step of the document, ms.
-    """
-
-    def __init__(
-        self,
-        step: CedarStep,
-        ins: Mapping[str, Sequence[Counts | None]],
-        grid: SampleGrid,
-        names: FreeNames,
-        dt: float,
-        stored: SideFile,
-    ) -> None:
-        self.step = step
-        self.label = step.path[-1]
-        self.values = StepValues(step.values, step.label)
-        self.ins = ins
-        self.grid = grid
-        self.dt = dt
-        self.met: list[str] = []
-        self._names = names
-        self._stored = stored
-
-    def stored(self, slot: str, shape: Counts) -> np.ndarray | None:
-        """Return what the file stores of a slot; None without it. Another size is reported."""
-        array = self._stored.of(self.step.label, slot, self.step.values)
-        if array is None:
-            return None
-        size = tuple(n for n in shape if n > 1)
-        if array.shape != size:
-            why = f"it has the size {list(array.shape)}, not {list(size)}"
-            self.values.say(f"stored {slot}", "dropped", why)
-            return None
-        self.values.say(f"stored {slot}", "carried", "as the value at the start")
-        return array.reshape(shape)
-
-    def axes(self, dims: Counts) -> tuple[Axis, ...]:
-        """Return the axes of a size."""
-        return self.grid.axes(dims)
-
-    def named(self, role: str) -> str:
-        """Return a name for a further deodar element: the label and what it is."""
-        return self._names.new(f"{self.label} {role}")
-
-    def first(self, slot: str) -> Counts:
-        """Return the size that arrives first at a slot.
-
-        Raises:
-            Refused: nothing arrives, or from a step that cedar does not run.
-        """
-        arriving = self.ins.get(slot, ())
-        if not arriving:
-            raise Refused(f"nothing is connected to {slot!r}")
-        if arriving[0] is None:
-            raise Refused(f"the step that feeds {slot!r} does not run")
-        return arriving[0]
-
-    def all(self, slot: str) -> list[Counts]:
-        """Return the sizes that arrive at a slot.
-
-        Raises:
-            Refused: nothing arrives, or from a step that cedar does not run.
-        """
-        arriving = self.ins.get(slot, ())
-        if not arriving:
-            raise Refused(f"nothing is connected to {slot!r}")
-        if any(dims is None for dims in arriving):
-            raise Refused(f"a step that feeds {slot!r} does not run")
-        return [dims for dims in arriving if dims is not None]
-
-    def bug(self, error: str) -> None:
-        """Note a known error of cedar that this step touches, and that is corrected here."""
-        self.met.append(f"{self.step.label}: {error}; corrected")
 
 
 class Refused(ValueError):

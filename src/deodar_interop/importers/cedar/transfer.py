@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from deodar.couplings.sigmoid import Sigmoid
 from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar_interop.importers.cedar.composition import Composition, StepSignal
+from deodar_interop.importers.cedar.composition import SourceStep, StepSignal
 from deodar_interop.importers.cedar.sigmoids import sigmoid
 from deodar_interop.importers.cedar.values import StepValues
 
@@ -30,30 +30,29 @@ def special(values: StepValues, name: str) -> str:
 
 
 def transferred(
-    c: Composition, role: str, name: str, default: SigmoidFunction, signal: StepSignal
+    s: SourceStep, role: str, name: str, default: SigmoidFunction, signal: StepSignal
 ) -> StepSignal:
     """Add a transfer function of a signal.
 
     Args:
-        c: the step.
+        s: the step.
         role: name of the element that gives the result, after that of the step.
         name: the parameter.
         default: the function without the parameter.
         signal: its input.
     """
-    values = c.b.values
-    kind = special(values, name)
+    kind = special(s.values, name)
     if not kind:
-        return c.add(Sigmoid(sigmoid(values, name, default), name=c.named(role)), input=signal)
-    inside = values.inside(name)
+        return s.add(Sigmoid(sigmoid(s.values, name, default), name=s.named(role)), input=signal)
+    inside = s.values.inside(name)
     inside.say("type")
     of = f"{role} " if role else ""
     if kind == "Logarithm":
-        return c.function(role, "log", signal)
+        return s.function(role, "log", signal)
     if kind == "Linear":
-        offset = c.constant(f"{of}offset", inside.number("offset", 0.0))
-        return c.total(role, c.gain(f"{of}nothing", 0.0, signal), offset)
+        offset = s.constant(f"{of}offset", inside.number("offset", 0.0))
+        return s.total(role, s.gain(f"{of}nothing", 0.0, signal), offset)
     beta, threshold = inside.number("beta", 1.0), inside.number("threshold", 0.0)
-    begun = c.rest(f"{of}begun", c.below(f"{of}below", threshold, signal))
-    above = c.product(f"{of}above", c.gain(f"{of}slope", beta, signal), begun)
-    return c.total(role, above, c.constant(f"{of}threshold", threshold))
+    begun = s.rest(f"{of}begun", s.below(f"{of}below", threshold, signal))
+    above = s.product(f"{of}above", s.gain(f"{of}slope", beta, signal), begun)
+    return s.total(role, above, s.constant(f"{of}threshold", threshold))

@@ -18,13 +18,14 @@ from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar import file
 from deodar_interop.importers.cedar.box_layout import layout
-from deodar_interop.importers.cedar.classes import CLASSES, DECLARED, LOOPED
+from deodar_interop.importers.cedar.classes import CLASSES, LOOPED, SIZED
 from deodar_interop.importers.cedar.classes.missing import placeholder
 from deodar_interop.importers.cedar.clock import clock
+from deodar_interop.importers.cedar.composition import SourceStep
 from deodar_interop.importers.cedar.file import CedarFile, CedarStep, StepPath
 from deodar_interop.importers.cedar.grid import Counts, SampleGrid, TooManySamples
 from deodar_interop.importers.cedar.parameter_links import linked
-from deodar_interop.importers.cedar.piece import Refused, SourceStep, StepPiece
+from deodar_interop.importers.cedar.piece import Refused, StepPiece
 from deodar_interop.importers.cedar.sequence import sequence
 from deodar_interop.importers.cedar.side_file import SideFile
 from deodar_interop.importers.cedar.wiring import CedarWiring, StepWire, buffers, halts, loaded, step_wires
@@ -102,7 +103,7 @@ class StepTranslation:
         pieces: dict[StepPath, StepPiece] = {}
         lacks: dict[StepPath, int] = {}
         for path, step in self.steps.items():
-            if step.kind in CLASSES and step.kind not in DECLARED:
+            if step.kind in CLASSES and step.kind not in SIZED:
                 lacks[path] = len(self.into.get(path, ()))
         ready = [path for path in self.steps if not lacks.get(path)]
         while len(pieces) < len(self.steps):
@@ -129,7 +130,7 @@ class StepTranslation:
         for wire in self.into.get(step.path, ()):
             source = pieces.get(wire.source)
             outlet = None if source is None else source.outlets.get(wire.source_slot)
-            if source is None and step.kind in DECLARED:
+            if source is None and step.kind in SIZED:
                 ins.setdefault(wire.target_slot, []).append(())
                 continue
             if wire.source in self.unknown:
@@ -140,7 +141,7 @@ class StepTranslation:
         try:
             if stops:
                 raise Refused(stops)
-            if unknown and step.kind not in DECLARED:
+            if unknown and step.kind not in SIZED:
                 self.unknown.add(step.path)
                 translation = self.missing(step, f"its size is that of {unknown!r}, which is not known")
             elif step.kind in CLASSES:

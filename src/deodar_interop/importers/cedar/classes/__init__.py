@@ -1,17 +1,11 @@
-"""The translation of each type of step, by cedar's categories.
-
-A file states `CLASSES`, the translation of each type; `DECLARED`, types whose outputs have sizes of their
-own, whatever arrives; and `LOOPED`, types that have a state, which triggers call: all others follow from
-them.
-"""
+"""The translation of each type of step, by cedar's categories: functions that `step` decorates."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from deodar_interop import _merged
-from deodar_interop.importers.cedar.piece import SourceStep, StepPiece
+from deodar_interop.importers.cedar.classes import missing
+from deodar_interop.importers.cedar.composition import StepKind
 
-CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = _merged.merged(__name__, "CLASSES")
-DECLARED: frozenset[str] = _merged.union(__name__, "DECLARED")
-LOOPED: frozenset[str] = _merged.union(__name__, "LOOPED")
+CLASSES = _merged.declared(__name__, StepKind)
+SIZED = frozenset(name for name, kind in CLASSES.items() if kind.sized)
+LOOPED = missing.LOOPED | {name for name, kind in CLASSES.items() if kind.looped}

@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Sequence
 
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.gain import Gain
-from deodar.couplings.product import Product
-from deodar.couplings.project import Project
 from deodar.couplings.steered_convolve import SteeredConvolve
-from deodar.couplings.sum import Sum
-from deodar.element import Element
-from deodar.elements.boost import Boost
 from deodar.numerics.sigmoids.absolute import Absolute
 from deodar_interop.importers._piece import Unfit
-from deodar_interop.importers.cedar.border import border
-from deodar_interop.importers.cedar.composition import Composition
+from deodar_interop.importers.cedar.border import CedarBorder, border
+from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
 from deodar_interop.importers.cedar.convolution_kernels import kernels, too_long
 from deodar_interop.importers.cedar.file import members, text
-from deodar_interop.importers.cedar.grid import Counts
-from deodar_interop.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
+from deodar_interop.importers.cedar.piece import Refused
 from deodar_interop.importers.cedar.transfer import transferred
 from deodar_interop.importers.cedar.values import StepValues, number
 
@@ -30,204 +21,132 @@ DROPPED = 4_294_967_295
 REDUCTIONS = {"SUM": "sum", "AVERAGE": "mean", "MAXIMUM": "max", "MINIMUM": "min"}
 
 
-def one_to_one(element: Element, slot: str, out: str, dims: Counts, why: str = "") -> StepPiece:
-    """Return the translation of a step with one input and one output of the same element."""
-    return StepPiece(
-        [element],
-        {slot: [[InputSlot(element.name)]]},
-        {out: OutputSlot(element.name, dims)},
-        needs=(slot,),
-        why=why or type(element).__name__,
-    )
-
-
-def largest(inputs: Sequence[Counts], slot: str) -> Counts:
-    """Return the size of several inputs; each is of that size, or one number.
-
-    Raises:
-        Refused: two sizes differ.
-    """
-    sizes = {dims for dims in inputs if dims}
-    if len(sizes) > 1:
-        raise Refused(f"the inputs at {slot!r} have different sizes: {', '.join(map(str, map(list, sizes)))}")
-    return next(iter(sizes), ())
-
-
-def gain(b: SourceStep) -> StepPiece:
+@step("cedar.processing.StaticGain", "input", gives="output")
+def gain(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate StaticGain."""
-    element = Gain(b.values.number("gain factor", 1.0), name=b.label)
-    return one_to_one(element, "input", "output", b.first("input"))
+    return s.gain("", s.values.number("gain factor", 1.0), seen)
 
 
-def add_constant(b: SourceStep) -> StepPiece:
+@step("cedar.processing.steps.AddConstant", "input", gives="output", why="Sum with a Boost")
+def add_constant(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate AddConstant: a sum with a boost."""
-    dims = b.first("input")
-    offset = Boost(b.named("constant"), (), b.values.number("constant", 0.0))
-    piece = one_to_one(Sum(name=b.label), "input", "output", dims, why="Sum with a Boost")
-    piece.elements.append(offset)
-    piece.inner.append((offset.name, b.label))
-    return piece
+    return s.total("", seen, s.constant("constant", s.values.number("constant", 0.0)))
 
 
-def convert_range(b: SourceStep) -> StepPiece:
+@step("cedar.processing.ConvertToValueRange", "input", gives="converted output")
+def convert_range(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate ConvertToValueRange: a linear map without limits."""
-    dims = b.first("input")
-    low, high = b.values.number("input lower bound", 0.0), b.values.number("input upper bound", 1.0)
-    bottom, top = b.values.number("output lower bound", 0.0), b.values.number("output upper bound", 1.0)
+    low, high = s.values.number("input lower bound", 0.0), s.values.number("input upper bound", 1.0)
+    bottom, top = s.values.number("output lower bound", 0.0), s.values.number("output upper bound", 1.0)
     if high == low:
         raise Refused("its input bounds are equal")
     slope = (top - bottom) / (high - low)
-    scaled = Gain(slope, name=b.named("slope"))
-    offset = Boost(b.named("offset"), (), bottom - slope * low)
-    return StepPiece(
-        [Sum(name=b.label), scaled, offset],
-        {"input": [[InputSlot(scaled.name)]]},
-        {"converted output": OutputSlot(b.label, dims)},
-        [(scaled.name, b.label), (offset.name, b.label)],
-        needs=("input",),
-        why="Gain, and Sum with a Boost",
-    )
+    s.explain("Gain, and Sum with a Boost")
+    return s.total("", s.gain("slope", slope, seen), s.constant("offset", bottom - slope * low))
 
 
-def total(b: SourceStep) -> StepPiece:
+@step("cedar.processing.steps.Sum", gives="sum")
+def total(s: SourceStep) -> StepSignal:
     """Translate Sum."""
-    dims = largest(b.all("terms"), "terms")
-    return StepPiece(
-        [Sum(name=b.label)],
-        {"terms": [[InputSlot(b.label)]]},
-        {"sum": OutputSlot(b.label, dims)},
-        sums=frozenset({"terms"}),
-        wanted={"terms": dims},
-        needs=("terms",),
-        why="Sum",
-    )
+    return s.total("", s.added("terms"))
 
 
-def subtract(b: SourceStep) -> StepPiece:
+@step(
+    "cedar.processing.SubtractElementwise",
+    "minuend",
+    "subtrahend",
+    gives="result",
+    why="Sum with a Gain of -1",
+)
+def subtract(s: SourceStep, first: StepSignal, second: StepSignal) -> StepSignal:
     """Translate SubtractElementwise; cedar raises an exception unless both sizes are equal."""
-    first, second = b.first("minuend"), b.first("subtrahend")
-    if first != second:
-        raise Refused(f"the sizes {list(first)} and {list(second)} differ")
-    minus = Gain(-1.0, name=b.named("minus"))
-    return StepPiece(
-        [Sum(name=b.label), minus],
-        {"minuend": [[InputSlot(b.label)]], "subtrahend": [[InputSlot(minus.name)]]},
-        {"result": OutputSlot(b.label, first)},
-        [(minus.name, b.label)],
-        needs=("minuend", "subtrahend"),
-        why="Sum with a Gain of -1",
-    )
+    s.require_equal(first, second)
+    return s.total("", first, s.gain("minus", -1.0, second))
 
 
-def multiply(b: SourceStep) -> StepPiece:
+@step("cedar.processing.ComponentMultiply", gives="product")
+def multiply(s: SourceStep) -> StepSignal:
     """Translate ComponentMultiply: a chain of products of two."""
-    return chain(b, "operands", "product", lambda name: Product(name=name), "factor", "product {0}")
+    return chain(s, "operands", s.product, "product {0}")
 
 
 def chain(
-    b: SourceStep, slot: str, out: str, of_two: Callable[[str], Element], port: str, called: str
-) -> StepPiece:
+    s: SourceStep, slot: str, of_two: Callable[[str, StepSignal, StepSignal], StepSignal], called: str
+) -> StepSignal:
     """Return a chain of couplings of two inputs, for a slot with any number of them.
 
     Args:
-        b: the step.
+        s: the step.
         slot: its input slot.
-        out: its output slot.
-        of_two: creates the coupling of a name.
-        port: the second port of the coupling.
-        called: name of a coupling before the last, with its number {0}, or the number of its inputs {1}.
+        of_two: adds the coupling of a role, of an array and of another array or a number.
+        called: role of a coupling before the last, with its number {0}, or the number of its inputs {1}.
     """
-    inputs = b.all(slot)
-    dims = largest(inputs, slot)
-    if len(inputs) == 1:
-        return one_to_one(Sum(name=b.label), slot, out, dims, why="Sum, a copy of one input")
-    # an array comes first, and single numbers at the second port
-    order = sorted(range(len(inputs)), key=lambda k: not inputs[k])
-    names = [b.named(called.format(k + 1, k + 2)) for k in range(len(inputs) - 2)] + [b.label]
-    inlets: list[list[InputSlot]] = [[] for _ in inputs]
-    inlets[order[0]] = [InputSlot(names[0])]
-    for k, name in enumerate(names):
-        inlets[order[k + 1]] = [InputSlot(name, port)]
-    elements = [of_two(name) for name in reversed(names)]
-    kind = type(elements[0]).__name__
-    return StepPiece(
-        elements,
-        {slot: inlets},
-        {out: OutputSlot(b.label, dims)},
-        list(itertools.pairwise(names)),
-        needs=(slot,),
-        why=kind if len(names) == 1 else f"a chain of {len(names)} {kind}",
-    )
+    result, *others = sorted(s.each(slot), key=lambda signal: not signal.dims)
+    if not others:
+        return s.copy(result, "Sum, a copy of one input")
+    for k, signal in enumerate(others, 1):
+        result = of_two(called.format(k, k + 1) if k < len(others) else "", result, signal)
+    if len(others) > 1:
+        s.explain(f"a chain of {len(others)} {type(s.piece.elements[-1]).__name__}")
+    return result
 
 
-def convolution(b: SourceStep) -> StepPiece:
+@step("cedar.processing.steps.Convolution", "matrix", "kernel?", gives="result")
+def convolution(s: SourceStep, seen: StepSignal, by: StepSignal | None) -> StepSignal:
     """Translate Convolution with a kernel that is an input, or a list of kernels; without kernels it copies
     its input.
     """
-    dims = b.first("matrix")
-    if "kernel" in b.ins:
-        return _steered(b, dims)
-    axes = b.axes(dims)
-    ends = border(b.values, "convolution", len(dims))
-    listed = b.values.objects("kernels")
-    convolution_kernels = kernels(listed, axes, ends)
+    ends = border(s.values, "convolution", len(seen.dims))
+    if by is not None:
+        return _steered(s, ends, seen, by)
+    listed = s.values.objects("kernels")
+    convolution_kernels = kernels(listed, seen.axes, ends)
     if not convolution_kernels:
-        return one_to_one(Sum(name=b.label), "matrix", "result", dims, why="Sum, a copy without kernels")
-    if not dims:
-        factor = sum(float(getattr(k, "amplitude", 0.0)) for k in convolution_kernels)
-        return one_to_one(Gain(factor, name=b.label), "matrix", "result", dims)
-    piece = one_to_one(Convolve(convolution_kernels, name=b.label), "matrix", "result", dims)
-    piece.fails = too_long(listed, axes, ends)
-    return piece
+        return s.copy(seen, "Sum, a copy without kernels")
+    s.piece.fails = too_long(listed, seen.axes, ends) if seen.dims else ""
+    return s.convolved("", convolution_kernels, seen)
 
 
-def _steered(b: SourceStep, dims: Counts) -> StepPiece:
+def _steered(s: SourceStep, ends: CedarBorder, seen: StepSignal, by: StepSignal) -> StepSignal:
     """Translate Convolution with a kernel that is an input, centred at its middle sample."""
-    kernel, ends = b.first("kernel"), border(b.values, "convolution", len(dims))
-    if "kernels" in b.values.body:
-        b.values.say("kernels", "carried", "without effect beside a kernel that is an input")
-    c = Composition(b)
-    seen, by = c.slot("matrix"), c.slot("kernel")
-    if not kernel:
-        c.outlet("result", c.product("", seen, by), dims)
-        return c.done("Product, since its kernel is one number")
-    if len(kernel) != len(dims):
+    if "kernels" in s.values.body:
+        s.values.say("kernels", "carried", "without effect beside a kernel that is an input")
+    if not by.dims:
+        s.explain("Product, since its kernel is one number")
+        return s.product("", seen, by)
+    if len(by.dims) != len(seen.dims):
         raise Unfit(
-            f"what it gives for a kernel of {len(kernel)} and an input of {len(dims)} dimensions is not"
+            f"what it gives for a kernel of {len(by.dims)} and an input of {len(seen.dims)} dimensions is not"
             " documented"
         )
-    axes = b.axes(dims)
     # cedar's centre of an even size is the earlier of both samples in the middle, or the later
-    middle = [float(n // 2 if n % 2 or ends.later else n // 2 - 1) for n in kernel]
-    element = SteeredConvolve(middle, boundary=ends.ends(axes), name=b.label)
-    c.outlet("result", c.add(element, input=seen, kernel=by), dims)
-    piece = c.done("SteeredConvolve")
-    if ends.fourier and any(n > m for n, m in zip(kernel, dims, strict=True)):
-        piece.fails = f"FFTW raises an exception for a kernel of {list(kernel)} samples for {list(dims)}"
-    return piece
+    middle = [float(n // 2 if n % 2 or ends.later else n // 2 - 1) for n in by.dims]
+    if ends.fourier and any(n > m for n, m in zip(by.dims, seen.dims, strict=True)):
+        why = f"FFTW raises an exception for a kernel of {list(by.dims)} samples for {list(seen.dims)}"
+        s.piece.fails = why
+    element = SteeredConvolve(middle, boundary=ends.ends(seen.axes), name=s.label)
+    return s.add(element, input=seen, kernel=by)
 
 
-def projection(b: SourceStep) -> StepPiece:
+@step("cedar.processing.Projection", "input", gives="output")
+def projection(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate Projection, by cedar's rules for valid mappings."""
-    element, dims = projected(b, b.values, b.first("input"), b.label, tuple(REDUCTIONS))
-    return one_to_one(element, "input", "output", dims)
+    return remapped(s, s.values, seen, tuple(REDUCTIONS))
 
 
-def projected(
-    b: SourceStep, values: StepValues, counts: Counts, name: str, ways: Sequence[str]
-) -> tuple[Project, Counts]:
-    """Return the projection that the parameters of an object describe, and the size of its output.
+def remapped(s: SourceStep, values: StepValues, seen: StepSignal, ways: Sequence[str]) -> StepSignal:
+    """Return the projection of a signal that the parameters of an object describe.
 
     Args:
-        b: the step.
+        s: the step.
         values: the object: the step itself, or an object inside it.
-        counts: size of the input.
-        name: name of the element.
+        seen: the input.
         ways: reductions that cedar offers.
 
     Raises:
         Refused: cedar does not accept the mapping.
     """
+    counts = seen.dims
     count = values.whole("output dimensionality", 1, 0, 4)
     if count or "output dimension sizes" not in values.body:
         new = [int(n) for n in values.numbers("output dimension sizes", 50, count, 1, 1e6)]
@@ -238,25 +157,13 @@ def projected(
     mapping = _mapping(values, len(counts))
     _require_valid(mapping, len(counts), count)
     if len(counts) == 2 and count == 3 and (mapping[0], mapping[1]) == (2, 0) and new[0] != new[1]:
-        b.bug("two dimensions into three with exchanged axes leave slices empty")
+        s.bug("two dimensions into three with exchanged axes leave slices empty")
     for source, target in mapping.items():
         new[target] = counts[source]
-    dims = tuple(new)
-    if not counts:
-        # one number fills all
-        return Project(b.axes(dims), name=name), dims
-    target_axes, source_axes = b.axes(dims), b.axes(counts)
-    names = {
-        source_axes[s].name: target_axes[t].name
-        for s, t in mapping.items()
-        if source_axes[s].name != target_axes[t].name
-    }
-    names |= {
-        a.name: f"{a.name} added up"
-        for s, a in enumerate(source_axes)
-        if s not in mapping and a.name in [c.name for c in target_axes]
-    }
-    return Project(target_axes, REDUCTIONS[reduction], names, name=name), dims
+    axes = s.axes(tuple(new))
+    places = [axes[mapping[d]] if d in mapping else None for d in range(len(counts))]
+    # one number fills all
+    return s.projected("", seen, axes, places, REDUCTIONS[reduction] if counts else "integral")
 
 
 def _mapping(values: StepValues, count: int) -> dict[int, int]:
@@ -296,35 +203,18 @@ def _require_valid(mapping: dict[int, int], dimensions: int, count: int) -> None
         )
 
 
-def transfer(b: SourceStep) -> StepPiece:
+@step("cedar.processing.TransferFunction", "input", gives="sigmoided output")
+def transfer(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate TransferFunction."""
-    dims, c = b.first("input"), Composition(b)
-    sigmoided = transferred(c, "", "function", Absolute(100.0, 0.0), c.slot("input"))
-    c.outlet("sigmoided output", sigmoided, dims)
-    return c.done(type(next(e for e in c.piece.elements if e.name == b.label)).__name__)
+    return transferred(s, "", "function", Absolute(100.0, 0.0), seen)
 
 
-def transpose(b: SourceStep) -> StepPiece:
+@step("cedar.processing.Transpose", "matrix", gives="transposed")
+def transpose(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate Transpose; a vector remains a vector."""
-    dims = b.first("matrix")
-    if len(dims) > 2:
-        raise Refused(f"its input has {len(dims)} dimensions")
-    if len(dims) < 2:
-        return one_to_one(Sum(name=b.label), "matrix", "transposed", dims, why="Sum, a copy")
-    target_axes, source_axes = b.axes(dims[::-1]), b.axes(dims)
-    names = {a.name: c.name for a, c in zip(source_axes, target_axes[::-1], strict=True) if a.name != c.name}
-    return one_to_one(Project(target_axes, "sum", names, name=b.label), "matrix", "transposed", dims[::-1])
-
-
-CLASSES = {
-    "cedar.processing.StaticGain": gain,
-    "cedar.processing.steps.AddConstant": add_constant,
-    "cedar.processing.ConvertToValueRange": convert_range,
-    "cedar.processing.steps.Sum": total,
-    "cedar.processing.SubtractElementwise": subtract,
-    "cedar.processing.ComponentMultiply": multiply,
-    "cedar.processing.steps.Convolution": convolution,
-    "cedar.processing.Projection": projection,
-    "cedar.processing.TransferFunction": transfer,
-    "cedar.processing.Transpose": transpose,
-}
+    if len(seen.dims) > 2:
+        raise Refused(f"its input has {len(seen.dims)} dimensions")
+    if len(seen.dims) < 2:
+        return s.copy(seen)
+    axes = s.axes(seen.dims[::-1])
+    return s.projected("", seen, axes, axes[::-1])

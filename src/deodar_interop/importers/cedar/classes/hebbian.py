@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 
 import numpy as np
 
 from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.reward_gate import RewardGate
-from deodar.elements.boost import Boost
 from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.step import Step
 from deodar_interop.importers._piece import Unfit
-from deodar_interop.importers.cedar.composition import Composition, StepSignal
+from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
 from deodar_interop.importers.cedar.grid import Counts
-from deodar_interop.importers.cedar.piece import SourceStep, StepPiece
 from deodar_interop.importers.cedar.sigmoids import sigmoid
 from deodar_interop.importers.cedar.transfer import transferred
 
@@ -30,26 +29,27 @@ BCM = (
 )
 
 
-def hebbian(b: SourceStep) -> StepPiece:
+@step("cedar.dynamics.HebbianConnection", sized=True, looped=True)
+def hebbian(s: SourceStep) -> None:
     """Translate HebbianConnection with Oja's rule; w are the weights, F a factor of the time scales.
 
     Source of one number: dw = F rate f(source) g(reward) (h(target) - w), output w f(source). Target of one
     number: source and target exchanged, output sum w f(source). Two lines: dw = F rate (f(source) h(target) -
     w) while rewarded, output sum w source. The weights are read after they have changed.
     """
-    if b.values.word("learning rule", "Oja's Rule", ("Oja's Rule", "BCM Rule")) != "Oja's Rule":
+    if s.values.word("learning rule", "Oja's Rule", ("Oja's Rule", "BCM Rule")) != "Oja's Rule":
         raise Unfit(BCM)
-    source, target = _size(b, "source", 1), _size(b, "target", 2)
+    source, target = _size(s, "source", 1), _size(s, "target", 2)
     if math.prod((*source, *target)) > MOST_WEIGHTS:
         raise Unfit(f"it has more than {MOST_WEIGHTS} weights")
     if source and target and len((*source, *target)) > LEARNS:
         raise Unfit(f"what it gives for {len(source)} by {len(target)} dimensions is not documented")
-    return _Connection(b, source, target).piece()
+    _Connection(s, source, target).translate()
 
 
-def _size(b: SourceStep, side: str, dimensions: int) -> Counts:
-    count = b.values.whole(f"{side} dimension", dimensions, 0, 3)
-    return tuple(int(n) for n in b.values.numbers(f"{side} sizes", 50, count, 1, 1e6))
+def _size(s: SourceStep, side: str, dimensions: int) -> Counts:
+    count = s.values.whole(f"{side} dimension", dimensions, 0, 3)
+    return tuple(int(n) for n in s.values.numbers(f"{side} sizes", 50, count, 1, 1e6))
 
 
 class _Connection:
@@ -59,86 +59,86 @@ class _Connection:
     weights relax towards.
     """
 
-    def __init__(self, b: SourceStep, source: Counts, target: Counts) -> None:
-        self.b, self.c = b, Composition(b)
+    def __init__(self, s: SourceStep, source: Counts, target: Counts) -> None:
+        self.s = s
         self.source, self.target = source, target
-        self.axes = b.axes((*source, *target))
+        self.axes = s.axes((*source, *target))
         self.doubts: list[str] = []
 
-    def piece(self) -> StepPiece:
-        """Return the translation."""
-        source = self.slot("source node", self.source)
+    def translate(self) -> None:
+        """Add the elements."""
+        s, source = self.s, self.slot("source node", self.source)
         f = self.activity("f", "source", source, Step(0.5))
         h = self.activity("h", "target", self.slot("target field", self.target), Linear(1.0))
         g = self.gate(self.activity("g", "reward", self.slot("reward signal", ()), Step(0.5)))
         lines = bool(self.source and self.target)
         if lines:
             f, h = self.along(f, "f over all", 0), self.along(h, "h over all", 1)
-            side, goal = self.c.constant("one", 1.0), self.c.product("f times h", f, h)
+            side, goal = s.constant("one", 1.0), s.product("f times h", f, h)
         elif self.source:
             side, goal = h, f
         else:
             side, goal = f, h
         rate, rise, fall = self.speeds()
         initial, start = self.start()
-        weights = AdaptiveWeights(self.axes, rate, initial, gated=True, start=start, name=self.b.label)
-        old = StepSignal(self.b.label, "weights")
+        weights = AdaptiveWeights(self.axes, rate, initial, gated=True, start=start, name=s.label)
+        old = dc.replace(s.add(weights), port="weights")
         if rise != fall:
             goal = self.slowed(goal, h, old, rise, fall)
-        self.c.add(weights, input=side, post=goal, gate=g)
-        new = StepSignal(self.b.label, "weights", "current")
+        for port, signal in (("input", side), ("post", goal), ("gate", g)):
+            s.connect(signal, old, port)
         seen = self.along(source, "source over all", 0) if lines else f
-        read = self.c.product("weighted", *((seen, new) if self.source else (new, seen)))
+        read = s.product("weighted", *((seen, old.now) if self.source else (old.now, seen)))
         if self.source:
-            places = [None] * len(self.source) + list(self.b.axes(self.target))
-            read = self.c.projected("output", read, self.axes, self.b.axes(self.target), places)
-        self.c.outlet("learned output", read, self.target)
-        doubt = "what cedar gives here is not documented; the learned output is used"
-        self.c.outlet("weighted input", read, self.target, doubt=doubt)
+            target_axes = s.axes(self.target)
+            read = s.projected("output", read, target_axes, [*(None for _ in self.source), *target_axes])
+        s.outlet("learned output", read)
+        s.outlet(
+            "weighted input",
+            read,
+            doubt="what cedar gives here is not documented; the learned output is used",
+        )
         why = "; ".join(("AdaptiveWeights, read after they have changed", *self.doubts))
-        return self.c.done(why, "approximated" if self.doubts else "carried")
+        s.explain(why, "approximated" if self.doubts else "carried")
 
     def slot(self, name: str, dims: Counts) -> StepSignal:
         """Return an input slot; 0 if nothing is connected to it."""
-        if name in self.b.ins:
-            return self.c.slot(name, dims, optional=True)
-        return self.c.add(Boost(self.b.named(f"no {name}"), self.b.axes(dims), 0.0))
+        signal = self.s.given(name, dims)
+        return self.s.constant(f"no {name}", 0.0, self.s.axes(dims)) if signal is None else signal
 
     def activity(self, letter: str, side: str, signal: StepSignal, default: SigmoidFunction) -> StepSignal:
         """Add a function of a side or of the reward."""
         name = f"{letter} ({side} sigmoid)"
-        if letter == "g" and not isinstance(sigmoid(self.b.values, name, default), Step):
+        if letter == "g" and not isinstance(sigmoid(self.s.values, name, default), Step):
             if self.source and self.target:
                 self.doubts.append("how a reward between 0 and 1 acts on two lines is not documented")
-            elif self.b.values.flag("fixed reward duration", False):
+            elif self.s.values.flag("fixed reward duration", False):
                 self.doubts.append("what begins the reward duration is documented for the Heaviside only")
-        return transferred(self.c, f"{letter} of {side}", name, default, signal)
+        return transferred(self.s, f"{letter} of {side}", name, default, signal)
 
     def along(self, signal: StepSignal, role: str, d: int) -> StepSignal:
         """Add the value of one side at all weights."""
-        axis = self.b.axes((self.source, self.target)[d])
-        return self.c.projected(role, signal, axis, self.axes, [self.axes[d]])
+        return self.s.projected(role, signal, self.axes, [self.axes[d]])
 
     def gate(self, reward: StepSignal) -> StepSignal:
         """Return what opens the gate; with a fixed duration the reward's beginning counts as a step of it."""
-        duration = self.b.values.time("reward duration", 200.0)
-        if not self.b.values.flag("fixed reward duration", False):
-            if "reward duration" in self.b.values.body:
-                self.b.values.say("reward duration", "carried", "without effect")
+        s = self.s
+        duration = s.values.time("reward duration", 200.0)
+        if not s.values.flag("fixed reward duration", False):
+            if "reward duration" in s.values.body:
+                s.values.say("reward duration", "carried", "without effect")
             return reward
-        steps = math.ceil(duration / self.b.dt - 1e-9) - 1
+        steps = math.ceil(duration / s.dt - 1e-9) - 1
         if steps < 1:
-            return self.c.constant("no reward window", 0.0)
-        return self.c.add(
-            RewardGate(0.5, steps * self.b.dt, name=self.b.named("reward window")), input=reward
-        )
+            return s.constant("no reward window", 0.0)
+        return s.add(RewardGate(0.5, steps * s.dt, name=s.named("reward window")), input=reward)
 
     def speeds(self) -> tuple[float, float, float]:
         """Return the rate of the weights, and the shares of it where the target is 1 and where it is 0."""
-        values, dt = self.b.values, self.b.dt
+        values, dt = self.s.values, self.s.dt
         rate = values.number("learning rate", 0.01, 0.0)
         tau, decay = values.time("time scale", 0.0), values.time("time scale decay", 0.0)
-        missing = [s for s in ("source node", "target field", "reward signal") if s not in self.b.ins]
+        missing = [s for s in ("source node", "target field", "reward signal") if s not in self.s.ins]
         if missing:
             if "source node" in missing:
                 self.doubts.append("what cedar gives without a source is not documented; it is 0 here")
@@ -167,9 +167,9 @@ class _Connection:
 
     def limited(self, rate: float) -> float:
         """Return a rate that is stable, with a report line."""
-        most = 1 / self.b.dt
+        most = 1 / self.s.dt
         if rate > most:
-            self.b.values.say(
+            self.s.values.say(
                 "learning rate", "approximated", "weights change by all of the difference at most"
             )
         return min(rate, most)
@@ -180,15 +180,15 @@ class _Connection:
         """Return a goal towards which the weights change as they do with two time scales: w + share (goal -
         w), share = rise h + fall (1 - h).
         """
-        c = self.c
-        share = c.total("share", c.gain("share of h", rise - fall, h), c.constant("share of the rest", fall))
-        difference = c.total("to go", goal, c.gain("minus weights", -1.0, old))
-        return c.total("slowed goal", old, c.product("part of the way", difference, share))
+        s = self.s
+        share = s.total("share", s.gain("share of h", rise - fall, h), s.constant("share of the rest", fall))
+        difference = s.total("to go", goal, s.gain("minus weights", -1.0, old))
+        return s.total("slowed goal", old, s.product("part of the way", difference, share))
 
     def start(self) -> tuple[float, np.ndarray | None]:
         """Return all weights at the start, or each of them, source samples first."""
-        values, shape = self.b.values, (*self.source, *self.target)
-        stored = self.b.stored("weights", shape)
+        values, shape = self.s.values, (*self.source, *self.target)
+        stored = self.s.stored("weights", shape)
         if stored is not None:
             for name in values.body:
                 if name.startswith(("weight ", "manual ")):
@@ -212,10 +212,3 @@ class _Connection:
             why = "weights begin at the initial value, without noise"
             values.say("weight init noise", "approximated", why)
         return level, None
-
-
-CLASSES = {"cedar.dynamics.HebbianConnection": hebbian}
-
-DECLARED = frozenset(CLASSES)
-
-LOOPED = frozenset({"cedar.dynamics.HebbianConnection"})

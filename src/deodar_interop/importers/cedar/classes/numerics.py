@@ -7,13 +7,9 @@ import math
 import numpy as np
 
 from deodar.couplings.delay import Delay
-from deodar.couplings.sigmoid import Sigmoid
 from deodar.elements.integrator import Integrator
-from deodar.numerics.sigmoids.step import Step
 from deodar_interop.importers._piece import Unfit
-from deodar_interop.importers.cedar.composition import Composition, StepSignal
-from deodar_interop.importers.cedar.grid import Counts
-from deodar_interop.importers.cedar.piece import InputSlot, OutputSlot, SourceStep, StepPiece
+from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
 
 SECOND = 1e-3
 """Rate of an integrator that counts seconds, per ms."""
@@ -24,205 +20,162 @@ ON = 0.5
 TINY = 1e-30
 
 
-def timer(b: SourceStep) -> StepPiece:
+@step("cedar.processing.steps.Timer", sized=True)
+def timer(s: SourceStep) -> None:
     """Translate Timer: seconds for which its run signal is on, since its reset signal was; without any signal
     it is never computed.
     """
-    run, reset = "run signal (optional)", "reset signal (optional)"
-    if run not in b.ins and reset not in b.ins:
-        clock = Integrator(b.label, (), SECOND)
-        outlets = {"time": OutputSlot(b.label, (), state=True)}
-        return StepPiece([clock], outlets=outlets, why="Integrator that nothing moves, as in cedar")
-    why = f"Integrator; that signals are on above {ON:g} is a guess"
-    if reset not in b.ins:
-        clock, runs = Integrator(b.label, (), SECOND), Sigmoid(Step(ON), name=b.named("runs"))
-        return StepPiece(
-            [clock, runs],
-            {run: [[InputSlot(runs.name)]]},
-            {"time": OutputSlot(b.label, (), state=True)},
-            [(runs.name, b.label)],
-            wanted={run: ()},
-            verdict="approximated",
-            why=why,
-        )
-    c = Composition(b)
-    on = c.above("reset", ON, c.slot(reset, (), optional=True))
-    runs = c.above("runs", ON, c.slot(run, (), optional=True)) if run in b.ins else c.constant("one", 1.0)
-    passed = c.gain(
-        "time of a step", b.dt * SECOND, c.product("runs without reset", runs, c.rest("no reset", on))
-    )
-    gone = c.gain("back to zero", -1.0, c.product("time before reset", StepSignal(b.label), on))
-    c.add(Integrator(b.label, (), 1 / b.dt), input=(passed, gone))
-    c.outlet("time", StepSignal(b.label), (), state=True)
-    return c.done(why, "approximated")
+    run, reset = (s.given(f"{name} signal (optional)", ()) for name in ("run", "reset"))
+    clock = s.add(Integrator(s.label, (), SECOND if reset is None else 1 / s.dt))
+    s.outlet("time", clock, state=True)
+    if run is None and reset is None:
+        s.explain("Integrator that nothing moves, as in cedar")
+        return
+    s.explain(f"Integrator; that signals are on above {ON:g} is a guess", "approximated")
+    runs = s.constant("one", 1.0) if run is None else s.above("runs", ON, run)
+    if reset is None:
+        s.connect(runs, clock)
+        return
+    on = s.above("reset", ON, reset)
+    running = s.product("runs without reset", runs, s.rest("no reset", on))
+    s.connect(s.gain("time of a step", s.dt * SECOND, running), clock)
+    s.connect(s.gain("back to zero", -1.0, s.product("time before reset", clock, on)), clock)
 
 
-def integration(b: SourceStep) -> StepPiece:
+@step("cedar.processing.steps.NumericalIntegration", "input", looped=True)
+def integration(s: SourceStep, seen: StepSignal) -> None:
     """Translate NumericalIntegration by Euler steps; it may begin, and begin again, at another input."""
-    dims, values = b.first("input"), b.values
-    axes = b.axes(dims)
-    start, delay, reset = (f"{name} (optional)" for name in ("initial state", "delay", "reset signal"))
-    verdict, why = "carried", "Integrator"
+    values, axes, result = s.values, seen.axes, "integration result"
+    initial = s.given("initial state (optional)")
+    delay, reset = (s.given(f"{name} (optional)", ()) for name in ("delay", "reset signal"))
     if values.flag("use BDF5", False):
         values.say("use BDF5", "approximated", "Euler steps are used")
-    if not values.flag("initialize on reset", True) and start in b.ins:
+    if not values.flag("initialize on reset", True) and initial is not None:
         values.say("initialize on reset", "approximated", "a reset begins at the initial state here")
-    c = Composition(b)
-    seen = c.slot("input")
-    if not {start, delay, reset} & set(b.ins):
-        c.add(Integrator(b.label, axes, SECOND), input=seen)
-        c.outlet("integration result", StepSignal(b.label), dims, state=True)
-        return c.done(why)
-    first = None if start not in b.ins else _beginning(c, start, dims)
-    begins = (
-        None if first is None else c.product("initial state at first", first, c.rest("first", c.started()))
-    )
-    if begins is not None and not {delay, reset} & set(b.ins):
-        kept_state = c.add(Delay(axes, name=b.named("initial state kept")))
-        c.connect(c.total("initial state to keep", kept_state, begins), kept_state.name)
-        c.add(Integrator(b.label, axes, SECOND), input=seen)
-        ends = (StepSignal(name, reads="current") for name in (b.label, kept_state.name))
-        c.outlet("integration result", c.total("result", *ends), dims)
-        return c.done("Integrator, and a Sum with its initial state")
-    if delay in b.ins:
-        parts = [c.product("change", seen, c.slot(delay, (), optional=True))]
-    else:
-        parts = [c.gain("change", b.dt * SECOND, seen)]
-    parts += [] if begins is None else [begins]
-    if reset in b.ins:
-        verdict, why = "approximated", f"Integrator; that the reset signal is on above {ON:g} is a guess"
-        on = c.above("reset", ON, c.slot(reset, (), optional=True))
-        ongoing = c.product("change without reset", c.total("all changes", *parts), c.rest("no reset", on))
-        to_zero = c.gain("result back", -1.0, StepSignal(b.label))
-        goal = to_zero if first is None else c.total("to the initial state", to_zero, first)
-        parts = [ongoing, c.product("change by reset", goal, on)]
-    c.add(Integrator(b.label, axes, 1 / b.dt), input=parts)
-    c.outlet("integration result", StepSignal(b.label), dims, state=True)
-    return c.done(why, verdict)
+    if delay is None and reset is None:
+        change = s.add(Integrator(s.label, axes, SECOND), input=seen)
+        if initial is None:
+            s.outlet(result, change, state=True)
+            return
+        begins = s.product(
+            "initial state at first", _beginning(s, initial, seen), s.rest("first", s.started())
+        )
+        kept_state = s.add(Delay(axes, name=s.named("initial state kept")))
+        s.connect(s.total("initial state to keep", kept_state, begins), kept_state)
+        s.outlet(result, s.total("result", change.now, kept_state.now))
+        s.explain("Integrator, and a Sum with its initial state")
+        return
+    integral = s.add(Integrator(s.label, axes, 1 / s.dt))
+    s.outlet(result, integral, state=True)
+    first = None if initial is None else _beginning(s, initial, seen)
+    changes = s.gain("change", s.dt * SECOND, seen) if delay is None else s.product("change", seen, delay)
+    parts = [changes]
+    if first is not None:
+        parts.append(s.product("initial state at first", first, s.rest("first", s.started())))
+    if reset is not None:
+        s.explain(f"Integrator; that the reset signal is on above {ON:g} is a guess", "approximated")
+        on = s.above("reset", ON, reset)
+        ongoing = s.product("change without reset", s.total("all changes", *parts), s.rest("no reset", on))
+        to_zero = s.gain("result back", -1.0, integral)
+        goal = to_zero if first is None else s.total("to the initial state", to_zero, first)
+        parts = [ongoing, s.product("change by reset", goal, on)]
+    for part in parts:
+        s.connect(part, integral)
 
 
-def _beginning(c: Composition, slot: str, dims: Counts) -> StepSignal:
+def _beginning(s: SourceStep, initial: StepSignal, seen: StepSignal) -> StepSignal:
     """Return an initial state, which may be one number for all samples."""
-    dims_of_state, signal = c.b.first(slot), c.slot(slot, optional=True)
-    if dims_of_state and dims_of_state != dims:
-        raise Unfit(f"its initial state has the size {list(dims_of_state)}, and its input {list(dims)}")
-    return signal if dims_of_state == dims else c.projected("initial state", signal, (), c.b.axes(dims), [])
+    if initial.dims == seen.dims:
+        return initial
+    if initial.dims:
+        raise Unfit(f"its initial state has the size {list(initial.dims)}, and its input {list(seen.dims)}")
+    return s.projected("initial state", initial, seen.axes, [])
 
 
-def differentiation(b: SourceStep) -> StepPiece:
+@step("cedar.processing.steps.NumericalDifferentiation", "input", gives="differentiated result", looped=True)
+def differentiation(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate NumericalDifferentiation: the change since the last step by the time that it took.
 
     Steps that are too short or too long are ignored: the result, and the input that the next change begins
     at, are those before.
     """
-    dims, values = b.first("input"), b.values
-    axes, slot = b.axes(dims), "delay (optional)"
+    values, took = s.values, s.given("delay (optional)", ())
     if values.flag("use five points", False):
         values.say("use five points", "approximated", "two points are used")
     shortest = values.number("ignore time steps smaller than", 0.002)
     longest = values.number("ignore time steps larger than", 1.0)
-    c = Composition(b)
-    seen = c.slot("input")
-    out, last = StepSignal(b.label), c.add(Delay(axes, name=b.named("last input")))
-    change = c.total("change", seen, c.gain("minus last input", -1.0, last))
-    if slot not in b.ins:
-        if not shortest <= b.dt * SECOND <= longest:
-            c.gain("", 0.0, change)
-        else:
-            c.connect(seen, last.name)
-            speed = c.gain("speed", 1 / (b.dt * SECOND), change)
-            c.product("", speed, c.started())
-    else:
-        took = c.slot(slot, (), optional=True)
-        lasts = c.rest("not short", c.below("short", shortest, took))
-        counts = c.product("counts", lasts, c.rest("not long", c.above("long", longest, took)))
-        skipped = c.rest("skipped", counts)
-        old = c.before("result before", out, axes)
-        begun = c.add(Delay((), name=b.named("begun")))
-        c.connect(c.limit("begins", "upper", begun, counts), begun.name)
-        c.connect(c.product("new input", seen, counts), last.name)
-        c.connect(c.product("kept input", last, skipped), last.name)
-        speed = c.quotient("speed", change, took, TINY)
-        after = c.product("after the first", c.product("new speed", speed, counts), begun)
-        c.total("", after, c.product("kept speed", old, skipped))
-    c.outlet("differentiated result", out, dims)
-    return c.done("the change by its time; that it is 0 in the first step is a guess", "approximated")
+    s.explain("the change by its time; that it is 0 in the first step is a guess", "approximated")
+    last = s.add(Delay(seen.axes, name=s.named("last input")))
+    change = s.total("change", seen, s.gain("minus last input", -1.0, last))
+    if took is None:
+        if not shortest <= s.dt * SECOND <= longest:
+            return s.gain("", 0.0, change)
+        s.connect(seen, last)
+        return s.product("", s.gain("speed", 1 / (s.dt * SECOND), change), s.started())
+    lasts = s.rest("not short", s.below("short", shortest, took))
+    counts = s.product("counts", lasts, s.rest("not long", s.above("long", longest, took)))
+    skipped = s.rest("skipped", counts)
+    old = s.add(Delay(seen.axes, name=s.named("result before")))
+    begun = s.add(Delay((), name=s.named("begun")))
+    s.connect(s.limit("begins", "upper", begun, counts), begun)
+    s.connect(s.product("new input", seen, counts), last)
+    s.connect(s.product("kept input", last, skipped), last)
+    speed = s.quotient("speed", change, took, TINY)
+    after = s.product("after the first", s.product("new speed", speed, counts), begun)
+    result = s.total("", after, s.product("kept speed", old, skipped))
+    s.connect(result, old)
+    return result
 
 
-def smoothing(b: SourceStep) -> StepPiece:
+@step("cedar.processing.steps.ExponentialSmoothing", "input", gives="forecast", looped=True)
+def smoothing(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate ExponentialSmoothing: a level and a trend, l' = a x + (1 - a) (l + m), m' = c (l' - l) + (1 -
     c) m; the first level is the first input.
     """
-    dims, axes = b.first("input"), b.axes(b.first("input"))
-    a = b.values.number("data smoothing factor", 0.1, 0.0, 1.0)
-    share = b.values.number("trend smoothing factor", 0.1, 0.0, 1.0)
-    c = Composition(b)
-    seen, started = c.slot("input"), c.started()
-    level, trend = (c.add(Delay(axes, name=b.named(f"{role} before"))) for role in ("level", "trend"))
-    begin = c.product("first level", seen, c.rest("first step", started))
-    old = c.gain("of the level before", 1 - a, c.total("expected", level, trend))
-    later = c.product("later level", c.total("mixed level", old, c.gain("of the input", a, seen)), started)
-    new = c.total("level", begin, later)
-    rise = c.total("rise", new, c.gain("minus level", -1.0, level))
-    mixed = c.total(
-        "mixed trend", c.gain("of the rise", share, rise), c.gain("of the trend", 1 - share, trend)
+    a = s.values.number("data smoothing factor", 0.1, 0.0, 1.0)
+    share = s.values.number("trend smoothing factor", 0.1, 0.0, 1.0)
+    s.explain("a level and a trend; that they begin at the first input and at 0 is a guess", "approximated")
+    started = s.started()
+    level, trend = (s.add(Delay(seen.axes, name=s.named(f"{role} before"))) for role in ("level", "trend"))
+    begin = s.product("first level", seen, s.rest("first step", started))
+    old = s.gain("of the level before", 1 - a, s.total("expected", level, trend))
+    later = s.product("later level", s.total("mixed level", old, s.gain("of the input", a, seen)), started)
+    new = s.total("level", begin, later)
+    rise = s.gain("of the rise", share, s.total("rise", new, s.gain("minus level", -1.0, level)))
+    slope = s.product(
+        "trend", s.total("mixed trend", rise, s.gain("of the trend", 1 - share, trend)), started
     )
-    slope = c.product("trend", mixed, started)
-    c.connect(new, level.name)
-    c.connect(slope, trend.name)
-    c.outlet("forecast", c.total("", new, slope), dims)
-    why = "a level and a trend; that they begin at the first input and at 0 is a guess"
-    return c.done(why, "approximated")
+    s.connect(new, level)
+    s.connect(slope, trend)
+    return s.total("", new, slope)
 
 
-def oscillator(b: SourceStep) -> StepPiece:
+@step("cedar.dynamics.HarmonicOscillator", why="two Integrator", sized=True, looped=True)
+def oscillator(s: SourceStep) -> None:
     """Translate HarmonicOscillator: p'' = -K (p - lambda) - 2 D sqrt(K) p', in seconds, speed first."""
     for slot in ("overwriteInput", "overwritePeakDetector"):
-        if slot in b.ins:
+        if slot in s.ins:
             raise Unfit(f"what {slot!r} does to its speed is not documented")
-    count = b.values.whole("dimensionality", 2, 1, 7)
-    if b.values.flag("cyclic restrictions", False):
+    count = s.values.whole("dimensionality", 2, 1, 7)
+    if s.values.flag("cyclic restrictions", False):
         raise Unfit("it has cyclic restrictions")
     dims = () if count == 1 else (count,)
-    axes = b.axes(dims)
-    start = np.array(b.values.numbers("Initial Position", 4.0, count))
-    stiffness, damping = b.values.number("K", 4.0, 0.0), b.values.number("D", 1.0, 0.0)
-    if "B" in b.values.body:
-        b.values.say("B", "carried", "without effect, as in cedar")
-    c = Composition(b)
-    if dims:
-        place = Integrator(b.label, axes, SECOND, start=start)
-    else:
-        place = Integrator(b.label, axes, SECOND, initial=float(start[0]))
-    speed = Integrator(b.named("speed"), axes, SECOND)
-    pull = c.gain("pull", stiffness, c.slot("lambda", dims))
-    spring = c.gain("away", -stiffness, StepSignal(place.name))
-    drag = c.gain("drag", -2 * damping * math.sqrt(stiffness), StepSignal(speed.name))
-    force = c.total("force", pull, spring, drag)
-    c.add(place, input=StepSignal(speed.name, reads="current"))
-    c.add(speed, input=force)
+    start = np.array(s.values.numbers("Initial Position", 4.0, count))
+    stiffness, damping = s.values.number("K", 4.0, 0.0), s.values.number("D", 1.0, 0.0)
+    if "B" in s.values.body:
+        s.values.say("B", "carried", "without effect, as in cedar")
+    place = s.add(
+        Integrator(s.label, s.axes(dims), SECOND, start=start)
+        if dims
+        else Integrator(s.label, (), SECOND, initial=float(start[0]))
+    )
+    speed = s.add(Integrator(s.named("speed"), s.axes(dims), SECOND))
+    pull = s.gain("pull", stiffness, s.slot("lambda", dims))
+    drag = s.gain("drag", -2 * damping * math.sqrt(stiffness), speed)
+    force = s.total("force", pull, s.gain("away", -stiffness, place), drag)
+    s.connect(speed.now, place)
+    s.connect(force, speed)
     # what cedar gives is 0 until its first step
-    for slot, name in (("p", place.name), ("pDot", speed.name)):
-        c.outlet(slot, c.total(slot, StepSignal(name, reads="current")), dims)
-    c.outlet("pDotDot", force, dims)
-    return c.done("two Integrator")
-
-
-CLASSES = {
-    "cedar.processing.steps.Timer": timer,
-    "cedar.processing.steps.NumericalIntegration": integration,
-    "cedar.processing.steps.NumericalDifferentiation": differentiation,
-    "cedar.processing.steps.ExponentialSmoothing": smoothing,
-    "cedar.dynamics.HarmonicOscillator": oscillator,
-}
-
-DECLARED = frozenset({"cedar.dynamics.HarmonicOscillator", "cedar.processing.steps.Timer"})
-
-LOOPED = frozenset(
-    {
-        "cedar.dynamics.HarmonicOscillator",
-        "cedar.processing.steps.ExponentialSmoothing",
-        "cedar.processing.steps.NumericalDifferentiation",
-        "cedar.processing.steps.NumericalIntegration",
-    }
-)
+    s.outlet("p", s.total("p", place.now))
+    s.outlet("pDot", s.total("pDot", speed.now))
+    s.outlet("pDotDot", force)
