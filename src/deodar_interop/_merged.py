@@ -25,14 +25,14 @@ def merged(package: str, table: str) -> dict[Any, Any]:
     Raises:
         ModelError: two files have an entry with the same key.
     """
-    found: dict[Any, Any] = {}
+    by_name: dict[Any, Any] = {}
     for module in imported(package):
         entries: Mapping[Any, Any] = getattr(module, table, {})
-        twice = found.keys() & entries.keys()
+        twice = by_name.keys() & entries.keys()
         if twice:
             raise ModelError(f"{module.__name__}.{table} repeats {min(map(str, twice))}")
-        found |= entries
-    return found
+        by_name |= entries
+    return by_name
 
 
 def declared(package: str, kind: type[Named]) -> dict[str, Named]:
@@ -42,9 +42,9 @@ def declared(package: str, kind: type[Named]) -> dict[str, Named]:
         ModelError: two files define one name.
     """
     entries = {id(e): e for module in imported(package) for e in vars(module).values() if isinstance(e, kind)}
-    found: dict[str, Named] = {}
+    by_name: dict[str, Named] = {}
     for entry in entries.values():
-        if entry.name in found:
+        if entry.name in by_name:
             raise ModelError(f"{package} defines {entry.name} twice")
-        found[entry.name] = entry
-    return found
+        by_name[entry.name] = entry
+    return by_name

@@ -39,14 +39,14 @@ class StepSignal:
 
     Attributes:
         name: name of an element, or of an input slot.
-        known: its axes; None of an input from a step that cedar does not run.
+        arriving_axes: its axes; None of an input from a step that cedar does not run.
         port: output port of the element.
         reads: what is read of a state: "" before the step, `current` after it.
         wire: which connection of an input slot it is; None of an element.
     """
 
     name: str
-    known: tuple[Axis, ...] | None
+    arriving_axes: tuple[Axis, ...] | None
     port: str = "output"
     reads: str = ""
     wire: int | None = None
@@ -63,12 +63,12 @@ class StepSignal:
     @property
     def axes(self) -> tuple[Axis, ...]:
         """Its axes; raises as `dims` does."""
-        if self.known is None:
+        if self.arriving_axes is None:
             raise Refused(f"the step that feeds {self.name!r} does not run")
-        return self.known
+        return self.arriving_axes
 
     @property
-    def now(self) -> StepSignal:
+    def updated(self) -> StepSignal:
         """The state after the step."""
         return dc.replace(self, reads="current")
 
@@ -148,13 +148,13 @@ class SourceStep:
         Raises:
             Refused: nothing arrives, or from a step that cedar does not run.
         """
-        signal = self.given(name)
+        signal = self.optional(name)
         if signal is None:
             raise Refused(f"nothing is connected to {name!r}")
         self.piece.needs = (*self.piece.needs, name)
-        return dc.replace(signal, known=signal.axes)
+        return dc.replace(signal, arriving_axes=signal.axes)
 
-    def given(self, name: str, dims: Counts | None = None) -> StepSignal | None:
+    def optional(self, name: str, dims: Counts | None = None) -> StepSignal | None:
         """Return what arrives at an input slot that may be empty; None if it is. `dims` is the size that
         cedar requires, by default that of what arrives.
         """
@@ -178,7 +178,7 @@ class SourceStep:
             self.piece.needs = (*self.piece.needs, name)
         return StepSignal(name, self.axes(dims), wire=0)
 
-    def each(self, name: str) -> list[StepSignal]:
+    def all_at(self, name: str) -> list[StepSignal]:
         """Return all that arrives at a slot, each of one size or one number.
 
         Raises:
@@ -189,7 +189,7 @@ class SourceStep:
         return [StepSignal(name, self.axes(dims), wire=k) for k, dims in enumerate(counts)]
 
     def added(self, name: str) -> StepSignal:
-        """Return the sum of all that arrives at a slot; raises as `each` does."""
+        """Return the sum of all that arrives at a slot; raises as `all_at` does."""
         return self.slot(name, max(self._arriving_sizes(name), key=len), sums=True)
 
     def _arriving_sizes(self, name: str) -> list[Counts]:
@@ -224,7 +224,7 @@ class SourceStep:
             for signal in ([signals] if isinstance(signals, StepSignal) else signals)
         ]
         if axes is None:
-            axes = inputs[0][1].known if inputs else getattr(element, "axes", ())
+            axes = inputs[0][1].arriving_axes if inputs else getattr(element, "axes", ())
         output = StepSignal(element.name, None if axes is None else tuple(axes))
         for port, signal in inputs:
             self.connect(signal, output, port)
@@ -364,11 +364,12 @@ class StepKind:
             Refused: cedar does not run it.
         """
         signals = [
-            s.given(slot.removesuffix("?")) if slot.endswith("?") else s.arriving(slot) for slot in self.slots
+            s.optional(slot.removesuffix("?")) if slot.endswith("?") else s.arriving(slot)
+            for slot in self.slots
         ]
-        shown = self.rule(s, *signals)
-        if shown is not None:
-            s.outlet(self.gives, shown)
+        output = self.rule(s, *signals)
+        if output is not None:
+            s.outlet(self.gives, output)
         s.piece.elements.sort(key=lambda element: element.name != s.label)
         s.piece.why = s.piece.why or self.why or type(s.piece.elements[0]).__name__
         return s.piece

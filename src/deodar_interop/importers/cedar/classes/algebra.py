@@ -81,14 +81,14 @@ def chain(
         of_two: adds the coupling of a role, of an array and of another array or a number.
         called: role of a coupling before the last, with its number {0}, or the number of its inputs {1}.
     """
-    result, *others = sorted(s.each(slot), key=lambda signal: not signal.dims)
+    combined, *others = sorted(s.all_at(slot), key=lambda signal: not signal.dims)
     if not others:
-        return s.copy(result, "Sum, a copy of one input")
+        return s.copy(combined, "Sum, a copy of one input")
     for k, signal in enumerate(others, 1):
-        result = of_two(called.format(k, k + 1) if k < len(others) else "", result, signal)
+        combined = of_two(called.format(k, k + 1) if k < len(others) else "", combined, signal)
     if len(others) > 1:
         s.explain(f"a chain of {len(others)} {type(s.piece.elements[-1]).__name__}")
-    return result
+    return combined
 
 
 @step("cedar.processing.steps.Convolution", "matrix", "kernel?", gives="result")

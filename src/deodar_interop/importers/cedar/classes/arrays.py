@@ -131,7 +131,7 @@ def concatenate(s: SourceStep, above: StepSignal, below: StepSignal) -> StepSign
 def stack(s: SourceStep) -> StepSignal:
     """Translate Stack: matrices become the layers of a volume."""
     count = s.values.whole("dimensionality", 1, 1, MOST_SCALARS)
-    layers = [s.given(str(k)) for k in range(count)]
+    layers = [s.optional(str(k)) for k in range(count)]
     dims = [layer.dims for layer in layers if layer is not None]
     if not dims:
         raise Refused("nothing is connected to it")
@@ -215,13 +215,13 @@ def variable_box(s: SourceStep) -> StepSignal:
     boxes: list[StepSignal] = []
     for d, (axis, width) in enumerate(zip(axes, widths, strict=True)):
         shift, role = width / 2 if middle else 0.0, f"{axis.name} left"
-        left = (
+        negated = (
             s.weighted(role, -np.eye(len(dims))[d], (), bounds)
             if len(dims) > 1
             else s.gain(role, -1.0, bounds)
         )
         places = s.add(Pattern(s.named(f"{axis.name} places"), [axis], axis.points))
-        inside = s.total(f"{axis.name} inside", places, left)
+        inside = s.total(f"{axis.name} inside", places, negated)
         # a sample at the left end itself is inside, one at the right end is not
         begun = s.above(f"{axis.name} begun", -shift - EDGE, inside)
         ended = s.above(f"{axis.name} ended", width - shift - EDGE, inside)

@@ -72,13 +72,13 @@ def neural_field(s: SourceStep) -> None:
         if name in values.body:
             values.say(name, "carried", "only a matter of cedar's plots and icons")
     shows_activation = values.flag("activation as output", False)
-    shown = s.add(dc.replace(field, kernel=[], global_inhibition=0.0) if apart else field)
-    activation = dc.replace(shown, port="activation")
-    s.outlet("sigmoided activation", _own_output(s, field, activation) if apart else shown)
+    field_output = s.add(dc.replace(field, kernel=[], global_inhibition=0.0) if apart else field)
+    activation = dc.replace(field_output, port="activation")
+    s.outlet("sigmoided activation", _own_output(s, field, activation) if apart else field_output)
     s.outlet(f"{BUFFER}activation", activation, state=True)
     if shows_activation:
         s.outlet("activation", activation, state=True)
-    s.connect(s.slot("input", dims, sums=True), shown)
+    s.connect(s.slot("input", dims, sums=True), field_output)
     s.piece.fails = too_long(listed, axes, ends)
 
 
@@ -133,7 +133,7 @@ def preshape(s: SourceStep) -> None:
     """Translate Preshape, cedar's memory trace: it builds up towards its input, weighted by f(input)."""
     values = s.values
     dims = sizes(values, 50, MOST_DIMENSIONS)
-    peak = s.given("peak detector", ())
+    peak = s.optional("peak detector", ())
     trace = MemoryTrace(
         s.label,
         s.axes(dims),

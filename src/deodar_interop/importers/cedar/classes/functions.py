@@ -30,7 +30,7 @@ def absolute(s: SourceStep, seen: StepSignal) -> StepSignal:
 @step("cedar.processing.steps.Logarithm", "input", gives="result")
 def logarithm(s: SourceStep, seen: StepSignal) -> StepSignal:
     """Translate Logarithm: ln x / ln base; the base may be an input."""
-    base, of_input = s.given("base (optional)", ()), s.function("ln", "log", seen)
+    base, of_input = s.optional("base (optional)", ()), s.function("ln", "log", seen)
     if base is not None:
         whole = s.quotient("ln by ln", of_input, s.function("ln of the base", "log", base), TINY)
         s.explain("Quotient of two Pointwise")
@@ -61,10 +61,10 @@ def linear(s: SourceStep, seen: StepSignal) -> StepSignal:
 
 def _with_shift(s: SourceStep, seen: StepSignal, slot: str, shift: float) -> list[StepSignal]:
     """Return the input and its shift: that of a slot if something is connected there, else a constant."""
-    given = s.given(slot)
-    if given is None and shift:
-        given = s.constant("shift", shift)
-    return [seen] if given is None else [seen, given]
+    shift_signal = s.optional(slot)
+    if shift_signal is None and shift:
+        shift_signal = s.constant("shift", shift)
+    return [seen] if shift_signal is None else [seen, shift_signal]
 
 
 @step("cedar.processing.DivideElementwise", "dividend", "divisor", gives="result")

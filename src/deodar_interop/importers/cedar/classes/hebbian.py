@@ -88,7 +88,7 @@ class _Connection:
         for port, signal in (("input", side), ("post", goal), ("gate", g)):
             s.connect(signal, old, port)
         seen = self.along(source, "source over all", 0) if lines else f
-        read = s.product("weighted", *((seen, old.now) if self.source else (old.now, seen)))
+        read = s.product("weighted", *((seen, old.updated) if self.source else (old.updated, seen)))
         if self.source:
             target_axes = s.axes(self.target)
             read = s.projected("output", read, target_axes, [*(None for _ in self.source), *target_axes])
@@ -103,7 +103,7 @@ class _Connection:
 
     def slot(self, name: str, dims: Counts) -> StepSignal:
         """Return an input slot; 0 if nothing is connected to it."""
-        signal = self.s.given(name, dims)
+        signal = self.s.optional(name, dims)
         return self.s.constant(f"no {name}", 0.0, self.s.axes(dims)) if signal is None else signal
 
     def activity(self, letter: str, side: str, signal: StepSignal, default: SigmoidFunction) -> StepSignal:

@@ -25,7 +25,7 @@ def timer(s: SourceStep) -> None:
     """Translate Timer: seconds for which its run signal is on, since its reset signal was; without any signal
     it is never computed.
     """
-    run, reset = (s.given(f"{name} signal (optional)", ()) for name in ("run", "reset"))
+    run, reset = (s.optional(f"{name} signal (optional)", ()) for name in ("run", "reset"))
     clock = s.add(Integrator(s.label, (), SECOND if reset is None else 1 / s.dt))
     s.outlet("time", clock, state=True)
     if run is None and reset is None:
@@ -45,9 +45,9 @@ def timer(s: SourceStep) -> None:
 @step("cedar.processing.steps.NumericalIntegration", "input", looped=True)
 def integration(s: SourceStep, seen: StepSignal) -> None:
     """Translate NumericalIntegration by Euler steps; it may begin, and begin again, at another input."""
-    values, axes, result = s.values, seen.axes, "integration result"
-    initial = s.given("initial state (optional)")
-    delay, reset = (s.given(f"{name} (optional)", ()) for name in ("delay", "reset signal"))
+    values, axes, out = s.values, seen.axes, "integration result"
+    initial = s.optional("initial state (optional)")
+    delay, reset = (s.optional(f"{name} (optional)", ()) for name in ("delay", "reset signal"))
     if values.flag("use BDF5", False):
         values.say("use BDF5", "approximated", "Euler steps are used")
     if not values.flag("initialize on reset", True) and initial is not None:
@@ -55,18 +55,18 @@ def integration(s: SourceStep, seen: StepSignal) -> None:
     if delay is None and reset is None:
         change = s.add(Integrator(s.label, axes, SECOND), input=seen)
         if initial is None:
-            s.outlet(result, change, state=True)
+            s.outlet(out, change, state=True)
             return
         begins = s.product(
             "initial state at first", _beginning(s, initial, seen), s.rest("first", s.started())
         )
         kept_state = s.add(Delay(axes, name=s.named("initial state kept")))
         s.connect(s.total("initial state to keep", kept_state, begins), kept_state)
-        s.outlet(result, s.total("result", change.now, kept_state.now))
+        s.outlet(out, s.total("result", change.updated, kept_state.updated))
         s.explain("Integrator, and a Sum with its initial state")
         return
     integral = s.add(Integrator(s.label, axes, 1 / s.dt))
-    s.outlet(result, integral, state=True)
+    s.outlet(out, integral, state=True)
     first = None if initial is None else _beginning(s, initial, seen)
     changes = s.gain("change", s.dt * SECOND, seen) if delay is None else s.product("change", seen, delay)
     parts = [changes]
@@ -99,7 +99,7 @@ def differentiation(s: SourceStep, seen: StepSignal) -> StepSignal:
     Steps that are too short or too long are ignored: the result, and the input that the next change begins
     at, are those before.
     """
-    values, took = s.values, s.given("delay (optional)", ())
+    values, took = s.values, s.optional("delay (optional)", ())
     if values.flag("use five points", False):
         values.say("use five points", "approximated", "two points are used")
     shortest = values.number("ignore time steps smaller than", 0.002)
@@ -122,9 +122,9 @@ def differentiation(s: SourceStep, seen: StepSignal) -> StepSignal:
     s.connect(s.product("kept input", last, skipped), last)
     speed = s.quotient("speed", change, took, TINY)
     after = s.product("after the first", s.product("new speed", speed, counts), begun)
-    result = s.total("", after, s.product("kept speed", old, skipped))
-    s.connect(result, old)
-    return result
+    derivative = s.total("", after, s.product("kept speed", old, skipped))
+    s.connect(derivative, old)
+    return derivative
 
 
 @step("cedar.processing.steps.ExponentialSmoothing", "input", gives="forecast", looped=True)
@@ -173,9 +173,9 @@ def oscillator(s: SourceStep) -> None:
     pull = s.gain("pull", stiffness, s.slot("lambda", dims))
     drag = s.gain("drag", -2 * damping * math.sqrt(stiffness), speed)
     force = s.total("force", pull, s.gain("away", -stiffness, place), drag)
-    s.connect(speed.now, place)
+    s.connect(speed.updated, place)
     s.connect(force, speed)
     # what cedar gives is 0 until its first step
-    s.outlet("p", s.total("p", place.now))
-    s.outlet("pDot", s.total("pDot", speed.now))
+    s.outlet("p", s.total("p", place.updated))
+    s.outlet("pDot", s.total("pDot", speed.updated))
     s.outlet("pDotDot", force)

@@ -39,17 +39,17 @@ class _Bank:
         alone = s.turned(f"row of {role}", chosen, ROW, self.state, 0)
         return s.projected(role, alone, self.columns, [None, *self.columns])
 
-    def given(self, slot: str) -> StepSignal | None:
+    def optional(self, slot: str) -> StepSignal | None:
         """Return what arrives at a slot, one number or one for each oscillator; None without it."""
         slot = f"{slot} (optional)"
-        signal = self.s.given(slot)
+        signal = self.s.optional(slot)
         if signal is not None and signal.dims not in ((), tuple(axis.samples for axis in self.columns)):
             raise Unfit(f"{slot!r} has the size {list(signal.dims)} for {self.count} oscillators")
         return signal
 
     def factor(self, name: str, slot: str) -> float | StepSignal:
         """Return a parameter: a number, or what arrives at its slot."""
-        number, signal = self.s.values.number(f"bank {name}", 1.0), self.given(f"{slot} (bank)")
+        number, signal = self.s.values.number(f"bank {name}", 1.0), self.optional(f"{slot} (bank)")
         return number if signal is None else signal
 
     def times(self, role: str, factor: float | StepSignal, signal: StepSignal, by: float = 1.0) -> StepSignal:
@@ -59,7 +59,7 @@ class _Bank:
         product = self.s.product(role, signal, factor)
         return product if by == 1 else self.s.gain(f"{role} by {by:g}", by, product)
 
-    def result(self, *rows: StepSignal) -> StepSignal:
+    def change(self, *rows: StepSignal) -> StepSignal:
         """Return the state with the change of each row."""
         s, axes, parts = self.s, self.state.axes, list[StepSignal]()
         for k, (signal, row) in enumerate(zip(rows, ("first", "second"), strict=True)):
@@ -89,7 +89,7 @@ def hopf(s: SourceStep) -> StepSignal:
     grown, turned = bank.times("alpha u", alpha, u), bank.times("omega v", omega, v, -1.0)
     first = s.total("change of u", grown, turned, s.product("pull of u", u, pull))
     grown, turned = bank.times("alpha v", alpha, v), bank.times("omega u", omega, u)
-    return bank.result(first, s.total("change of v", grown, turned, s.product("pull of v", v, pull)))
+    return bank.change(first, s.total("change of v", grown, turned, s.product("pull of v", v, pull)))
 
 
 @step("cedar.processing.steps.HarmonicOscillatorRHS", gives="state change", sized=True)
@@ -97,7 +97,7 @@ def harmonic(s: SourceStep) -> StepSignal:
     """Translate HarmonicOscillatorRHS: x' = v, v' = -stiffness (x - shift) - damping v."""
     bank = _Bank(s)
     x, v = bank.row(0, "x"), bank.row(1, "v")
-    stiffness, shift = bank.factor("stiffness", "stiffnesss"), bank.given("shift")
+    stiffness, shift = bank.factor("stiffness", "stiffnesss"), bank.optional("shift")
     distance = x if shift is None else s.total("distance", x, s.gain("minus shift", -1.0, shift))
     if not s.values.flag("force critically damped", False):
         damping = bank.factor("damping", "damping")
@@ -108,4 +108,4 @@ def harmonic(s: SourceStep) -> StepSignal:
     doubt = "cedar's equation is not documented, that of a damped spring and a mass of 1 is used"
     s.explain(f"{ROWS}; {doubt}", "approximated")
     pull, drag = bank.times("pull", stiffness, distance, -1.0), bank.times("drag", damping, v, -1.0)
-    return bank.result(v, s.total("force", pull, drag))
+    return bank.change(v, s.total("force", pull, drag))

@@ -106,18 +106,18 @@ def position(s: SourceStep, seen: StepSignal) -> StepSignal:
             turn = Axis(f"turn {axis.name}", 0, axis.samples, axis.samples, periodic=True)
             seen = s.turned(f"ring of {axis.name}", np.eye(axis.samples), turn, seen, d)
     name = s.named("of all axes" if len(axes) > 1 else "")
-    found = (
+    read_out = (
         MaximumPosition(least, name=name)
         if kind == "Maximum"
         else RateCode(seen.axes, least=LEAST, name=name)
     )
     if len(axes) == 1:
-        return s.add(found, (), input=seen)
-    s.explain(type(found).__name__)
+        return s.add(read_out, (), input=seen)
+    s.explain(type(read_out).__name__)
     # the numbers are along an axis of their own, which cedar calls the first dimension
     component = Axis("component", 0, len(axes) - 1, len(axes))
     target_axes = s.axes((len(axes),))
-    return s.projected("", s.add(found, [component], input=seen), target_axes, target_axes)
+    return s.projected("", s.add(read_out, [component], input=seen), target_axes, target_axes)
 
 
 @step("cedar.processing.steps.Delay", "input", gives="output")
@@ -165,7 +165,7 @@ def _wave(s: SourceStep, function: str) -> StepSignal:
         raise Refused("its period is 0")
     phase = s.values.number("phase shift", 0.0)
     clock = s.add(Integrator(s.named("time"), (), SECOND, initial=phase), input=s.constant("one", 1.0))
-    return s.function(function, function, s.gain("angle", 2 * math.pi / period, clock.now))
+    return s.function(function, function, s.gain("angle", 2 * math.pi / period, clock.updated))
 
 
 def _offset(s: SourceStep) -> StepSignal:

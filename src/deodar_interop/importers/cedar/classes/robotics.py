@@ -49,7 +49,7 @@ def _project(s: SourceStep, vector: StepSignal, space: StepSignal) -> None:
     if math.prod(vector.dims) != count or len(vector.dims) > 1:
         raise Refused(f"its vector has the size {list(vector.dims)}, and its Jacobian {count} columns")
     line, square = s.axes((count,)), space.axes
-    vector = dc.replace(vector, known=line)
+    vector = dc.replace(vector, arriving_axes=line)
     wide = s.projected("vector in rows", vector, square, [square[1]])
     inside = s.projected("projected vector", s.product("weighted", space, wide), line, [line[0], None])
     s.outlet("projected vector", inside)

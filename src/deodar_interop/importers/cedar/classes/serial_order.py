@@ -34,17 +34,17 @@ def serial_order(s: SourceStep) -> None:
         [
             s.add(
                 Field(
-                    s.named(f"{role} {k}"), (), tau=tau, resting_level=rest, sigmoid=g, kernel=[], noise=0.0
+                    s.named(f"{role} {k}"), (), tau=tau, resting_level=level, sigmoid=g, kernel=[], noise=0.0
                 )
             )
             for k in range(count)
         ]
-        for role, rest in zip(("node", "memory"), resting_levels, strict=True)
+        for role, level in zip(("node", "memory"), resting_levels, strict=True)
     )
     total = s.total("", *ordinal)
     common = [s.gain("inhibition", inhibition, total)]
     of_memory = s.gain("memory inhibition", others, total)
-    done = s.given("CoS signal input", ())
+    done = s.optional("CoS signal input", ())
     if done is not None:
         common.append(s.gain("minus CoS", -1.0, done))
     for k, (node, kept_node) in enumerate(zip(ordinal, memory, strict=True)):
@@ -54,7 +54,7 @@ def serial_order(s: SourceStep) -> None:
             s.gain(f"memory {k} to node", same, kept_node),
         ]
         if k or cyclic:
-            parts.append(s.gain(f"memory to node {k}", later, memory[k - 1].now if k else memory[-1]))
+            parts.append(s.gain(f"memory to node {k}", later, memory[k - 1].updated if k else memory[-1]))
         else:
             parts.append(s.constant("start", later))
         for part in parts:
@@ -62,12 +62,12 @@ def serial_order(s: SourceStep) -> None:
         parts = [
             of_memory,
             s.gain(f"memory {k} to itself", memory_excitation - others, kept_node),
-            s.gain(f"node {k} to memory", up, node.now),
+            s.gain(f"node {k} to memory", up, node.updated),
         ]
         if cyclic:
-            after = ordinal[0].now if k == count - 1 else ordinal[k + 1]
+            after = ordinal[0].updated if k == count - 1 else ordinal[k + 1]
             parts.append(s.gain(f"node to memory {k}", back, after))
         for part in parts:
             s.connect(part, kept_node)
         # what cedar gives is 0 until its first step
-        s.outlet(f"ordinal node {k} output", s.total(f"output {k}", node.now))
+        s.outlet(f"ordinal node {k} output", s.total(f"output {k}", node.updated))
