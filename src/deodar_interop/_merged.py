@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, TypeVar
 
 from deodar.errors import ModelError
 from deodar.registry import imported
 
 
-class HasName(Protocol):
-    """Something with a name that a file can repeat."""
+class HasNames(Protocol):
+    """Something with names that a file can repeat."""
 
     @property
-    def name(self) -> str: ...
+    def names(self) -> Sequence[str]: ...
 
 
-Named = TypeVar("Named", bound=HasName)
+Named = TypeVar("Named", bound=HasNames)
 
 
 def merged(package: str, table: str) -> dict[Any, Any]:
@@ -36,15 +36,16 @@ def merged(package: str, table: str) -> dict[Any, Any]:
 
 
 def declared(package: str, kind: type[Named]) -> dict[str, Named]:
-    """Return what the files define of one class, by `name`.
+    """Return what the files define of one class, by each of its `names`.
 
     Raises:
-        ModelError: two files define one name.
+        ModelError: two entries have one name.
     """
     entries = {id(e): e for module in imported(package) for e in vars(module).values() if isinstance(e, kind)}
     by_name: dict[str, Named] = {}
     for entry in entries.values():
-        if entry.name in by_name:
-            raise ModelError(f"{package} defines {entry.name} twice")
-        by_name[entry.name] = entry
+        for name in entry.names:
+            if name in by_name:
+                raise ModelError(f"{package} defines {name} twice")
+            by_name[name] = entry
     return by_name

@@ -37,16 +37,16 @@ def test_a_key_in_two_files_is_refused(package: str, monkeypatch: pytest.MonkeyP
 
 @dc.dataclass(frozen=True)
 class Kind:
-    """Something with a name, as `declared` asks for."""
+    """Something with names, as `declared` asks for."""
 
-    name: str
+    names: tuple[str, ...]
 
 
 def test_what_files_define_is_found_by_its_name_once(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    shared = Kind("A")
+    shared = Kind(("A", "B"))
     for module in imported(package):
         monkeypatch.setattr(module, "shared", shared, raising=False)
-    assert _merged.declared(package, Kind) == {"A": shared}
-    monkeypatch.setattr(imported(package)[1], "other", Kind("A"), raising=False)
-    with pytest.raises(ModelError, match="merged_classes defines A twice"):
+    assert _merged.declared(package, Kind) == {"A": shared, "B": shared}
+    monkeypatch.setattr(imported(package)[1], "other", Kind(("B",)), raising=False)
+    with pytest.raises(ModelError, match="merged_classes defines B twice"):
         _merged.declared(package, Kind)

@@ -339,7 +339,7 @@ class StepKind:
     """A type of cedar's steps, and the function that translates it.
 
     Attributes:
-        name: cedar's name of the type.
+        names: cedar's name of the type.
         rule: the translation.
         slots: input slots whose signals the function takes; one that ends in "?" may be empty, and is None
             then.
@@ -349,7 +349,7 @@ class StepKind:
         looped: whether it has a state, which triggers call: all other types follow from these.
     """
 
-    name: str
+    names: tuple[str]
     rule: StepRule
     slots: tuple[str, ...]
     gives: str
@@ -379,4 +379,4 @@ def step(
     name: str, *slots: str, gives: str = "", why: str = "", sized: bool = False, looped: bool = False
 ) -> Callable[[StepRule], StepKind]:
     """Return the decorator that makes a function the translation of a type of steps; see `StepKind`."""
-    return lambda rule: StepKind(name, rule, slots, gives, why, sized, looped)
+    return lambda rule: StepKind((name,), rule, slots, gives, why, sized, looped)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 
+from deodar_interop.importers._element import FileElement
 from deodar_interop.importers._foreign import Foreign
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Dims
@@ -12,38 +13,32 @@ from deodar_interop.importers.cosivina.sizes import Dimensions, output_size
 from deodar_interop.importers.cosivina.values import Values
 
 
-class SourceElement:
-    """The context of the translation of one element: its parameters, the axes, the step, its readers, and the
-    report lines so far.
-    """
+class SourceElement(FileElement):
+    """The context of the translation of one element: its parameters, and the known errors that it touches."""
 
     def __init__(
         self,
         simulator: Simulator,
         dims: Dimensions,
         element: Foreign,
-        components_read: set[str],
+        components_read: AbstractSet[str],
         names: FreeNames,
         bugs: bool,
     ) -> None:
+        super().__init__(element, simulator.step, dims, components_read, names)
         self.simulator = simulator
-        self.step = simulator.step
-        self.element = element
-        self.label = element.label
         self.values = Values(element.values, element.label)
-        self.components_read = components_read
         self.reproduce = bugs
         self.met: list[str] = []
-        self._dims = dims
-        self._names = names
 
     def dims(self, component: str = "") -> Dims:
         """Return the dimensions of an output."""
-        return self._dims.of(output_size(self.element, component))
+        return self.of(output_size(self.element, component))
 
-    def of(self, counts: Sequence[int]) -> Dims:
-        """Return the dimensions of a size."""
-        return self._dims.of(counts)
+    def sized(self) -> Dims:
+        """Return the dimensions of the output, and report the parameter that states them."""
+        self.values.size()
+        return self.dims()
 
     def source(self, k: int) -> Dims | None:
         """Return the dimensions of an input, as its source declares them; None without this input."""
@@ -61,11 +56,7 @@ class SourceElement:
             passed.add(element.label)  # its size is that of its second input, and is not in the file
             s = element.sources[1]
             element = self.simulator.by_label.get(s.label)
-        return None if element is None else self._dims.of(output_size(element, s.component))
-
-    def named(self, role: str) -> str:
-        """Return a name for a further deodar element: the label and what it is."""
-        return self._names.new(f"{self.label} {role}")
+        return None if element is None else self.of(output_size(element, s.component))
 
     def bug(self, error: str) -> bool:
         """Return whether to reproduce a known error of cosivina that this element touches."""

@@ -1,11 +1,8 @@
-"""The translation of each class of cosivina, by families; each file states its `CLASSES`."""
+"""The translation of each class, by cosivina's categories: functions that `translates` decorates."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from deodar_interop import _merged
-from deodar_interop.importers._piece import Piece
-from deodar_interop.importers.cosivina.element import SourceElement
+from deodar_interop.importers._element import ElementKind
 
-CLASSES: dict[str, Callable[[SourceElement], Piece]] = _merged.merged(__name__, "CLASSES")
+CLASSES = _merged.declared(__name__, ElementKind)

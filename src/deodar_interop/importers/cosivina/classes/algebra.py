@@ -8,59 +8,41 @@ from deodar.couplings.sigmoid import Sigmoid
 from deodar.couplings.sum import Sum
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.semilinear import SemiLinear
-from deodar_interop.importers._piece import Inlet, Outlet, Piece
+from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers.cosivina.classes.fields import STEEPEST
 from deodar_interop.importers.cosivina.element import SourceElement
 
 
-def sum_inputs(b: SourceElement) -> Piece:
+@translates("SumInputs")
+def sum_inputs(b: SourceElement) -> ElementSignal:
     """Translate SumInputs."""
-    b.values.size()
-    dims = b.dims()
-    inlet = Inlet(b.label, dims, whole=True)
-    return Piece(
-        [Sum(name=b.label)], [[inlet]], {"output": Outlet(b.label, dims)}, sums=True, needs=1, why="Sum"
-    )
+    return b.add(Sum(name=b.label), input=b.input(b.sized(), sums=True))
 
 
-def scale_input(b: SourceElement) -> Piece:
+@translates("ScaleInput")
+def scale_input(b: SourceElement) -> ElementSignal:
     """Translate ScaleInput."""
-    return _one(b, Gain(b.values.number("amplitude", 0), name=b.label))
+    return b.add(Gain(b.values.number("amplitude", 0), name=b.label), input=b.input(b.sized()))
 
 
-def half_wave(b: SourceElement) -> Piece:
+@translates("HalfWaveRectification")
+def half_wave(b: SourceElement) -> ElementSignal:
     """Translate HalfWaveRectification."""
-    return _one(b, Sigmoid(SemiLinear(1.0, 0.0), name=b.label))
+    return b.add(Sigmoid(SemiLinear(1.0, 0.0), name=b.label), input=b.input(b.sized()))
 
 
-def sigmoid(b: SourceElement) -> Piece:
+@translates("Sigmoid")
+def sigmoid(b: SourceElement) -> ElementSignal:
     """Translate Sigmoid."""
     logistic = Logistic(b.values.number("beta", 1, 1e-6, STEEPEST), b.values.number("threshold", 0))
-    return _one(b, Sigmoid(logistic, name=b.label))
+    return b.add(Sigmoid(logistic, name=b.label), input=b.input(b.sized()))
 
 
-def product(b: SourceElement) -> Piece:
+@translates("PointwiseProduct")
+def product(b: SourceElement) -> ElementSignal:
     """Translate PointwiseProduct of two inputs, one of which may be smaller."""
-    b.values.size()
-    dims = b.dims()
-    ports = [[Inlet(b.label, dims, whole=True)], [Inlet(b.label, dims, "factor")]]
-    second = b.source(1)
-    if second == dims and b.source(0) != dims:  # the port `input` takes the larger one
-        ports = [[Inlet(b.label, dims, "factor")], [Inlet(b.label, dims, whole=True)]]
-    return Piece([Product(name=b.label)], ports, {"output": Outlet(b.label, dims)}, needs=2, why="Product")
-
-
-def _one(b: SourceElement, element: Gain | Sigmoid) -> Piece:
-    b.values.size()
-    dims = b.dims()
-    inlet = Inlet(b.label, dims, whole=True)
-    return Piece([element], [[inlet]], {"output": Outlet(b.label, dims)}, needs=1, why=type(element).__name__)
-
-
-CLASSES = {
-    "SumInputs": sum_inputs,
-    "ScaleInput": scale_input,
-    "HalfWaveRectification": half_wave,
-    "Sigmoid": sigmoid,
-    "PointwiseProduct": product,
-}
+    dims = b.sized()
+    turned = b.source(1) == dims and b.source(0) != dims  # the port `input` takes the larger one
+    first, second = b.input(dims, whole=not turned), b.input(dims, whole=turned)
+    larger, factor = (second, first) if turned else (first, second)
+    return b.add(Product(name=b.label), input=larger, factor=factor)

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 
-from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.field import Field
 from deodar.elements.history import History
@@ -18,7 +17,8 @@ from deodar.model.paths import display
 from deodar.numerics.axes import Axis, shape
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.windows import FOR_EVER
-from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes
+from deodar_interop.importers._element import ElementSignal, translates
+from deodar_interop.importers._piece import Dims, Unfit, axes
 from deodar_interop.importers.cosivina.components import PHASE_PLOT
 from deodar_interop.importers.cosivina.element import SourceElement
 
@@ -28,26 +28,24 @@ MOST_COUNTED = 1_000_000
 """Number of steps up to which cosivina's counting of time is reproduced, with its rounding."""
 
 
-def neural_field(b: SourceElement) -> Piece:
+@translates("NeuralField")
+def neural_field(b: SourceElement) -> None:
     """Translate NeuralField: kernels and noise remain separate elements, as in the file."""
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     sigmoid = Logistic(b.values.number("beta", 4, 1e-6, STEEPEST))
-    field = Field(
-        b.label, axes(dims), tau=_tau(b, "tau", 10), resting_level=b.values.number("h", -5), sigmoid=sigmoid
+    tau, level = _tau(b, "tau", 10), b.values.number("h", -5)
+    field = b.add(
+        Field(b.label, axes(dims), tau=tau, resting_level=level, sigmoid=sigmoid), input=_added(b, dims)
     )
-    outlets = {c: Outlet(b.label, dims, c, state=True) for c in ("output", "activation")}
-    elements: list[Element] = [field]
+    for component in ("output", "activation"):
+        b.outlet(component, field.at(component), state=True)
     if "h" in b.components_read:  # plots of cosivina add it to what they show
-        level = Boost(b.named("h"), (), field.resting_level)
-        elements.append(level)
-        outlets["h"] = Outlet(level.name, (None, None), still=True)
-    return Piece(
-        elements, [[Inlet(b.label, dims)]], outlets, elsewhere={"h": _level(b)}, sums=True, why="Field"
-    )
+        b.outlet("h", b.add(Boost(b.named("h"), (), level), (None, None)), still=True)
+    b.piece.elsewhere = {"h": _level(b)}
 
 
-def single_node(b: SourceElement) -> Piece:
+@translates("SingleNodeDynamics")
+def single_node(b: SourceElement) -> None:
     """Translate SingleNodeDynamics, without the samples of its phase plot."""
     for name in ("range", "resolution"):
         if name in b.element.values:
@@ -60,42 +58,44 @@ def single_node(b: SourceElement) -> Piece:
         self_excitation=b.values.number("selfExcitation", 0),
         noise=b.values.number("noiseLevel", 0, 0),
     )
-    ports = {"output": "output", "activation": "activation", "rateOfChange": "rate"}
-    elsewhere = {"h": _level(b), "input": f"read {display((b.label, 'input'))}"}
-    elsewhere |= dict.fromkeys(PHASE_PLOT, "of the phase plot only: dd.phase computes it")
-    outlets = {c: Outlet(b.label, (None, None), port, state=True) for c, port in ports.items()}
-    return Piece(
-        [node], [[Inlet(b.label, (None, None))]], outlets, elsewhere=elsewhere, sums=True, why="RateNode"
-    )
+    output = b.add(node, input=_added(b, (None, None)))
+    for component, port in {"output": "output", "activation": "activation", "rateOfChange": "rate"}.items():
+        b.outlet(component, output.at(port), state=True)
+    b.piece.elsewhere = {"h": _level(b), "input": f"read {display((b.label, 'input'))}"}
+    b.piece.elsewhere |= dict.fromkeys(PHASE_PLOT, "of the phase plot only: dd.phase computes it")
+
+
+def _added(b: SourceElement, dims: Dims) -> ElementSignal:
+    """Return the sum of all inputs, of which there may be none."""
+    return b.input(dims, whole=False, needed=False, sums=True)
 
 
 def _level(b: SourceElement) -> str:
     return f"the parameter {display((b.label, 'resting_level'))}"
 
 
-def memory_trace(b: SourceElement) -> Piece:
+@translates("MemoryTrace")
+def memory_trace(b: SourceElement) -> None:
     """Translate MemoryTrace.
 
     Its rates are per step for any step, so that time constants are those of the file times its step.
     """
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     build = _per_step(b, "tauBuild", 100)
     decay = _per_step(b, "tauDecay", b.values.number("tauBuild", 100, 1e-6))
-    trace = MemoryTrace(
-        b.label, axes(dims), tau_build=build, tau_decay=decay, threshold=b.values.number("threshold", 0.5)
+    threshold = b.values.number("threshold", 0.5)
+    trace = b.add(
+        MemoryTrace(b.label, axes(dims), tau_build=build, tau_decay=decay, threshold=threshold),
+        input=b.input(dims, whole=False),
     )
-    outlets = {
-        c: Outlet(b.label, dims, port, state=True)
-        for c, port in (("output", "output"), ("activeRegions", "active"))
-    }
-    return Piece([trace], [[Inlet(b.label, dims)]], outlets, needs=1, why="MemoryTrace")
+    b.outlet("output", trace, state=True)
+    b.outlet("activeRegions", trace.at("active"), state=True)
 
 
-def dynamic_variable(b: SourceElement) -> Piece:
+@translates("DynamicVariable")
+def dynamic_variable(b: SourceElement) -> None:
     """Translate DynamicVariable, an integrator."""
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     tau = b.values.number("tau", 10)
     if tau == 0:
         tau = 10.0
@@ -109,24 +109,22 @@ def dynamic_variable(b: SourceElement) -> Piece:
     initial = float(initial_state.reshape(-1)[0]) if initial_state is not None and level else 0.0
     start = initial_state.reshape(shape(axes(dims))) if initial_state is not None and not level else None
     element = Integrator(b.label, axes(dims), 1 / tau, initial, start)
-    outlets = {"state": Outlet(b.label, dims, state=True)}
-    elsewhere = {
-        "initialState": f"the parameter {display((b.label, 'initial' if start is None else 'start'))}"
-    }
-    return Piece(
-        [element], [[Inlet(b.label, dims)]], outlets, elsewhere=elsewhere, sums=True, why="Integrator"
-    )
+    b.outlet("state", b.add(element, input=_added(b, dims)), state=True)
+    held = display((b.label, "initial" if start is None else "start"))
+    b.piece.elsewhere = {"initialState": f"the parameter {held}"}
 
 
-def running_history(b: SourceElement) -> Piece:
+@translates("RunningHistory")
+def running_history(b: SourceElement) -> None:
     """Translate RunningHistory: the newest row first."""
     dims = b.of(b.values.size())
     slots, out_dims = _slots(b, dims, int(b.values.number("timeSlots", 1, 1, 100_000)))
-    history = History(b.label, axes(dims), slots, b.values.number("interval", 1, 1e-6), _empty(b))
-    return _stored(b, history, dims, out_dims)
+    element = History(b.label, axes(dims), slots, b.values.number("interval", 1, 1e-6), _empty(b))
+    _store(b, element, dims, out_dims)
 
 
-def history(b: SourceElement) -> Piece:
+@translates("History")
+def history(b: SourceElement) -> None:
     """Translate History: a row for each listed time."""
     dims = b.of(b.values.size())
     storing_times = b.values.matrix("storingTimes")
@@ -134,9 +132,8 @@ def history(b: SourceElement) -> Piece:
         raise Unfit("it lists no times at which to store")
     times = storing_times.reshape(-1)
     slots, out_dims = _slots(b, dims, times.size)
-    return _stored(
-        b, SampledHistory(b.label, axes(dims), slots, _moments(b, times), _empty(b)), dims, out_dims
-    )
+    element = SampledHistory(b.label, axes(dims), slots, _moments(b, times), _empty(b))
+    _store(b, element, dims, out_dims)
 
 
 def _moments(b: SourceElement, times: np.ndarray) -> np.ndarray:
@@ -183,22 +180,14 @@ def _empty(b: SourceElement) -> str:
     return "zero" if b.components_read else "nan"
 
 
-def _stored(b: SourceElement, element: History | SampledHistory, dims: Dims, out_dims: Dims) -> Piece:
-    why = type(element).__name__
+def _store(b: SourceElement, element: History | SampledHistory, dims: Dims, out_dims: Dims) -> None:
+    b.outlet("output", b.add(element, out_dims, input=b.input(dims, whole=False)), state=True)
     if b.components_read:
-        why += (
-            "; what is not stored yet is 0, since elements read it: NaN, as in cosivina, would make them"
+        doubt = (
+            "what is not stored yet is 0, since elements read it: NaN, as in cosivina, would make them"
             " undefined permanently"
         )
-    outlets = {"output": Outlet(b.label, out_dims, state=True)}
-    return Piece(
-        [element],
-        [[Inlet(b.label, dims)]],
-        outlets,
-        needs=1,
-        verdict="approximated" if b.components_read else "carried",
-        why=why,
-    )
+        b.explain(f"{type(element).__name__}; {doubt}", "approximated")
 
 
 def _tau(b: SourceElement, name: str, default: float) -> float:
@@ -211,13 +200,3 @@ def _per_step(b: SourceElement, name: str, default: float) -> float:
     if name in b.element.values and b.step != 1 and b.values.lines[name].verdict == "carried":
         b.values.say(name, "carried", f"times the step {b.step:g}, since cosivina's rate is per step")
     return max(rate * b.step, 1e-6)
-
-
-CLASSES = {
-    "NeuralField": neural_field,
-    "SingleNodeDynamics": single_node,
-    "DynamicVariable": dynamic_variable,
-    "MemoryTrace": memory_trace,
-    "RunningHistory": running_history,
-    "History": history,
-}

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from deodar.couplings.convolve import Convolve
 from deodar.couplings.interaction import Interaction
 from deodar.couplings.project import Project
-from deodar.element import Element
 from deodar.model.paths import display
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.kernels.shifted import Shifted
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
-from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, axes, projection
+from deodar_interop.importers._element import ElementSignal, translates
+from deodar_interop.importers._piece import Dims, axes
 from deodar_interop.importers.cosivina.classes.stimuli import LETTERS, boundary
 from deodar_interop.importers.cosivina.components import components
 from deodar_interop.importers.cosivina.element import SourceElement
@@ -24,6 +24,9 @@ WHOLE = 1e6
 
 ALIKE = 0.1
 """Largest width, as a share of a ring, at which a Gaussian and the sum of its images agree to 1e-6."""
+
+SUMS = ("horizontalSum", "verticalSum", "fullSum")
+"""Components that are sums of the input."""
 
 PADDED = 4.0
 """Padding, in widths, from which the wrapping of a transform has no effect."""
@@ -87,24 +90,23 @@ class TransformForm:
         return all(self.circular) or not axes(self.dims) or narrow
 
 
-def kernel_1d(b: SourceElement) -> Piece:
-    """Translate GaussKernel1D."""
-    form = _form(b)
-    kernel = form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))
-    return dc.replace(_convolve(b, form, [kernel]), passes_noise=True)
-
-
-def kernel_nd(b: SourceElement) -> Piece:
-    """Translate GaussKernel2D and 3D; the amplitude is applied on one axis, which gives the same product."""
+@translates("GaussKernel1D", "GaussKernel2D", "GaussKernel3D")
+def gauss(b: SourceElement) -> ElementSignal:
+    """Translate GaussKernel1D, 2D and 3D; the amplitude is on one axis, which gives the same product."""
     form = _form(b)
     mixed = b.element.kind == "GaussKernel3D" and len(form.ends) == 3 and form.ends[0] != form.ends[1]
     if mixed and b.bug("GaussKernel3D reads circularY for its convolution along x"):
         form = dc.replace(form, ends=[form.ends[0], form.ends[0], form.ends[2]])
     kernel = form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))
-    return dc.replace(_convolve(b, form, [kernel]), passes_noise=True)
+    b.piece.passes_noise = True
+    return _convolve(b, form, [kernel])
 
 
-def difference(b: SourceElement) -> Piece:
+@translates(
+    *(f"{family}{count}D" for family in ("MexicanHatKernel", "LateralInteractions") for count in (1, 2, 3)),
+    "LateralInteractionsShifted1D",
+)
+def difference(b: SourceElement) -> ElementSignal | None:
     """Translate MexicanHatKernel and LateralInteractions of one to three dimensions, shifted or not.
 
     Each is two Gaussians, with or without a constant.
@@ -122,26 +124,26 @@ def difference(b: SourceElement) -> Piece:
     if b.element.kind.startswith("MexicanHat"):
         return _convolve(b, form, kernels)
     inhibition = -b.values.number("amplitudeGlobal", 0) + 0.0
-    return _interaction(b, form.dims, Interaction(kernels, inhibition, name=b.label))
+    _interact(b, form.dims, Interaction(kernels, inhibition, name=b.label))
+    return None
 
 
-def discrete(b: SourceElement) -> Piece:
+@translates("LateralInteractionsDiscrete")
+def discrete(b: SourceElement) -> None:
     """Translate LateralInteractionsDiscrete: self-excitation of every position, and global inhibition."""
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     form = KernelForm(dims, ["periodic" if a.periodic else "zero" for a in axes(dims)], True, 0.0)
     kernel = form.gaussian(b.values.number("amplitudeExc", 0), [1e-6] * len(dims))
-    return _interaction(
-        b, dims, Interaction([kernel], -b.values.number("amplitudeGlobal", 0) + 0.0, name=b.label)
-    )
+    inhibition = -b.values.number("amplitudeGlobal", 0) + 0.0
+    _interact(b, dims, Interaction([kernel], inhibition, name=b.label))
 
 
-def kernel_fft(b: SourceElement) -> Piece:
+@translates("KernelFFT", "KernelInverseFFT")
+def kernel_fft(b: SourceElement) -> None:
     """Translate KernelFFT, and its inverse half: kernels over the whole ring, or over an input padded with
     zeros.
     """
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     count = max(len(axes(dims)), 1)
     circular = [True] * count
     if b.element.kind == "KernelFFT":
@@ -159,56 +161,44 @@ def kernel_fft(b: SourceElement) -> Piece:
     form = TransformForm(dims, circular, normalized, b.values.number("paddingFactor", 5, 0))
     gaussians = ((up, wide), (-down, wider))
     kernels = [form.kernel(amplitude, sigmas) for amplitude, sigmas in gaussians]
-    piece = _interaction(b, dims, Interaction(kernels, -overall + 0.0, name=b.label))
-    if not any(form.differs(amplitude, sigmas) for amplitude, sigmas in gaussians):
-        return dc.replace(piece, why="Interaction", verdict="carried")
-    why = "Interaction, as if the padding were endless and Gaussians on rings had all their images"
-    return dc.replace(piece, why=why, verdict="approximated")
+    _interact(b, dims, Interaction(kernels, -overall + 0.0, name=b.label))
+    if any(form.differs(amplitude, sigmas) for amplitude, sigmas in gaussians):
+        why = "Interaction, as if the padding were endless and Gaussians on rings had all their images"
+        b.explain(why, "approximated")
 
 
-def fourier(b: SourceElement) -> Piece:
+@translates("FastFourierTransform")
+def fourier(b: SourceElement) -> ElementSignal:
     """Translate FastFourierTransform: only KernelInverseFFT can read its output, so it passes its input."""
-    b.values.size()
-    dims = b.dims()
-    return Piece(
-        [Project(axes(dims), name=b.label)],
-        [[Inlet(b.label, dims)]],
-        {"output": Outlet(b.label, dims)},
-        needs=1,
-        why="Project, untransformed",
-    )
+    dims = b.sized()
+    b.explain("Project, untransformed")
+    return b.add(Project(axes(dims), name=b.label), input=b.input(dims))
 
 
-def sums(b: SourceElement) -> tuple[list[Element], list[Inlet], dict[str, Outlet]]:
-    """Return the sums of its input that an element offers: `horizontalSum`, `verticalSum`, `fullSum`.
+def add_sums(b: SourceElement, seen: ElementSignal, names: Sequence[str] = SUMS) -> None:
+    """Add the sums of its input that an element offers, by the names of the components.
 
     Sums without a reader cost nothing in a step.
     """
-    size = b.values.size()
-    dims = b.of(size) if b.element.kind == "SumAllDimensions" else b.dims()
-    elements, inlets, outlets = list[Element](), list[Inlet](), dict[str, Outlet]()
-    for component in ("horizontalSum", "verticalSum", "fullSum"):
+    alone = b.element.kind == "SumAllDimensions"
+    for component in names:
         if component not in components(b.element.kind):
             continue
         sum_dims = b.dims(component)
-        if component == "fullSum" and b.element.kind != "SumAllDimensions":
-            outlets[component] = Outlet(b.label, sum_dims, "total")
+        if component == "fullSum" and not alone:
+            b.outlet(component, ElementSignal(b.label, sum_dims, "total"))
             continue
-        name = b.label if component == "fullSum" else b.named(component)
         left_axis = {"horizontalSum": 0, "verticalSum": 1}.get(component)
-        places = [sum_dims[1] if d == left_axis else None for d, a in enumerate(dims) if a is not None]
-        elements.append(projection(name, axes(dims), sum_dims, places))
-        inlets.append(Inlet(name, dims, whole=True))
-        outlets[component] = Outlet(name, sum_dims)
-    return elements, inlets, outlets
+        places = [sum_dims[1] if d == left_axis else None for d, a in enumerate(seen.dims) if a is not None]
+        role = "" if component == "fullSum" else component
+        b.outlet(component, b.projected(role, seen, sum_dims, places))
 
 
 # ----------------------------------------------------------------------------------------------------- inside
 
 
 def _form(b: SourceElement) -> KernelForm:
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     flags = _flags(b, KernelForm(dims, [], True, 5.0))
     ends = ["periodic" if f else "zero" for f, a in zip(flags, dims, strict=True) if a is not None]
     return KernelForm(
@@ -228,19 +218,16 @@ def _widths(b: SourceElement, name: str, form: KernelForm) -> list[float]:
     return [b.values.width(f"{name}{letter}") for letter, _ in zip(LETTERS, form.dims, strict=False)]
 
 
-def _convolve(b: SourceElement, form: KernelForm, kernels: Sequence[Kernel]) -> Piece:
-    element = Convolve(kernels, name=b.label)
-    inlets, outlets = [[Inlet(b.label, form.dims, whole=True)]], {"output": Outlet(b.label, form.dims)}
-    return Piece([element], inlets, outlets, elsewhere=_constants(b), needs=1, why="Convolve")
+def _convolve(b: SourceElement, form: KernelForm, kernels: Sequence[Kernel]) -> ElementSignal:
+    b.piece.elsewhere = _constants(b)
+    return b.add(Convolve(kernels, name=b.label), input=b.input(form.dims))
 
 
-def _interaction(b: SourceElement, dims: Dims, element: Interaction) -> Piece:
-    extra, inlets, outlets = sums(b)
-    first = {"output": Outlet(b.label, dims)}
-    inlets = [[Inlet(b.label, dims, whole=True), *inlets]]
-    return Piece(
-        [element, *extra], inlets, first | outlets, elsewhere=_constants(b), needs=1, why="Interaction"
-    )
+def _interact(b: SourceElement, dims: Dims, element: Interaction) -> None:
+    seen = b.input(dims)
+    b.outlet("output", b.add(element, input=seen))
+    add_sums(b, seen)
+    b.piece.elsewhere = _constants(b)
 
 
 def _constants(b: SourceElement) -> dict[str, str]:
@@ -256,21 +243,3 @@ def _constants(b: SourceElement) -> dict[str, str]:
         elif component == "amplitudeExc":
             out[component] = f"the parameter {display((b.label, 'kernel', '0', 'amplitude'))}"
     return out
-
-
-CLASSES = {
-    "GaussKernel1D": kernel_1d,
-    "GaussKernel2D": kernel_nd,
-    "GaussKernel3D": kernel_nd,
-    "MexicanHatKernel1D": difference,
-    "MexicanHatKernel2D": difference,
-    "MexicanHatKernel3D": difference,
-    "LateralInteractions1D": difference,
-    "LateralInteractions2D": difference,
-    "LateralInteractions3D": difference,
-    "LateralInteractionsShifted1D": difference,
-    "LateralInteractionsDiscrete": discrete,
-    "KernelFFT": kernel_fft,
-    "KernelInverseFFT": kernel_fft,
-    "FastFourierTransform": fourier,
-}

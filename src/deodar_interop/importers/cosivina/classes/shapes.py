@@ -11,33 +11,33 @@ from deodar.couplings.diagonal_expansion import DiagonalExpansion
 from deodar.couplings.diagonal_sum import DiagonalSum
 from deodar.couplings.gain import Gain
 from deodar.couplings.sum import Sum
-from deodar.element import Element
 from deodar.elements.pattern import Pattern
 from deodar.numerics.axes import Axis, shape
 from deodar.numerics.kernels.gaussian import NARROWEST
 from deodar.numerics.kernels.shifted import Shifted
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
-from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes, projection
-from deodar_interop.importers.cosivina.classes.kernels import sums
+from deodar_interop.importers._element import ElementSignal, translates
+from deodar_interop.importers._piece import Dims, Unfit, axes
+from deodar_interop.importers.cosivina.classes.kernels import add_sums
 from deodar_interop.importers.cosivina.classes.stimuli import boundary
 from deodar_interop.importers.cosivina.element import SourceElement
 
 
-def transpose(b: SourceElement) -> Piece:
+@translates("Transpose")
+def transpose(b: SourceElement) -> ElementSignal:
     """Translate Transpose: its size is that of the output."""
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     if len(dims) != 2:
         raise Unfit("only two dimensions can be transposed")
     came = b.of((_count(dims[1]), _count(dims[0])))
     places = [a for a, old in zip(reversed(dims), came, strict=True) if old is not None]
-    return _projected(b, came, dims, places)
+    return b.projected("", b.input(came), dims, places)
 
 
-def sum_dimension(b: SourceElement) -> Piece:
+@translates("SumDimension")
+def sum_dimension(b: SourceElement) -> ElementSignal:
     """Translate SumDimension: a projection that sums, then a gain."""
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     listed = b.values.matrix("sumDimensions")
     summed = {int(v) - 1 for v in listed.reshape(-1)} if listed is not None else {0}
     came = b.source(0) or dims
@@ -56,37 +56,30 @@ def sum_dimension(b: SourceElement) -> Piece:
             f" its output {list(shape(target_axes))}"
         )
     becomes = dict(zip(remaining, target_axes, strict=True))
-    name = b.named("sum")
-    project = projection(name, axes(came), dims, [becomes.get(a) for a in axes(came)])
-    gain = Gain(b.values.number("amplitude", 1), name=b.label)
-    return Piece(
-        [gain, project],
-        [[Inlet(name, came, whole=True)]],
-        {"output": Outlet(b.label, dims)},
-        [(name, b.label)],
-        needs=1,
-        why="Project and Gain",
-    )
+    b.explain("Project and Gain")
+    summed_input = b.projected("sum", b.input(came), dims, [becomes.get(a) for a in axes(came)])
+    return b.add(Gain(b.values.number("amplitude", 1), name=b.label), input=summed_input)
 
 
-def sum_all(b: SourceElement) -> Piece:
+@translates("SumAllDimensions")
+def sum_all(b: SourceElement) -> None:
     """Translate SumAllDimensions: one projection for each sum that has a reader."""
-    elements, inlets, outlets = sums(b)
-    first = {"fullSum": outlets["fullSum"]}
-    return Piece(list(reversed(elements)), [inlets], first | outlets, needs=1, why="Project")
+    seen = b.input(b.of(b.values.size()))
+    add_sums(b, seen, ("fullSum", "horizontalSum", "verticalSum"))
 
 
-def expand_2d(b: SourceElement) -> Piece:
+@translates("ExpandDimension2D")
+def expand_2d(b: SourceElement) -> ElementSignal:
     """Translate ExpandDimension2D: a row or column of any orientation, along one dimension of a plane."""
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     along = int(b.values.number("expandDimension", 1, 1, 2)) - 1
     along_axis = dims[1 - along]
     came = b.source(0) or tuple(along_axis if d == 1 - along else None for d in range(2))
     return _expand(b, came, dims, [along_axis] if along_axis is not None else [])
 
 
-def expand(b: SourceElement) -> Piece:
+@translates("ExpandDimension")
+def expand(b: SourceElement) -> ElementSignal:
     """Translate ExpandDimension: the mapping assigns each dimension of the input; the others are filled with
     copies.
     """
@@ -106,52 +99,38 @@ def expand(b: SourceElement) -> Piece:
     )
 
 
-def diagonal_sum(b: SourceElement) -> Piece:
+@translates("DiagonalSum")
+def diagonal_sum(b: SourceElement) -> ElementSignal:
     """Translate DiagonalSum: a sum along diagonals, then a gain."""
     side = b.values.size("inputSize")[-1]
     came, dims = b.of((side, side)), b.dims()
-    amplitude = b.values.number("amplitude", 0)
-    if None in came:
-        return _gain(b, amplitude, came, dims)
-    name = b.named("sum")
-    elements: list[Element] = [Gain(amplitude, name=b.label), DiagonalSum(axes(dims), name=name)]
-    inlets = [[Inlet(name, came, whole=True)]]
-    return Piece(
-        elements,
-        inlets,
-        {"output": Outlet(b.label, dims)},
-        [(name, b.label)],
-        needs=1,
-        why="DiagonalSum and Gain",
-    )
+    gain = Gain(b.values.number("amplitude", 0), name=b.label)
+    if None in came:  # a diagonal of one sample
+        return b.add(gain, dims, input=b.input(came, whole=False))
+    b.explain("DiagonalSum and Gain")
+    diagonals = DiagonalSum(axes(dims), name=b.named("sum"))
+    return b.add(gain, input=b.add(diagonals, dims, input=b.input(came)))
 
 
-def diagonal_expansion(b: SourceElement) -> Piece:
+@translates("DiagonalExpansion")
+def diagonal_expansion(b: SourceElement) -> ElementSignal:
     """Translate DiagonalExpansion. cosivina never applies its amplitude; 0, if none was given, means 1."""
     came, dims = b.of(b.values.size("inputSize")), b.dims()
     amplitude = _unused_amplitude(b)
-    if None in dims:
-        return _gain(b, amplitude, came, dims)
-    name = b.named("scaled")
-    elements: list[Element] = [DiagonalExpansion(axes(dims), name=b.label), Gain(amplitude, name=name)]
-    inlets = [[Inlet(name, came, whole=True)]]
-    return Piece(
-        elements,
-        inlets,
-        {"output": Outlet(b.label, dims)},
-        [(name, b.label)],
-        needs=1,
-        why="Gain and DiagonalExpansion",
-    )
+    if None in dims:  # a diagonal of one sample
+        return b.add(Gain(amplitude, name=b.label), dims, input=b.input(came, whole=False))
+    b.explain("Gain and DiagonalExpansion")
+    scaled = b.add(Gain(amplitude, name=b.named("scaled")), input=b.input(came))
+    return b.add(DiagonalExpansion(axes(dims), name=b.label), dims, input=scaled)
 
 
-def shift_input(b: SourceElement) -> Piece:
+@translates("ShiftInput")
+def shift_input(b: SourceElement) -> None:
     """Translate ShiftInput: a shifted kernel of one sample.
 
     cosivina never applies its amplitude; 0, if none was given, means 1.
     """
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     target_axes = axes(dims)
     listed = b.values.matrix("shiftValue")
     # a constructor that counts wrongly puts zeros in front
@@ -163,14 +142,12 @@ def shift_input(b: SourceElement) -> Piece:
     kernel = Shifted(
         TruncatedGaussian(amplitude, NARROWEST, 0.0, normalized=True), amounts or 0.0, boundary=ends
     )
-    if not fill or circular or not target_axes:
-        return Piece(
-            [Convolve([kernel], name=b.label)],
-            [[Inlet(b.label, dims, whole=True)]],
-            {"output": Outlet(b.label, dims, initial=fill)},
-            needs=1,
-            why="Convolve",
-        )
+    border_is_filled = bool(fill and not circular and target_axes)
+    moved = Convolve([kernel], name=b.named("moved" if border_is_filled else ""))
+    shifted = b.add(moved, input=b.input(dims))
+    if not border_is_filled:
+        b.outlet("output", shifted, initial=fill)
+        return
     border = np.full(shape(target_axes), fill)
     border[
         tuple(
@@ -178,21 +155,9 @@ def shift_input(b: SourceElement) -> Piece:
             for s, a in zip(amounts, target_axes, strict=True)
         )
     ] = 0.0
-    moved, filled = b.named("moved"), b.named("border")
-    elements: list[Element] = [
-        Sum(name=b.label),
-        Convolve([kernel], name=moved),
-        Pattern(filled, target_axes, border),
-    ]
-    inner = [(moved, b.label), (filled, b.label)]
-    return Piece(
-        elements,
-        [[Inlet(moved, dims, whole=True)]],
-        {"output": Outlet(b.label, dims, initial=fill)},
-        inner,
-        needs=1,
-        why="Convolve, Pattern and Sum",
-    )
+    filled = b.add(Pattern(b.named("border"), target_axes, border), dims)
+    b.outlet("output", b.add(Sum(name=b.label), input=(shifted, filled)), initial=fill)
+    b.explain("Convolve, Pattern and Sum")
 
 
 # ----------------------------------------------------------------------------------------------------- inside
@@ -202,34 +167,12 @@ def _count(axis: Axis | None) -> int:
     return 1 if axis is None else axis.samples
 
 
-def _gain(b: SourceElement, amplitude: float, came: Dims, dims: Dims) -> Piece:
-    """Return a gain alone, for a diagonal of one sample."""
-    return Piece(
-        [Gain(amplitude, name=b.label)],
-        [[Inlet(b.label, came)]],
-        {"output": Outlet(b.label, dims)},
-        needs=1,
-        why="Gain",
-    )
-
-
-def _projected(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis | None]) -> Piece:
-    """Return a projection alone; `places` are the axes of the output that the axes of the input become."""
-    return Piece(
-        [projection(b.label, axes(came), dims, places)],
-        [[Inlet(b.label, came, whole=True)]],
-        {"output": Outlet(b.label, dims)},
-        needs=1,
-        why="Project",
-    )
-
-
-def _expand(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis]) -> Piece:
+def _expand(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis]) -> ElementSignal:
     if shape(axes(came)) != shape(places):
         raise Unfit(
             f"its input has {list(shape(axes(came)))} samples, where {list(shape(places))} are expanded"
         )
-    return _projected(b, came, dims, places)
+    return b.projected("", b.input(came), dims, places)
 
 
 def _unused_amplitude(b: SourceElement) -> float:
@@ -242,15 +185,3 @@ def _unused_amplitude(b: SourceElement) -> float:
             )
         return 1.0
     return 1.0 if b.bug(f"{b.element.kind} does not apply its amplitude") else amplitude
-
-
-CLASSES = {
-    "Transpose": transpose,
-    "SumDimension": sum_dimension,
-    "SumAllDimensions": sum_all,
-    "ExpandDimension2D": expand_2d,
-    "ExpandDimension": expand,
-    "DiagonalSum": diagonal_sum,
-    "DiagonalExpansion": diagonal_expansion,
-    "ShiftInput": shift_input,
-}

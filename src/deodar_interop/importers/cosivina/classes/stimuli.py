@@ -10,7 +10,6 @@ from deodar.couplings.gain import Gain
 from deodar.couplings.product import Product
 from deodar.couplings.space_code import SpaceCode
 from deodar.couplings.sum import Sum
-from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.gaussian_stimulus import GaussianStimulus
 from deodar.elements.noise import Noise
@@ -19,7 +18,8 @@ from deodar.elements.time_series import TimeSeries
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
 from deodar.numerics.windows import FOR_EVER, Window
-from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes
+from deodar_interop.importers._element import ElementSignal, translates
+from deodar_interop.importers._piece import Dims, Unfit, axes
 from deodar_interop.importers.cosivina.element import SourceElement
 from deodar_interop.importers.cosivina.file import empty
 from deodar_interop.importers.cosivina.values import ticks
@@ -27,10 +27,12 @@ from deodar_interop.importers.cosivina.values import ticks
 LETTERS = "YXZ"
 
 
-def gauss_stimulus(b: SourceElement) -> Piece:
+@translates(
+    *(f"GaussStimulus{count}D" for count in (1, 2, 3)), "TimedGaussStimulus1D", "TimedGaussStimulus2D"
+)
+def gauss_stimulus(b: SourceElement) -> None:
     """Translate GaussStimulus1D, 2D and 3D, and their timed forms."""
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     many = not b.element.kind.endswith("1D")
     centers, sigmas, ends, factor = list[float](), list[float](), list[str](), 1.0
     normalized = b.values.flag("normalized", False)
@@ -57,48 +59,44 @@ def gauss_stimulus(b: SourceElement) -> Piece:
         boundary=boundary(dims, ends),
         windows=windows(b) if timed else (),
     )
-    return Piece([stimulus], [], {"output": Outlet(b.label, dims, still=not timed)}, why="GaussianStimulus")
+    b.outlet("output", b.add(stimulus, dims), still=not timed)
 
 
-def boost(b: SourceElement) -> Piece:
+@translates("BoostStimulus")
+def boost(b: SourceElement) -> None:
     """Translate BoostStimulus."""
     element = Boost(b.label, (), b.values.number("amplitude", 0))
-    return Piece([element], [], {"output": Outlet(b.label, (None, None), still=True)}, why="Boost")
+    b.outlet("output", b.add(element, (None, None)), still=True)
 
 
-def timed_boost(b: SourceElement) -> Piece:
+@translates("TimedBoost")
+def timed_boost(b: SourceElement) -> ElementSignal:
     """Translate TimedBoost; with an amplitude per period, one Boost for each, and their sum."""
     periods = b.values.periods()
     stated = b.values.matrix("amplitude")
     amplitudes = (
         [float(v) for v in stated.reshape(-1)] if stated is not None else [b.values.number("amplitude", 0)]
     )
-    outlet = {"output": Outlet(b.label, (None, None))}
+    number: Dims = (None, None)
     if len(amplitudes) == 1:
-        return Piece(
-            [
-                Boost(
-                    b.label, (), amplitudes[0], windows=_windows(b, ticks(periods, b.simulator.start, b.step))
-                )
-            ],
-            [],
-            outlet,
-            why="Boost",
-        )
-    parts: list[Element] = [Sum(name=b.label)]
+        spans = ticks(periods, b.simulator.start, b.step)
+        return b.add(Boost(b.label, (), amplitudes[0], windows=_windows(b, spans)), number)
+    parts: list[ElementSignal] = []
     earlier: list[tuple[int, int]] = []
     for amplitude, period in zip(amplitudes, periods, strict=False):  # where periods overlap the first counts
         on_ticks = ticks([period], b.simulator.start, b.step)
-        parts.append(
-            Boost(b.named("period"), (), amplitude, windows=_windows(b, _without(on_ticks, earlier)))
-        )
+        spans = _without(on_ticks, earlier)
+        parts.append(b.add(Boost(b.named("period"), (), amplitude, windows=_windows(b, spans)), number))
         earlier += on_ticks
-    if len(parts) == 1:
-        return Piece([Boost(b.label, (), 0.0)], [], outlet, why="Boost that is never on")
-    return Piece(parts, [], outlet, [(part.name, b.label) for part in parts[1:]], why="Sum of Boosts")
+    if not parts:
+        b.explain("Boost that is never on")
+        return b.add(Boost(b.label, (), 0.0), number)
+    b.explain("Sum of Boosts")
+    return b.add(Sum(name=b.label), input=parts)
 
 
-def custom_stimulus(b: SourceElement) -> Piece:
+@translates("CustomStimulus", "TimedCustomStimulus")
+def custom_stimulus(b: SourceElement) -> None:
     """Translate CustomStimulus and TimedCustomStimulus: any pattern."""
     size = b.values.size()
     dims = b.dims()
@@ -113,13 +111,12 @@ def custom_stimulus(b: SourceElement) -> Piece:
     if pattern is None or pattern.size != math.prod(pattern_shape):
         raise Unfit(f"its pattern is not of the size {list(size)}")
     timed = b.element.kind.startswith("Timed")
-    element = Pattern(
-        b.label, axes(dims), np.asarray(pattern).reshape(pattern_shape), windows=windows(b) if timed else ()
-    )
-    return Piece([element], [], {"output": Outlet(b.label, dims, still=not timed)}, why="Pattern")
+    values, on = np.asarray(pattern).reshape(pattern_shape), windows(b) if timed else ()
+    b.outlet("output", b.add(Pattern(b.label, axes(dims), values, windows=on), dims), still=not timed)
 
 
-def sequence(b: SourceElement) -> Piece:
+@translates("CustomStimulusSequence")
+def sequence(b: SourceElement) -> ElementSignal:
     """Translate CustomStimulusSequence: one pattern after another, and zero before the first."""
     patterns, dims = _patterns(b)
     times = _start_times(b, len(patterns))
@@ -137,8 +134,7 @@ def sequence(b: SourceElement) -> Piece:
         )
     moments = [b.simulator.start + (tick - 1) * b.step for tick in order]
     values = np.stack([rows[tick] for tick in order]).reshape(len(order), *shape(axes(dims)))
-    element = TimeSeries(b.label, axes(dims), moments, values, interpolation="hold")
-    return Piece([element], [], {"output": Outlet(b.label, dims)}, why="TimeSeries")
+    return b.add(TimeSeries(b.label, axes(dims), moments, values, interpolation="hold"), dims)
 
 
 def _patterns(b: SourceElement) -> tuple[np.ndarray, Dims]:
@@ -169,7 +165,8 @@ def _start_times(b: SourceElement, count: int) -> np.ndarray:
     return times
 
 
-def scalar_to_gaussian(b: SourceElement) -> Piece:
+@translates("ScalarToGaussian")
+def scalar_to_gaussian(b: SourceElement) -> None:
     """Translate ScalarToGaussian: a peak at the position that a number gives."""
     columns = b.values.size()[1]
     dims = b.of((1, columns))
@@ -188,53 +185,30 @@ def scalar_to_gaussian(b: SourceElement) -> Piece:
         boundary=ends,
         name=b.label,
     )
-    elements, inlets, inner = (
-        list[Element]([code]),
-        [Inlet(b.label, (None, None), whole=True)],
-        list[tuple[str, ...]](),
-    )
-    outlets = {"output": Outlet(b.label, dims)}
-    elsewhere = {
-        "position": (
-            f"its input times the parameter {display((b.label, 'gain'))} plus {display((b.label, 'offset'))}"
-        )
-    }
+    seen = b.input((None, None))
+    b.outlet("output", b.add(code, dims, input=seen))
+    place = f"its input times the parameter {display((b.label, 'gain'))} plus {display((b.label, 'offset'))}"
+    b.piece.elsewhere = {"position": place}
     if "position" in b.components_read:
-        place, scaled, moved = b.named("position"), b.named("scaled"), b.named("offset")
-        elements += [Sum(name=place), Gain(gain, name=scaled), Boost(moved, (), offset)]
-        inlets.append(Inlet(scaled, (None, None), whole=True))
-        inner += [(scaled, place), (moved, place)]
-        outlets["position"] = Outlet(place, (None, None))
-    return Piece(elements, [inlets], outlets, inner, elsewhere=elsewhere, needs=1, why="SpaceCode")
+        scaled = b.add(Gain(gain, name=b.named("scaled")), input=seen)
+        moved = b.add(Boost(b.named("offset"), (), offset), (None, None))
+        b.outlet("position", b.add(Sum(name=b.named("position")), input=(scaled, moved)))
 
 
-def timed_switch(b: SourceElement) -> Piece:
+@translates("TimedSwitch")
+def timed_switch(b: SourceElement) -> ElementSignal:
     """Translate TimedSwitch: a product with a factor that is 1 while the switch is on."""
-    b.values.size()
-    dims = b.dims()
-    gate = Boost(b.named("on"), (), 1.0, windows=windows(b))
-    inlets = [[Inlet(b.label, dims, whole=True)]]
-    return Piece(
-        [Product(name=b.label), gate],
-        inlets,
-        {"output": Outlet(b.label, dims)},
-        [(gate.name, b.label, "factor")],
-        needs=1,
-        why="Product",
-    )
+    dims = b.sized()
+    gate = b.add(Boost(b.named("on"), (), 1.0, windows=windows(b)), (None, None))
+    return b.add(Product(name=b.label), input=b.input(dims), factor=gate)
 
 
-def noise(b: SourceElement) -> Piece:
+@translates("NormalNoise")
+def noise(b: SourceElement) -> None:
     """Translate NormalNoise: the step of 1 makes its strength the same here."""
-    b.values.size()
-    dims = b.dims()
+    dims = b.sized()
     amplitude = b.values.number("amplitude", 0)
-    return Piece(
-        [Noise(b.label, axes(dims), abs(amplitude))],
-        [],
-        {"output": Outlet(b.label, dims, noise=True)},
-        why="Noise",
-    )
+    b.outlet("output", b.add(Noise(b.label, axes(dims), abs(amplitude)), dims), noise=True)
 
 
 def windows(b: SourceElement) -> list[Window]:
@@ -267,20 +241,3 @@ def _without(spans: list[tuple[int, int]], taken: list[tuple[int, int]]) -> list
             part for s, e in spans for part in ((s, min(e, a - 1)), (max(s, z + 1), e)) if part[0] <= part[1]
         ]
     return spans
-
-
-CLASSES = {
-    "GaussStimulus1D": gauss_stimulus,
-    "GaussStimulus2D": gauss_stimulus,
-    "GaussStimulus3D": gauss_stimulus,
-    "TimedGaussStimulus1D": gauss_stimulus,
-    "TimedGaussStimulus2D": gauss_stimulus,
-    "BoostStimulus": boost,
-    "TimedBoost": timed_boost,
-    "CustomStimulus": custom_stimulus,
-    "TimedCustomStimulus": custom_stimulus,
-    "CustomStimulusSequence": sequence,
-    "ScalarToGaussian": scalar_to_gaussian,
-    "TimedSwitch": timed_switch,
-    "NormalNoise": noise,
-}

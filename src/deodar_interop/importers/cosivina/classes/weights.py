@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from typing import TypeVar
 
 from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.hebbian import Hebbian
 from deodar.couplings.reward_gate import RewardGate
 from deodar.couplings.weights import Weights
-from deodar.element import Element
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
-from deodar_interop.importers._piece import Inlet, Outlet, Piece, Unfit, axes
+from deodar_interop.importers._element import ElementSignal, translates
+from deodar_interop.importers._piece import Unfit, axes
 from deodar_interop.importers._values import LARGEST
 from deodar_interop.importers.cosivina.element import SourceElement
 from deodar_interop.importers.cosivina.file import empty
 
 
-def weight_matrix(b: SourceElement) -> Piece:
+@translates("WeightMatrix")
+def weight_matrix(b: SourceElement) -> ElementSignal:
     """Translate WeightMatrix: a row times a matrix."""
     rows, columns = b.values.size()[:2]
     weights = b.values.matrix("weights")
@@ -27,17 +29,11 @@ def weight_matrix(b: SourceElement) -> Piece:
     if weights is None or weights.size != rows * columns:
         raise Unfit(f"its weights are not of the size {[rows, columns]}")
     ours = weights.reshape(rows, columns).T.reshape(shape(axes(dims)) + shape(axes(came)))
-    element = Weights(ours, axes(dims), name=b.label)
-    return Piece(
-        [element],
-        [[Inlet(b.label, came, whole=True)]],
-        {"output": Outlet(b.label, dims)},
-        needs=1,
-        why="Weights",
-    )
+    return b.add(Weights(ours, axes(dims), name=b.label), dims, input=b.input(came))
 
 
-def adaptive_weight_matrix(b: SourceElement) -> Piece:
+@translates("AdaptiveWeightMatrix")
+def adaptive_weight_matrix(b: SourceElement) -> ElementSignal:
     """Translate AdaptiveWeightMatrix.
 
     Its rate is per step, and its weights are not in the file; they begin at 0, as in cosivina.
@@ -55,22 +51,24 @@ def adaptive_weight_matrix(b: SourceElement) -> Piece:
         f"AdaptiveWeightMatrix learns from {components[1]!r} of its first input instead of {components[0]!r}"
     )
     element = AdaptiveWeights(axes(dims), rate, 0.0, gated, apart, name=b.label)
-    pre = [Inlet(b.label, came, "pre", whole=True, component=components[1])] if apart else []
-    inlets = [
-        [Inlet(b.label, came, whole=True), *pre],
-        [Inlet(b.label, dims, "post")],
-        *([[Inlet(b.label, (None, None), "gate")]] if gated else []),
-    ]
-    why = "AdaptiveWeights, from weights of 0"
-    elsewhere = {"weights": f"read {display((b.label, 'weights'))}"}
-    return Piece([element], inlets, {"output": Outlet(b.label, dims)}, elsewhere=elsewhere, needs=1, why=why)
+    seen = b.input(came)
+    weights = b.add(element, dims, input=seen)
+    if apart:
+        b.connect(dc.replace(seen, component=components[1]), weights, "pre")
+    b.connect(b.input(dims, whole=False, needed=False), weights, "post")
+    if gated:
+        b.connect(b.input((None, None), whole=False, needed=False), weights, "gate")
+    b.piece.elsewhere = {"weights": f"read {display((b.label, 'weights'))}"}
+    b.explain("AdaptiveWeights, from weights of 0")
+    return weights
 
 
 REWARDED = 0.9
 """Threshold of a reward in cosivina."""
 
 
-def hebbian(b: SourceElement) -> Piece:
+@translates("HebbianConnection")
+def hebbian(b: SourceElement) -> ElementSignal:
     """Translate HebbianConnection.
 
     A file has at most two of its parameters; the others are cosivina's defaults, and the report lists each.
@@ -110,28 +108,15 @@ def hebbian(b: SourceElement) -> Piece:
     gated = len(b.element.sources) > 2
     duration = _duration(b, gated)
     element = Hebbian(axes(dims), rule, max(rate / tau, 0.0), threshold=0.0, gated=gated, name=b.label)
-    inlets, elements, inner = (
-        [[Inlet(b.label, came, whole=True)], [Inlet(b.label, dims, "post")]],
-        list[Element]([element]),
-        list[tuple[str, ...]](),
-    )
+    weights = b.add(element, dims, input=b.input(came), post=b.input(dims, whole=False))
     if gated:
         gate = RewardGate(REWARDED, duration, name=b.named("reward"))
-        elements.append(gate)
-        inner.append((gate.name, b.label, "gate"))
-        inlets.append([Inlet(gate.name, (None, None), whole=True)])
-    elsewhere = {"weights": f"read {display((b.label, 'weights'))}"}
+        gate_output = b.add(gate, input=b.input((None, None), needed=False))
+        b.connect(gate_output, weights, "gate")
+    b.piece.elsewhere = {"weights": f"read {display((b.label, 'weights'))}"}
     why = "Hebbian, with defaults for what is not in the file; input that is not above 0 counts as 0"
-    return Piece(
-        elements,
-        inlets,
-        {"output": Outlet(b.label, dims)},
-        inner,
-        elsewhere=elsewhere,
-        needs=2,
-        verdict="approximated",
-        why=why,
-    )
+    b.explain(why, "approximated")
+    return weights
 
 
 T = TypeVar("T", float, str)
@@ -168,10 +153,3 @@ def _duration(b: SourceElement, gated: bool) -> float:
             f"learning begins with the reward, without the delay of {delay:g}",
         )
     return max(duration, 0.0)
-
-
-CLASSES = {
-    "WeightMatrix": weight_matrix,
-    "AdaptiveWeightMatrix": adaptive_weight_matrix,
-    "HebbianConnection": hebbian,
-}
