@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from collections.abc import Set as AbstractSet
 
 import numpy as np
 
 from deodar.importers._beside import Beside
 from deodar.importers.report import Line
 from deodar.parameters import show
+from deodar_interop.importers._element import FileElement
 from deodar_interop.importers._foreign import Foreign
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Dims, Unfit
@@ -37,15 +39,12 @@ class ValueBudget:
         self.values_left -= count
 
 
-class StoredElement:
+class StoredElement(FileElement):
     """The context of the translation of one element.
 
     Attributes:
         simulation: the whole file.
-        step: the Euler step.
-        element, label: the element, and its name.
         values: its parameters.
-        components_read: components that other elements read.
         beside: reads a file in the folder of the simulation.
         budget: limits the arrays of the model.
         start: output after the initialisation: one number, or a function that computes one for each sample.
@@ -56,26 +55,21 @@ class StoredElement:
     def __init__(
         self,
         simulation: StoredSimulation,
-        axes: SampleAxes,
+        length_axes: SampleAxes,
         element: Foreign,
-        components_read: set[str],
+        components_read: AbstractSet[str],
         names: FreeNames,
         budget: ValueBudget,
         beside: Beside,
     ) -> None:
+        super().__init__(element, simulation.step, length_axes, components_read, names)
         self.simulation = simulation
-        self.step = simulation.step
-        self.element = element
-        self.label = element.label
         self.values = StoredValues(element)
-        self.components_read = components_read
         self.budget = budget
         self.beside = beside
         self.start: float | Callable[[], np.ndarray] = 0.0
         self.levels: dict[str, float] = {}
         self.extra: list[Line] = []
-        self._axes = axes
-        self._names = names
 
     @property
     def plane(self) -> bool:
@@ -100,11 +94,7 @@ class StoredElement:
                 extents = [self.element.values.get(name) for name in (extent, step)]
                 raise Unfit(f"expected {extent} and {step} above 0, got {show(extents)}")
             self._say_extent(extent, step, count if has_axis else None)
-        return self._axes.of(self.counts)
-
-    def of(self, counts: Sequence[int]) -> Dims:
-        """Return the dimensions of a size."""
-        return self._axes.of(counts)
+        return self.of(self.counts)
 
     def source(self) -> Foreign | None:
         """Return the element that the first input reads; None without inputs."""
@@ -113,10 +103,6 @@ class StoredElement:
     def spacing(self, name: str) -> float:
         """Return `d_x` or `d_y`."""
         return number(self.element.values.get(name, 1.0)) or 1.0
-
-    def named(self, role: str) -> str:
-        """Return a name for a further deodar element: the label and what it is."""
-        return self._names.new(f"{self.label} {role}")
 
     def _say_extent(self, extent: str, step: str, count: int | None) -> None:
         why = "of the second dimension, which a line has not" if count is None else f"as {count} samples"

@@ -1,11 +1,8 @@
-"""The translation of each label of dnf-composer, by families; each file states its `CLASSES`."""
+"""The translation of each label, by families: functions that `translates` decorates."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from deodar_interop import _merged
-from deodar_interop.importers._piece import Piece
-from deodar_interop.importers.dnf_composer.element import StoredElement
+from deodar_interop.importers._element import ElementKind
 
-CLASSES: dict[str, Callable[[StoredElement], Piece]] = _merged.merged(__name__, "CLASSES")
+CLASSES = _merged.declared(__name__, ElementKind)

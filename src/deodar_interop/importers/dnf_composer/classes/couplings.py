@@ -8,13 +8,13 @@ import numpy as np
 
 from deodar.couplings.gain import Gain
 from deodar.couplings.weights import Weights
-from deodar.element import Element
 from deodar.errors import DeodarError
 from deodar.importers._beside import is_plain
 from deodar.importers.report import Line
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
-from deodar_interop.importers._piece import Inlet, Outlet, Piece, Unfit, axes
+from deodar_interop.importers._element import ElementSignal, translates
+from deodar_interop.importers._piece import Unfit, axes
 from deodar_interop.importers._values import LARGEST
 from deodar_interop.importers.dnf_composer.element import StoredElement
 from deodar_interop.importers.dnf_composer.sizes import INPUT_LENGTH, input_length
@@ -25,7 +25,8 @@ MOST_PRODUCTS = 500_000_000
 LEARNING = ("learningRule", "learningRate", "decayRate")
 
 
-def field_coupling(b: StoredElement) -> Piece:
+@translates("field coupling")
+def field_coupling(b: StoredElement) -> ElementSignal:
     """Translate `field coupling`: weights from the file beside the simulation, times `scalar`."""
     came = _input(b)
     weights = stored_weights(b, came)
@@ -36,7 +37,8 @@ def field_coupling(b: StoredElement) -> Piece:
     return _weighted(b, weights, scalar)
 
 
-def gauss_field_coupling(b: StoredElement) -> Piece:
+@translates("gauss field coupling")
+def gauss_field_coupling(b: StoredElement) -> ElementSignal:
     """Translate `gauss field coupling`: a sum of Gaussian peaks, whose samples are counted from 0."""
     came = _input(b)
     b.values.optional |= {"couplings"}
@@ -121,23 +123,18 @@ def _input(b: StoredElement) -> int:
     return came
 
 
-def _weighted(b: StoredElement, weights: np.ndarray, scalar: float) -> Piece:
+def _weighted(b: StoredElement, weights: np.ndarray, scalar: float) -> ElementSignal:
     dims, came = b.of(b.counts), b.of((1, weights.shape[0]))
     ours = weights.T.reshape(shape(axes(dims)) + shape(axes(came)))
-    name = b.label if scalar == 1 else b.named("weights")
-    elements: list[Element] = [Weights(ours, axes(dims), name=name)]
-    if scalar != 1:
-        elements.insert(0, Gain(scalar, name=b.label))
-    return Piece(
-        elements,
-        [[Inlet(name, came, whole=True)]],
-        {"output": Outlet(b.label, dims)},
-        [] if scalar == 1 else [(name, b.label)],
-        elsewhere={"weights": f"the parameter {display((name, 'weights'))}, output samples first"},
-        sums=True,
-        needs=1,
-        why="Weights" if scalar == 1 else "Gain and Weights",
-    )
+    element = Weights(ours, axes(dims), name=b.named("" if scalar == 1 else "weights"))
+    b.piece.elsewhere = {
+        "weights": f"the parameter {display((element.name, 'weights'))}, output samples first"
+    }
+    weighted = b.add(element, dims, input=b.input(came, sums=True))
+    if scalar == 1:
+        return weighted
+    b.explain("Gain and Weights")
+    return b.add(Gain(scalar, name=b.label), input=weighted)
 
 
 def _spacing(value: object) -> float:
@@ -148,6 +145,3 @@ def _bell(count: int, position: float, width: float, circular: bool) -> np.ndarr
     """Return exp(-d^2 / (2 width^2)) at the samples 0, 1, ..., count - 1."""
     d = np.abs(np.arange(count) - position)
     return np.exp(-0.5 * ((np.minimum(d, count - d) if circular else d) / width) ** 2)
-
-
-CLASSES = {"field coupling": field_coupling, "gauss field coupling": gauss_field_coupling}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any, cast
 
-from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.field import Field
 from deodar.elements.memory_trace import MemoryTrace
@@ -14,7 +13,8 @@ from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.absolute import Absolute
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.step import Step
-from deodar_interop.importers._piece import Inlet, Outlet, Piece, axes
+from deodar_interop.importers._element import translates
+from deodar_interop.importers._piece import axes
 from deodar_interop.importers.dnf_composer.element import StoredElement
 from deodar_interop.importers.dnf_composer.file import number
 
@@ -33,7 +33,8 @@ FUNCTIONS = {
 USUAL = {"x_shift": 0.0, "steepness": STEEPNESS, "beta": 100.0}
 
 
-def neural_field(b: StoredElement) -> Piece:
+@translates("neural field", "neural field 2d")
+def neural_field(b: StoredElement) -> None:
     """Translate `neural field` and its form over a plane; kernels and noise remain separate elements."""
     dims = b.dims()
     field = Field(
@@ -45,14 +46,13 @@ def neural_field(b: StoredElement) -> Piece:
     )
     b.start = float(_at_rest(field.sigmoid, field.resting_level))
     b.levels = {"activation": field.resting_level, "resting level": field.resting_level}
-    outlets = {c: Outlet(b.label, dims, c, state=True) for c in ("output", "activation")}
-    elements: list[Element] = [field]
+    signal = b.add(field, input=b.input(dims, whole=False, needed=False, sums=True))
+    for component in ("output", "activation"):
+        b.outlet(component, signal.at(component), state=True)
     if "resting level" in b.components_read:
         level = Boost(b.named("resting level"), axes(dims), field.resting_level)
-        elements.append(level)
-        outlets["resting level"] = Outlet(level.name, dims, still=True)
-    elsewhere = {"resting level": f"the parameter {display((b.label, 'resting_level'))}"}
-    return Piece(elements, [[Inlet(b.label, dims)]], outlets, elsewhere=elsewhere, sums=True, why="Field")
+        b.outlet("resting level", b.add(level, dims), still=True)
+    b.piece.elsewhere = {"resting level": f"the parameter {display((b.label, 'resting_level'))}"}
 
 
 def activation(b: StoredElement) -> SigmoidFunction:
@@ -94,7 +94,8 @@ def _function(kind: str, values: dict[str, float]) -> SigmoidFunction:
             return Logistic(values["steepness"], values["x_shift"])
 
 
-def memory_trace(b: StoredElement) -> Piece:
+@translates("memory trace", "memory trace 2d")
+def memory_trace(b: StoredElement) -> None:
     """Translate `memory trace` and its form over a plane; it decays also while no sample is active."""
     dims = b.dims()
     trace = MemoryTrace(
@@ -105,8 +106,8 @@ def memory_trace(b: StoredElement) -> Piece:
         threshold=b.values.number("threshold", 0.5),
         fades=True,
     )
-    outlets = {"output": Outlet(b.label, dims, state=True)}
-    return Piece([trace], [[Inlet(b.label, dims)]], outlets, sums=True, why="MemoryTrace")
+    seen = b.input(dims, whole=False, needed=False, sums=True)
+    b.outlet("output", b.add(trace, input=seen), state=True)
 
 
 def _tau(b: StoredElement, name: str, default: float) -> float:
@@ -126,11 +127,3 @@ def _at_rest(sigmoid: SigmoidFunction, u: float) -> float:
             return 1 / (1 + math.exp(min(max(-sigmoid.beta * (u - sigmoid.threshold), -88.0), 88.0)))
         case _:
             return 0.0
-
-
-CLASSES = {
-    "neural field": neural_field,
-    "neural field 2d": neural_field,
-    "memory trace": memory_trace,
-    "memory trace 2d": memory_trace,
-}

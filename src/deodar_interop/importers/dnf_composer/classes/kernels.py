@@ -8,14 +8,14 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from deodar.couplings.interaction import Interaction
-from deodar.element import Element
 from deodar.elements.pattern import Pattern
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.custom import Custom
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
-from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, axes
+from deodar_interop.importers._element import translates
+from deodar_interop.importers._piece import Dims, axes
 from deodar_interop.importers.dnf_composer import taps
 from deodar_interop.importers.dnf_composer.classes.stimuli import boundary
 from deodar_interop.importers.dnf_composer.element import StoredElement
@@ -25,17 +25,19 @@ SLOWEST = 0.01
 """Decay in place of one that is not above 0."""
 
 
-def gauss(b: StoredElement) -> Piece:
+@translates("gauss kernel", "gauss kernel 2d")
+def gauss(b: StoredElement) -> None:
     """Translate `gauss kernel` and its form over a plane."""
     form = StoredKernel(b)
     amplitude, width = b.values.number("amplitude", 3), b.values.width("width", 3)
-    return form.piece(
+    form.add(
         [form.truncated(amplitude, width)],
         lambda: amplitude * outer([form.gaussian(d, width).weights for d in (0, 1)]),
     )
 
 
-def mexican_hat(b: StoredElement) -> Piece:
+@translates("mexican hat kernel", "mexican hat kernel 2d")
+def mexican_hat(b: StoredElement) -> None:
     """Translate `mexican hat kernel`: over a line both Gaussians have the reach of the wider one with an
     amplitude, over a plane each has its own.
     """
@@ -53,12 +55,11 @@ def mexican_hat(b: StoredElement) -> Piece:
         ]
         return parts[0] + parts[1] if parts[0].shape == parts[1].shape else parts[0]
 
-    return form.piece(
-        [form.truncated(up, narrow, least), form.truncated(-down, wide, least)], weights_of_form
-    )
+    form.add([form.truncated(up, narrow, least), form.truncated(-down, wide, least)], weights_of_form)
 
 
-def oscillatory(b: StoredElement) -> Piece:
+@translates("oscillatory kernel", "oscillatory kernel 2d")
+def oscillatory(b: StoredElement) -> None:
     """Translate `oscillatory kernel`; over a line its sum is divided out with its amplitude if normalized."""
     form = StoredKernel(b)
     amplitude = b.values.number("amplitude", 1)
@@ -76,10 +77,11 @@ def oscillatory(b: StoredElement) -> Piece:
                     "amplitude", "carried", "without effect in a normalized kernel, as in dnf-composer"
                 )
             amplitude = 1.0
-    return form.custom(amplitude, profiles)
+    form.add_custom(amplitude, profiles)
 
 
-def asymmetric(b: StoredElement) -> Piece:
+@translates("asymmetric gauss kernel", "asymmetric gauss kernel 2d")
+def asymmetric(b: StoredElement) -> None:
     """Translate `asymmetric gauss kernel`: a Gaussian plus its derivative times `timeShift`."""
     form = StoredKernel(b)
     amplitude, width = b.values.number("amplitude", 3), b.values.width("width", 3)
@@ -93,7 +95,7 @@ def asymmetric(b: StoredElement) -> Piece:
         bell = form.gaussian(d, width)
         turned = taps.shift(width, bell.left, bell.right, form.normalized)
         profiles.append(Taps(bell.left, bell.right, bell.weights + amount * turned))
-    return form.custom(amplitude, profiles)
+    form.add_custom(amplitude, profiles)
 
 
 class StoredKernel:
@@ -125,8 +127,8 @@ class StoredKernel:
         ends = boundary(axes(self.dims), self.circular)
         return TruncatedGaussian(amplitude + 0.0, width, CUTOFF, least, self.normalized, boundary=ends)
 
-    def custom(self, amplitude: float, profiles: list[Taps]) -> Piece:
-        """Return a kernel of any shape, as the product of one array for each dimension."""
+    def add_custom(self, amplitude: float, profiles: list[Taps]) -> None:
+        """Add a kernel of any shape, as the product of one array for each dimension."""
         height = amplitude
         along_axes = [part for part, axis in zip(profiles, self.dims, strict=True) if axis is not None]
         for part, axis in zip(profiles, self.dims, strict=True):
@@ -138,41 +140,27 @@ class StoredKernel:
 
         ends = boundary(axes(self.dims), self.circular)
         if not along_axes:
-            return self.piece([TruncatedGaussian(amplitude, normalized=True)], full_weights)
+            self.add([TruncatedGaussian(amplitude, normalized=True)], full_weights)
+            return
         arrays = [part.centred(mirrored=not self.circular) for part in along_axes]
         weights = arrays[0] if len(arrays) == 1 else np.outer(arrays[0], arrays[1])
-        return self.piece([Custom(weights, amplitude, boundary=ends)], full_weights)
+        self.add([Custom(weights, amplitude, boundary=ends)], full_weights)
 
-    def piece(self, kernels: Sequence[Kernel], full_weights: Callable[[], np.ndarray]) -> Piece:
-        """Return the translation of a kernel; `shown` computes its weights, for elements that read them."""
+    def add(self, kernels: Sequence[Kernel], full_weights: Callable[[], np.ndarray]) -> None:
+        """Add the kernels; `full_weights` computes their weights, for elements that read them."""
         b, dims = self.b, self.dims
-        elements: list[Element] = [Interaction(kernels, -self.overall + 0.0, name=b.label)]
-        outlets = {"output": Outlet(b.label, dims)}
+        interaction = Interaction(kernels, -self.overall + 0.0, name=b.label)
+        b.outlet("output", b.add(interaction, input=b.input(dims, sums=True)))
+        b.piece.elsewhere = {"kernel": f"computed from the parameter {display((b.label, 'kernel'))}"}
         if "kernel" in b.components_read:
             count = math.prod(b.counts)
             b.budget.take(count)
             weights = full_weights()
             if weights.size <= count:
                 values = np.pad(weights, (0, count - weights.size)).reshape(shape(axes(dims)))
-                elements.append(Pattern(b.named("kernel"), axes(dims), values))
-                outlets["kernel"] = Outlet(elements[-1].name, dims, still=True)
-        elsewhere = {"kernel": f"computed from the parameter {display((b.label, 'kernel'))}"}
-        inlet = Inlet(b.label, dims, whole=True)
-        return Piece(elements, [[inlet]], outlets, elsewhere=elsewhere, sums=True, needs=1, why="Interaction")
+                b.outlet("kernel", b.add(Pattern(b.named("kernel"), axes(dims), values), dims), still=True)
 
 
 def outer(factors: list[np.ndarray]) -> np.ndarray:
     """Return the product of the weights of both dimensions, flat."""
     return np.outer(factors[0], factors[1]).reshape(-1)
-
-
-CLASSES = {
-    "gauss kernel": gauss,
-    "gauss kernel 2d": gauss,
-    "mexican hat kernel": mexican_hat,
-    "mexican hat kernel 2d": mexican_hat,
-    "oscillatory kernel": oscillatory,
-    "oscillatory kernel 2d": oscillatory,
-    "asymmetric gauss kernel": asymmetric,
-    "asymmetric gauss kernel 2d": asymmetric,
-}

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 from deodar.couplings.convolve import Convolve
-from deodar.element import Element
 from deodar.elements.noise import Noise
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.custom import Custom
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
-from deodar_interop.importers._piece import Outlet, Piece, axes
+from deodar_interop.importers._element import translates
+from deodar_interop.importers._piece import axes
 from deodar_interop.importers.dnf_composer import taps
 from deodar_interop.importers.dnf_composer.classes.stimuli import boundary
 from deodar_interop.importers.dnf_composer.element import StoredElement
@@ -20,19 +20,19 @@ NARROW = 0.001
 """Width below which the reach of correlated noise does not shrink."""
 
 
-def normal_noise(b: StoredElement) -> Piece:
+@translates("normal noise", "normal noise 2d")
+def normal_noise(b: StoredElement) -> None:
     """Translate `normal noise` and its form over a plane: the same strength, since the step of axes is 1."""
     dims = b.dims()
-    element = Noise(b.label, axes(dims), _strength(b, 0.2))
-    return Piece([element], [], {"output": Outlet(b.label, dims, noise=True)}, why="Noise")
+    b.outlet("output", b.add(Noise(b.label, axes(dims), _strength(b, 0.2)), dims), noise=True)
 
 
-def correlated_noise(b: StoredElement) -> Piece:
+@translates("correlated normal noise", "correlated normal noise 2d")
+def correlated_noise(b: StoredElement) -> None:
     """Translate `correlated normal noise` and its form over a plane: white noise, convolved."""
     dims = b.dims()
     strength, width = _strength(b, 0.05), b.values.width("width", 1)
     circular = b.values.flag("circular", True)
-    white = b.named("white")
     kernel: Kernel
     if b.plane:
         kernel = TruncatedGaussian(
@@ -47,9 +47,9 @@ def correlated_noise(b: StoredElement) -> Piece:
         kernel = _line(b, width, min(half, 2 * count), circular)
         if not circular and half > 2 * count:
             b.values.say("width", "approximated", "normalised over twice the length of the axis on each side")
-    elements: list[Element] = [Convolve([kernel], name=b.label), Noise(white, axes(dims), strength)]
-    outlet = Outlet(b.label, dims, noise=True)
-    return Piece(elements, [], {"output": outlet}, [(white, b.label)], why="Convolve and Noise")
+    white = b.add(Noise(b.named("white"), axes(dims), strength), dims)
+    b.outlet("output", b.add(Convolve([kernel], name=b.label), input=white), noise=True)
+    b.explain("Convolve and Noise")
 
 
 def _line(b: StoredElement, width: float, half: int, circular: bool) -> Kernel:
@@ -67,11 +67,3 @@ def _line(b: StoredElement, width: float, half: int, circular: bool) -> Kernel:
 def _strength(b: StoredElement, default: float) -> float:
     """Return the amplitude; its sign has no effect on noise."""
     return math.fabs(b.values.number("amplitude", default))
-
-
-CLASSES = {
-    "normal noise": normal_noise,
-    "normal noise 2d": normal_noise,
-    "correlated normal noise": correlated_noise,
-    "correlated normal noise 2d": correlated_noise,
-}

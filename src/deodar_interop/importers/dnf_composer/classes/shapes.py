@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 
 import numpy as np
@@ -9,10 +10,10 @@ import numpy as np
 from deodar.couplings.product import Product
 from deodar.couplings.project import Project
 from deodar.couplings.weights import Weights
-from deodar.element import Element
 from deodar.elements.pattern import Pattern
-from deodar.numerics.axes import Axis, shape
-from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes, projection
+from deodar.numerics.axes import shape
+from deodar_interop.importers._element import ElementSignal, translates
+from deodar_interop.importers._piece import Dims, Unfit, axes
 from deodar_interop.importers.dnf_composer.element import StoredElement
 from deodar_interop.importers.dnf_composer.interpolation import METHODS, matrix
 from deodar_interop.importers.dnf_composer.sizes import is_plane, size
@@ -24,7 +25,8 @@ COMPRESSIONS = {"sum": "sum", "average": "mean", "maximum": "max", "minimum": "m
 """Reductions of `collapse`, and those of `Project`."""
 
 
-def resize(b: StoredElement) -> Piece:
+@translates("resize")
+def resize(b: StoredElement) -> ElementSignal:
     """Translate `resize`: weights that interpolate."""
     dims, method = b.dims(), b.values.choice("method", METHODS)
     rows, came = _came(b, b.counts)
@@ -34,7 +36,8 @@ def resize(b: StoredElement) -> Piece:
     return _weights(b, b.of((1, came)), dims, matrix(method, came, b.counts[1]))
 
 
-def resize_2d(b: StoredElement) -> Piece:
+@translates("resize 2d")
+def resize_2d(b: StoredElement) -> ElementSignal:
     """Translate `resize 2d`: interpolation along x, then along y."""
     dims, method = b.dims(), b.values.choice("method", METHODS)
     counts = _came(b, b.counts)
@@ -46,38 +49,24 @@ def resize_2d(b: StoredElement) -> Piece:
     pairs = [(d, a, z) for d in (1, 0) if (a := came[d]) != (z := dims[d])]
     if None in came or None in dims or not pairs:
         raise Unfit(f"it resamples {list(counts)} to {list(b.counts)} samples, which has no counterpart")
-    elements, inner = list[Element](), list[tuple[str, ...]]()
-    shrinking = list(axes(came))
-    for stage, (d, old, new) in enumerate(pairs):
+    seen, shrinking = b.input(came), list(axes(came))
+    for d, old, new in pairs:
         assert old is not None and new is not None
         b.budget.take(factors[d].size)
         wide = (*shrinking, new)
         shrinking[d] = new
-        last = stage == len(pairs) - 1
-        reach, weights = b.named(f"spread along {new.name}"), b.named(f"weights along {old.name}")
-        spread = b.named(f"products along {old.name}")
-        elements += [
-            Project(wide, name=reach),
-            Pattern(weights, (new, old), factors[d]),
-            Product(name=spread),
-            Project(shrinking, "sum", name=b.label if last else b.named(f"along {old.name}")),
-        ]
-        entry = elements[-5].name if stage else ""
-        inner += [(entry, reach)] if entry else []
-        inner += [(reach, spread), (weights, spread, "factor"), (spread, elements[-1].name)]
-    first = next(e.name for e in elements)
-    ordered = [elements[-1], *elements[:-1]]
-    return Piece(
-        ordered,
-        [[Inlet(first, came, whole=True)]],
-        {"output": Outlet(b.label, dims)},
-        inner,
-        needs=1,
-        why="Project, Product and Pattern",
-    )
+        reach = b.add(Project(wide, name=b.named(f"spread along {new.name}")), wide, input=seen)
+        weights = b.add(Pattern(b.named(f"weights along {old.name}"), (new, old), factors[d]), (new, old))
+        spread = Product(name=b.named(f"products along {old.name}"))
+        name = b.named(f"along {old.name}" if (d, old, new) != pairs[-1] else "")
+        products = b.add(spread, input=reach, factor=weights)
+        seen = b.add(Project(shrinking, "sum", name=name), tuple(shrinking), input=products)
+    b.explain("Project, Product and Pattern")
+    return dc.replace(seen, dims=dims)
 
 
-def collapse(b: StoredElement) -> Piece:
+@translates("collapse")
+def collapse(b: StoredElement) -> ElementSignal:
     """Translate `collapse`: a reduction over one axis of a plane."""
     dims = b.dims()
     reduction = COMPRESSIONS[b.values.choice("compression", tuple(COMPRESSIONS))]
@@ -91,10 +80,11 @@ def collapse(b: StoredElement) -> Piece:
         raise Unfit(f"its output has {b.counts[1]} samples, where its source has {counts[kept_dimension]}")
     came = b.of(counts)
     places = [dims[1] if d == kept_dimension else None for d, axis in enumerate(came) if axis is not None]
-    return _projected(b, came, dims, places, reduction)
+    return b.projected("", b.input(came), dims, places, reduction)
 
 
-def expand(b: StoredElement) -> Piece:
+@translates("expand")
+def expand(b: StoredElement) -> ElementSignal:
     """Translate `expand`: copies of a line along the other axis of a plane."""
     dims = b.dims()
     along = 1 if b.values.choice("broadcastProfileAxis", ("x", "y")) == "x" else 0
@@ -105,7 +95,7 @@ def expand(b: StoredElement) -> Piece:
     if counts[1] != b.counts[along]:
         raise Unfit(f"its input has {counts[1]} samples, its output {b.counts[along]}")
     came = b.of(counts)
-    return _projected(b, came, dims, [dims[along]] if came[1] is not None else [], "sum")
+    return b.projected("", b.input(came), dims, [dims[along]] if came[1] is not None else [])
 
 
 # ----------------------------------------------------------------------------------------------------- inside
@@ -120,25 +110,6 @@ def _came(b: StoredElement, fallback: tuple[int, int]) -> tuple[int, int]:
     return fallback if source is None else size(source)
 
 
-def _weights(b: StoredElement, came: Dims, dims: Dims, weights: np.ndarray) -> Piece:
+def _weights(b: StoredElement, came: Dims, dims: Dims, weights: np.ndarray) -> ElementSignal:
     ours = weights.reshape(shape(axes(dims)) + shape(axes(came)))
-    return Piece(
-        [Weights(ours, axes(dims), name=b.label)],
-        [[Inlet(b.label, came, whole=True)]],
-        {"output": Outlet(b.label, dims)},
-        needs=1,
-        why="Weights",
-    )
-
-
-def _projected(b: StoredElement, came: Dims, dims: Dims, places: list[Axis | None], reduction: str) -> Piece:
-    return Piece(
-        [projection(b.label, axes(came), dims, places, reduction)],
-        [[Inlet(b.label, came, whole=True)]],
-        {"output": Outlet(b.label, dims)},
-        needs=1,
-        why="Project",
-    )
-
-
-CLASSES = {"resize": resize, "resize 2d": resize_2d, "collapse": collapse, "expand": expand}
+    return b.add(Weights(ours, axes(dims), name=b.label), dims, input=b.input(came))

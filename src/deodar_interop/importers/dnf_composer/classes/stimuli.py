@@ -13,7 +13,8 @@ from deodar.elements.gaussian_stimulus import GaussianStimulus
 from deodar.elements.pattern import Pattern
 from deodar.numerics.axes import Axis, shape
 from deodar.numerics.windows import Window
-from deodar_interop.importers._piece import Dims, Outlet, Piece, axes
+from deodar_interop.importers._element import translates
+from deodar_interop.importers._piece import Dims, axes
 from deodar_interop.importers.dnf_composer import profile
 from deodar_interop.importers.dnf_composer.element import StoredElement
 from deodar_interop.importers.dnf_composer.file import number
@@ -26,7 +27,8 @@ NOTHING = 1e-12
 """Sum of a pattern below which dnf-composer does not normalise it."""
 
 
-def gauss_stimulus(b: StoredElement) -> Piece:
+@translates("gauss stimulus", "timed gauss stimulus")
+def gauss_stimulus(b: StoredElement) -> None:
     """Translate `gauss stimulus`, whose width is in samples, and its timed form."""
     dims = b.dims()
     count = b.counts[1]
@@ -41,15 +43,17 @@ def gauss_stimulus(b: StoredElement) -> Piece:
 
     b.start = pattern
     if dims[1] is None:
-        return _stimulus(b, dims, Boost(b.label, axes(dims), float(pattern()[0])))
+        _stimulate(b, dims, Boost(b.label, axes(dims), float(pattern()[0])))
+        return
     ends = boundary(axes(dims), circular)
     bell = GaussianStimulus(
         b.label, axes(dims), position, width, amplitude, normalized=normalized, boundary=ends
     )
-    return _stimulus(b, dims, bell)
+    _stimulate(b, dims, bell)
 
 
-def gauss_stimulus_2d(b: StoredElement) -> Piece:
+@translates("gauss stimulus 2d", "timed gauss stimulus 2d")
+def gauss_stimulus_2d(b: StoredElement) -> None:
     """Translate `gauss stimulus 2d`, whose width is in units, and its timed form.
 
     Where a circular axis is no whole number of steps, no stimulus of deodar has its distances, and the
@@ -71,10 +75,12 @@ def gauss_stimulus_2d(b: StoredElement) -> Piece:
 
     b.start, stimulus_axes = pattern, axes(dims)
     if not stimulus_axes:
-        return _stimulus(b, dims, Boost(b.label, stimulus_axes, float(pattern()[0])))
+        _stimulate(b, dims, Boost(b.label, stimulus_axes, float(pattern()[0])))
+        return
     if len(stimulus_axes) < 2 or not all(side.whole for side in sides):
         b.budget.take(math.prod(b.counts))
-        return _stimulus(b, dims, Pattern(b.label, stimulus_axes, pattern().reshape(shape(stimulus_axes))))
+        _stimulate(b, dims, Pattern(b.label, stimulus_axes, pattern().reshape(shape(stimulus_axes))))
+        return
     bell = GaussianStimulus(
         b.label,
         stimulus_axes,
@@ -84,10 +90,11 @@ def gauss_stimulus_2d(b: StoredElement) -> Piece:
         normalized=normalized,
         boundary=boundary(stimulus_axes, circular),
     )
-    return _stimulus(b, dims, bell)
+    _stimulate(b, dims, bell)
 
 
-def boost(b: StoredElement) -> Piece:
+@translates("boost stimulus", "boost stimulus 2d")
+def boost(b: StoredElement) -> None:
     """Translate `boost stimulus` and its form over a plane; one that is not active keeps its amplitude."""
     dims = b.dims()
     amplitude, active = b.values.number("amplitude", 5), b.values.flag("isActive", True)
@@ -95,7 +102,7 @@ def boost(b: StoredElement) -> Piece:
     element = Boost(b.label, axes(dims), amplitude, windows=() if active else [_never()])
     if not active:
         b.values.say("isActive", "carried", "as a window in which it is never on")
-    return Piece([element], [], {"output": Outlet(b.label, dims, still=True)}, why="Boost")
+    b.outlet("output", b.add(element, dims), still=True)
 
 
 # ----------------------------------------------------------------------------------------------------- inside
@@ -143,18 +150,15 @@ def _position(b: StoredElement, name: str, extent: str, default: float) -> float
     return place
 
 
-def _stimulus(b: StoredElement, dims: Dims, element: GaussianStimulus | Pattern | Boost) -> Piece:
-    """Return a stimulus; one that is timed passes a register, so that its name shows at t what led to t."""
-    why = type(element).__name__
+def _stimulate(b: StoredElement, dims: Dims, element: GaussianStimulus | Pattern | Boost) -> None:
+    """Add a stimulus; one that is timed passes a register, so that its name shows at t what led to t."""
     if not b.element.kind.startswith("timed"):
-        return Piece([element], [], {"output": Outlet(b.label, dims, still=True)}, why=why)
+        b.outlet("output", b.add(element, dims), still=True)
+        return
     b.start = 0.0
-    element = dc.replace(element, name=b.named("stimulus"), windows=_windows(b))
-    outlet = Outlet(b.label, dims, state=True)
-    register = Delay(axes(dims), 0.0, name=b.label)
-    return Piece(
-        [register, element], [], {"output": outlet}, [(element.name, b.label)], why=f"{why} and Delay"
-    )
+    stimulus = b.add(dc.replace(element, name=b.named("stimulus"), windows=_windows(b)), dims)
+    b.outlet("output", b.add(Delay(axes(dims), 0.0, name=b.label), input=stimulus), state=True)
+    b.explain(f"{type(element).__name__} and Delay")
 
 
 def boundary(stimulus_axes: tuple[Axis, ...], circular: bool) -> list[str] | None:
@@ -178,13 +182,3 @@ def _windows(b: StoredElement) -> list[Window]:
 
 def _never() -> Window:
     return Window(-1.0, -1.0)
-
-
-CLASSES = {
-    "gauss stimulus": gauss_stimulus,
-    "gauss stimulus 2d": gauss_stimulus_2d,
-    "timed gauss stimulus": gauss_stimulus,
-    "timed gauss stimulus 2d": gauss_stimulus_2d,
-    "boost stimulus": boost,
-    "boost stimulus 2d": boost,
-}
