@@ -27,17 +27,24 @@ class LengthAxes:
         names: names of the dimensions; the most frequent length of a dimension has its name alone.
         elements: for each element its samples along the dimensions, and which of these it declares circular
             or not.
+        first: position of the first sample.
+        least: smallest length that counts.
     """
 
     def __init__(
-        self, names: Sequence[str], elements: Iterable[tuple[Sequence[int], Mapping[int, bool]]]
+        self,
+        names: Sequence[str],
+        elements: Iterable[tuple[Sequence[int], Mapping[int, bool]]],
+        first: int = 1,
+        least: int = 2,
     ) -> None:
         self.names = names
+        self.first = first
         self.used: list[Counter[int]] = [Counter() for _ in names]
         self.wraps: Counter[int] = Counter()
         for counts, circular in elements:
             for d, count in enumerate(counts):
-                self.used[d][count] += count > 1
+                self.used[d][count] += count >= least
             for d, wraps in circular.items():
                 if d < len(counts):
                     self.wraps[counts[d]] += 1 if wraps else -1
@@ -57,5 +64,5 @@ class LengthAxes:
         """Return the axis of one dimension."""
         common = self.common[d]
         name = self.names[d] if count == common or not self.used[d][common] else f"{self.names[d]}{count}"
-        periodic = self.wraps[count] > 0
-        return Axis(name, 1, count + 1 if periodic else count, count, periodic)
+        periodic = self.wraps[count] > 0 or count == 1
+        return Axis(name, self.first, self.first + count - (not periodic), count, periodic)

@@ -52,6 +52,7 @@ class FileElement:
         step: the Euler step.
         components_read: components that other elements read.
         piece: the translation.
+        met: known errors of the tool that it touches.
     """
 
     def __init__(
@@ -67,6 +68,7 @@ class FileElement:
         self.step = step
         self.components_read = components_read
         self.piece = Piece()
+        self.met: list[str] = []
         self._axes = length_axes
         self._names = names
 

@@ -1,13 +1,16 @@
-"""The placeholder of an element that has no counterpart: it keeps the name and the connections."""
+"""What has no translation: a placeholder keeps the name and the connections, and the report says why."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import TypeVar
 
-from deodar.elements.placeholder import Placeholder
-from deodar.errors import did_you_mean
-from deodar_interop.importers._foreign import Foreign
-from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, axes
+from deodar.errors import DeodarError, did_you_mean
+from deodar.importers.report import Line
+from deodar_interop.importers._axes import SizeLimit
+from deodar_interop.importers._piece import Unfit
+
+Translated = TypeVar("Translated")
 
 
 def unknown(kind: str, missing: str, known: Sequence[str]) -> str:
@@ -16,13 +19,19 @@ def unknown(kind: str, missing: str, known: Sequence[str]) -> str:
     return missing + (f". {hint}" if hint.startswith("Did") else "")
 
 
-def placeholder_piece(e: Foreign, dims: Dims, missing: str) -> Piece:
-    """Return a placeholder for an element of this size; `what` is missing."""
-    return Piece(
-        [Placeholder(e.label, axes(dims), f"{e.kind}: {missing}")],
-        [[Inlet(e.label, dims)]],
-        {"output": Outlet(e.label, dims, state=True)},
-        sums=True,
-        verdict="dropped",
-        why=f"Placeholder: {missing}",
-    )
+def or_placeholder(
+    translate: Callable[[], Translated], placeholder: Callable[[str], Translated]
+) -> Translated:
+    """Return a translation, or a placeholder with the reason if the parameters contradict each other."""
+    try:
+        return translate()
+    except (Unfit, SizeLimit) as error:
+        return placeholder(str(error))
+    except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
+        return placeholder(f"its parameters are inconsistent ({error})")
+
+
+def placeholder_lines(label: str, parameters: Iterable[str]) -> list[Line]:
+    """Return the report lines of the parameters of an element that is a placeholder."""
+    why = "its element is a placeholder"
+    return [Line(label, "parameter", name, "dropped", why) for name in parameters]

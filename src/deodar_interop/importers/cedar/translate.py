@@ -7,15 +7,14 @@ from pathlib import PurePath
 
 from deodar.element import Element
 from deodar.elements.placeholder import Placeholder
-from deodar.errors import DeodarError
 from deodar.importers._beside import Beside, nothing
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
 from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.model.model import Model
+from deodar_interop.importers._missing import or_placeholder, placeholder_lines
 from deodar_interop.importers._names import FreeNames
-from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar import file
 from deodar_interop.importers.cedar.box_layout import layout
 from deodar_interop.importers.cedar.classes import CLASSES, LOOPED, SIZED
@@ -23,7 +22,7 @@ from deodar_interop.importers.cedar.classes.missing import placeholder
 from deodar_interop.importers.cedar.clock import clock
 from deodar_interop.importers.cedar.composition import SourceStep
 from deodar_interop.importers.cedar.file import CedarFile, CedarStep, StepPath
-from deodar_interop.importers.cedar.grid import Counts, SampleGrid, TooManySamples
+from deodar_interop.importers.cedar.grid import Counts, SampleGrid
 from deodar_interop.importers.cedar.parameter_links import linked
 from deodar_interop.importers.cedar.piece import Refused, StepPiece
 from deodar_interop.importers.cedar.sequence import sequence
@@ -138,36 +137,34 @@ class StepTranslation:
             if outlet is not None and source is not None:
                 ins.setdefault(wire.target_slot, []).append(None if source.stops else outlet.dims)
         context = SourceStep(step, ins, self.grid, self.names[step.path[:-1]], self.dt, self.stored)
-        try:
-            if stops:
-                raise Refused(stops)
-            if unknown and step.kind not in SIZED:
-                self.unknown.add(step.path)
-                translation = self.missing(step, f"its size is that of {unknown!r}, which is not known")
-            elif step.kind in CLASSES:
-                translation = CLASSES[step.kind](context)
-            else:
-                self.unknown.add(step.path)
-                translation = self.missing(step)
-        except Refused as error:
-            translation = self.missing(step, f"cedar does not run it: {error}", str(error))
-        except (Unfit, TooManySamples) as error:
-            self.unknown.add(step.path)
-            translation = self.missing(step, str(error))
-        except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
-            self.unknown.add(step.path)
-            translation = self.missing(step, f"its parameters are inconsistent ({error})")
+        translation = or_placeholder(
+            lambda: self.attempted(context, stops, unknown), lambda why: self.unsized(step, why)
+        )
         self.met += context.met
         self.report.append(Line(step.label, "element", step.kind, translation.verdict, translation.why))
         if isinstance(translation.elements[0], Placeholder):
-            self.report += [
-                Line(step.label, "parameter", name, "dropped", "its element is a placeholder")
-                for name in step.values
-                if name not in ("name", "threaded", "comments")
-            ]
+            stated = [name for name in step.values if name not in ("name", "threaded", "comments")]
+            self.report += placeholder_lines(step.label, stated)
         else:
             self.report += context.values.rest(step.short)
         return translation
+
+    def attempted(self, s: SourceStep, stops: str, unknown: str) -> StepPiece:
+        """Return the translation of a step, or a placeholder if cedar does not run it or it has none."""
+        kind = s.step.kind
+        try:
+            if stops:
+                raise Refused(stops)
+            if unknown and kind not in SIZED:
+                return self.unsized(s.step, f"its size is that of {unknown!r}, which is not known")
+            return CLASSES[kind](s) if kind in CLASSES else self.unsized(s.step)
+        except Refused as error:
+            return self.missing(s.step, f"cedar does not run it: {error}", str(error))
+
+    def unsized(self, step: CedarStep, why: str = "") -> StepPiece:
+        """Return a placeholder for a step whose outputs have no size that is known."""
+        self.unknown.add(step.path)
+        return self.missing(step, why)
 
     def missing(self, step: CedarStep, why: str = "", stops: str = "") -> StepPiece:
         """Return a placeholder for a step, with the slots that connections name."""

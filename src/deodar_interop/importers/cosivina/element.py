@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Set as AbstractSet
 
+from deodar_interop.importers._axes import LengthAxes
 from deodar_interop.importers._element import FileElement
 from deodar_interop.importers._foreign import Foreign
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Dims
 from deodar_interop.importers.cosivina.file import Simulator
-from deodar_interop.importers.cosivina.sizes import Dimensions, output_size
+from deodar_interop.importers.cosivina.sizes import output_size
 from deodar_interop.importers.cosivina.values import Values
 
 
@@ -19,17 +20,16 @@ class SourceElement(FileElement):
     def __init__(
         self,
         simulator: Simulator,
-        dims: Dimensions,
+        length_axes: LengthAxes,
         element: Foreign,
         components_read: AbstractSet[str],
         names: FreeNames,
         bugs: bool,
     ) -> None:
-        super().__init__(element, simulator.step, dims, components_read, names)
+        super().__init__(element, simulator.step, length_axes, components_read, names)
         self.simulator = simulator
         self.values = Values(element.values, element.label)
         self.reproduce = bugs
-        self.met: list[str] = []
 
     def dims(self, component: str = "") -> Dims:
         """Return the dimensions of an output."""

@@ -2,31 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import PurePath
 
-from deodar.elements.placeholder import Placeholder
-from deodar.errors import DeodarError
 from deodar.importers._beside import Beside, nothing
 from deodar.importers.imported import Imported
-from deodar.importers.report import ImportReport, Line
-from deodar.model import edit
+from deodar.importers.report import Line
 from deodar.model.document import Document
-from deodar.model.model import Model
-from deodar.model.paths import display
-from deodar_interop.importers._axes import SizeLimit
-from deodar_interop.importers._document import assembled
 from deodar_interop.importers._foreign import Foreign
-from deodar_interop.importers._names import FreeNames
-from deodar_interop.importers._piece import Piece, Unfit
+from deodar_interop.importers._piece import Piece
+from deodar_interop.importers._translation import ListTranslation, component_lines
 from deodar_interop.importers._wiring import SourceWiring
 from deodar_interop.importers.cosivina import file
 from deodar_interop.importers.cosivina.classes import CLASSES
-from deodar_interop.importers.cosivina.classes.missing import placeholder
 from deodar_interop.importers.cosivina.components import components
 from deodar_interop.importers.cosivina.element import SourceElement
 from deodar_interop.importers.cosivina.file import Simulator
-from deodar_interop.importers.cosivina.sizes import Dimensions
+from deodar_interop.importers.cosivina.sizes import Dimensions, output_size
+
+MISSING = {
+    "AttractorDynamics": "turns a peak into the rate of change of a heading direction",
+    "CameraGrabber": "reads a camera",
+    "ColorExtraction": "counts colours in the columns of an image",
+    "Convolution": "convolves its two inputs with each other",
+    "DynamicRobotController": "drives an e-puck robot",
+    "ImageLoader": "reads images from files",
+    "Interpolation1D": "resamples its input at given points",
+    "LFP": "records the mean input of a field",
+    "MobileRobotArena": "simulates a vehicle among targets",
+}
+"""The function of each class that is not translated."""
 
 
 def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing) -> Imported:
@@ -51,101 +56,39 @@ def translated(simulator: Simulator, name: str, bugs: bool, finish: Finish | Non
         finish: adds to the document what else the file holds, and returns report lines about it.
     """
     translation = Translation(simulator, bugs)
-    doc = Document(PurePath(name).stem or "cosivina")
-    elements = [element for piece in translation.pieces.values() for element in piece.elements]
-    doc = assembled(doc, elements + translation.wiring.extra, translation.wiring.connections)
-    lines: list[Line] = []
+    doc, lines = translation.document(PurePath(name).stem), list[Line]()
     if finish is not None:
         doc, lines = finish(translation, doc)
-    report = ImportReport("cosivina", name, [*translation.lines(), *lines], translation.met)
-    doc = edit.describe(doc, time_unit="ms", dt=simulator.step, t0=simulator.start, notes=report.text())
-    return Imported(Model(document=doc), report)
+    return translation.imported(doc, name, simulator.step, simulator.start, lines)
 
 
 Finish = Callable[["Translation", Document], tuple[Document, list[Line]]]
 """Adds to a document, and returns it with report lines."""
 
 
-class Translation:
+class Translation(ListTranslation[SourceElement]):
     """The translations of a file's elements by label, their connections, and the report lines."""
 
+    tool, word, classes, missing = "cosivina", "class", CLASSES, MISSING
+
     def __init__(self, simulator: Simulator, bugs: bool) -> None:
+        super().__init__(simulator.elements, Dimensions(simulator))
         self.simulator = simulator
         self.bugs = bugs
-        self.dimensions = Dimensions(simulator)
-        self.met: list[str] = []
-        self.report: list[Line] = []
-        self.names = FreeNames(e.label for e in simulator.elements)
-        self.components_read: dict[str, set[str]] = {}
-        for e in simulator.elements:
-            for s in e.sources:
-                self.components_read.setdefault(s.label, set()).add(s.component)
         self.pieces = {e.label: self.piece(e) for e in simulator.elements}
         self.wiring = SourceWiring("cosivina", simulator.elements, self.pieces, self.names)
         self.wiring.connect_all()
 
-    def piece(self, e: Foreign) -> Piece:
-        """Return the translation of one element, or a placeholder if it has none or its parameters contradict
-        each other.
-        """
-        source = SourceElement(
-            self.simulator,
-            self.dimensions,
-            e,
-            self.components_read.get(e.label, set()),
-            self.names,
-            self.bugs,
-        )
-        try:
-            piece = (
-                CLASSES[e.kind](source)
-                if e.kind in CLASSES
-                else placeholder(e, self.dimensions, list(CLASSES))
-            )
-        except (Unfit, SizeLimit) as error:
-            piece = placeholder(e, self.dimensions, list(CLASSES), str(error))
-        except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
-            piece = placeholder(
-                e, self.dimensions, list(CLASSES), f"its parameters are inconsistent ({error})"
-            )
-        self.met += source.met
-        self.report.append(Line(e.label, "element", e.kind, piece.verdict, piece.why))
-        if isinstance(piece.elements[0], Placeholder):
-            self.report += [
-                Line(e.label, "parameter", name, "dropped", "its element is a placeholder")
-                for name in e.values
-            ]
-        else:
-            self.report += source.values.rest(e.kind)
-            self.report += _shown(e, piece)
-        return piece
+    def context(self, e: Foreign) -> SourceElement:
+        read = self.components_read[e.label]
+        return SourceElement(self.simulator, self.length_axes, e, read, self.names, self.bugs)
+
+    def size(self, e: Foreign) -> Sequence[int]:
+        return output_size(e)
+
+    def finished(self, b: SourceElement, piece: Piece) -> tuple[Piece, list[Line]]:
+        e = b.element
+        return piece, [*b.values.rest(e.kind), *component_lines(e, piece, components(e.kind))]
 
     def lines(self) -> list[Line]:
-        """Return all lines of the report."""
-        return [*self.simulator.lines, *self.report, *self.wiring.lines]
-
-
-def _shown(e: Foreign, piece: Piece) -> list[Line]:
-    """Report the ports of an element's components, which scripts and plots of cosivina read by name.
-
-    Components with the same name in deodar are left out.
-    """
-    lines: list[Line] = []
-    for component in components(e.kind):
-        outlet = piece.outlets.get(component)
-        if outlet is not None:
-            if (outlet.name, outlet.port) != (e.label, component):
-                lines.append(
-                    Line(
-                        e.label,
-                        "component",
-                        component,
-                        "carried",
-                        f"read {display((outlet.name, outlet.port))}",
-                    )
-                )
-        elif component in piece.elsewhere:
-            lines.append(Line(e.label, "component", component, "carried", piece.elsewhere[component]))
-        else:
-            lines.append(Line(e.label, "component", component, "dropped", "no element here outputs it"))
-    return lines
+        return [*self.simulator.lines, *super().lines()]

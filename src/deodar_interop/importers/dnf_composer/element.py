@@ -10,12 +10,13 @@ import numpy as np
 from deodar.importers._beside import Beside
 from deodar.importers.report import Line
 from deodar.parameters import show
+from deodar_interop.importers._axes import LengthAxes
 from deodar_interop.importers._element import FileElement
 from deodar_interop.importers._foreign import Foreign
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Dims, Unfit
 from deodar_interop.importers.dnf_composer.file import StoredSimulation, number
-from deodar_interop.importers.dnf_composer.sizes import SampleAxes, is_plane, samples, size
+from deodar_interop.importers.dnf_composer.sizes import is_plane, samples, size
 from deodar_interop.importers.dnf_composer.values import StoredValues
 
 MOST_VALUES = 20_000_000
@@ -55,7 +56,7 @@ class StoredElement(FileElement):
     def __init__(
         self,
         simulation: StoredSimulation,
-        length_axes: SampleAxes,
+        length_axes: LengthAxes,
         element: Foreign,
         components_read: AbstractSet[str],
         names: FreeNames,

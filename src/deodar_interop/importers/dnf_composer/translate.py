@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from collections.abc import Sequence
 from pathlib import PurePath
 
 import numpy as np
@@ -10,28 +11,23 @@ import numpy as np
 from deodar.couplings.sum import Sum
 from deodar.elements.pattern import Pattern
 from deodar.elements.placeholder import Placeholder
-from deodar.errors import DeodarError
 from deodar.importers._beside import Beside, nothing
 from deodar.importers.imported import Imported
-from deodar.importers.report import ImportReport, Line
-from deodar.model import edit
-from deodar.model.document import Document
-from deodar.model.model import Model
-from deodar.model.paths import display
+from deodar.importers.report import Line
 from deodar.numerics.axes import shape
-from deodar_interop.importers._axes import SizeLimit
-from deodar_interop.importers._document import assembled
 from deodar_interop.importers._foreign import Foreign
-from deodar_interop.importers._names import FreeNames
-from deodar_interop.importers._piece import Inlet, Outlet, Piece, Unfit, axes
+from deodar_interop.importers._piece import Inlet, Outlet, Piece, axes
+from deodar_interop.importers._translation import ListTranslation, component_lines
 from deodar_interop.importers.dnf_composer import file, legacy, start
 from deodar_interop.importers.dnf_composer.classes import CLASSES
-from deodar_interop.importers.dnf_composer.classes.missing import placeholder
 from deodar_interop.importers.dnf_composer.element import StoredElement, ValueBudget
 from deodar_interop.importers.dnf_composer.file import StoredSimulation
 from deodar_interop.importers.dnf_composer.links import admitted
-from deodar_interop.importers.dnf_composer.sizes import SampleAxes
+from deodar_interop.importers.dnf_composer.sizes import SampleAxes, size
 from deodar_interop.importers.dnf_composer.wiring import FlatWiring
+
+MISSING = {"field projection": "a reduction or an expansion of 2026, which collapse and expand replaced"}
+"""What each label that is not translated was."""
 
 
 def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing) -> Imported:
@@ -46,78 +42,56 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
     simulation = file.parse(content)
     with np.errstate(all="ignore"):  # what is not finite is reported, or refused by an element
         translation = SimulationTranslation(simulation, beside)
-    report = ImportReport("dnf-composer", name, translation.lines())
-    title = simulation.name or PurePath(name).stem
-    doc = edit.describe(
-        Document(title or "dnf-composer"), time_unit="ms", dt=simulation.step, t0=0.0, notes=report.text()
-    )
-    elements = [element for piece in translation.pieces.values() for element in piece.elements]
-    doc = assembled(doc, elements + translation.wiring.extra, translation.wiring.connections)
-    return Imported(Model(document=doc), report)
+    doc = translation.document(simulation.name or PurePath(name).stem)
+    return translation.imported(doc, name, simulation.step)
 
 
-class SimulationTranslation:
+class SimulationTranslation(ListTranslation[StoredElement]):
     """The translations of a file's elements by label, their connections, and the report lines."""
 
+    tool, word, classes, missing = "dnf-composer", "label", CLASSES, MISSING
+
     def __init__(self, simulation: StoredSimulation, beside: Beside) -> None:
-        self.report: list[Line] = list(simulation.lines)
         self.kinds = {e.label: e.kind for e in simulation.elements}
         renamed = [legacy.modern(e) for e in simulation.elements]
         self.old = {e.label: lines for e, lines in renamed}
-        simulation = dc.replace(simulation, elements=tuple(e for e, _ in renamed))
-        self.simulation, refused = admitted(simulation)
-        self.axes = SampleAxes(self.simulation)
-        self.names = FreeNames(e.label for e in self.simulation.elements)
-        self.components_read: dict[str, set[str]] = {}
-        for e in self.simulation.elements:
-            for s in e.sources:
-                self.components_read.setdefault(s.label, set()).add(s.component)
-        budget = ValueBudget()
-        self.contexts = {
-            e.label: StoredElement(
-                self.simulation,
-                self.axes,
-                e,
-                self.components_read.get(e.label, set()),
-                self.names,
-                budget,
-                beside,
-            )
-            for e in self.simulation.elements
-        }
+        modern = dc.replace(simulation, elements=tuple(e for e, _ in renamed))
+        self.simulation, refused = admitted(modern)
+        super().__init__(self.simulation.elements, SampleAxes(self.simulation))
+        self.report += simulation.lines
+        self.budget, self.beside = ValueBudget(), beside
+        self.contexts: dict[str, StoredElement] = {}
         self.pieces = {e.label: self.piece(e) for e in self.simulation.elements}
         connected = self.add_inputs_of_stimuli()
-        self.wiring = FlatWiring(connected, self.pieces, self.names, budget)
+        self.wiring = FlatWiring(connected, self.pieces, self.names, self.budget)
         self.wiring.connect_all()
         self.report += refused
 
-    def piece(self, e: Foreign) -> Piece:
-        """Return the translation of one element, or a placeholder if it has none or its parameters contradict
-        each other.
-        """
+    def context(self, e: Foreign) -> StoredElement:
+        read = self.components_read[e.label]
+        b = StoredElement(self.simulation, self.length_axes, e, read, self.names, self.budget, self.beside)
+        self.contexts[e.label] = b
+        return b
+
+    def size(self, e: Foreign) -> Sequence[int]:
+        return size(e)
+
+    def kind(self, e: Foreign) -> str:
+        return self.kinds[e.label]
+
+    def placeholder(self, e: Foreign, why: str = "") -> Piece:
         b = self.contexts[e.label]
-        kinds = list(CLASSES)
-        try:
-            piece = CLASSES[e.kind](b) if e.kind in CLASSES else placeholder(e, self.axes, kinds)
-        except (Unfit, SizeLimit) as error:
-            piece = placeholder(e, self.axes, kinds, str(error))
-        except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
-            piece = placeholder(e, self.axes, kinds, f"its parameters are inconsistent ({error})")
-        missing = isinstance(piece.elements[0], Placeholder)
-        verdict, why, kind = piece.verdict, piece.why, self.kinds[e.label]
-        if kind != e.kind and not missing:
-            verdict, why = "approximated", f"{why}, as {e.kind}; today's dnf-composer has no such label"
-        self.report.append(Line(e.label, "element", kind, verdict, why))
-        if missing:
-            b.start, b.levels = 0.0, {}
-            self.report += [
-                Line(e.label, "parameter", name, "dropped", "its element is a placeholder")
-                for name in e.values
-            ]
-            return piece
+        b.start, b.levels = 0.0, {}
+        return super().placeholder(e, why)
+
+    def finished(self, b: StoredElement, piece: Piece) -> tuple[Piece, list[Line]]:
+        e = b.element
+        if self.kind(e) != e.kind:
+            piece.verdict = "approximated"
+            piece.why += f", as {e.kind}; today's dnf-composer has no such label"
         piece = _with_input(b, piece)
-        self.report += [*self._parameters(b), *b.extra, *_shown(e, piece)]
-        return piece
+        components = dict.fromkeys((*piece.outlets, *piece.elsewhere))
+        return piece, [*self._parameters(b), *b.extra, *component_lines(e, piece, components)]
 
     def _parameters(self, b: StoredElement) -> list[Line]:
         """Return the lines of the parameters; those of an older form keep their names of then."""
@@ -143,10 +117,6 @@ class SimulationTranslation:
                 self.pieces[e.label] = _plus(self.contexts[e.label], self.pieces[e.label], sums[e.label])
             out.append(dc.replace(e, sources=()))
         return out
-
-    def lines(self) -> list[Line]:
-        """Return all lines of the report."""
-        return [*self.report, *self.wiring.lines]
 
 
 def _plus(b: StoredElement, piece: Piece, values: np.ndarray) -> Piece:
@@ -176,17 +146,3 @@ def _with_input(b: StoredElement, piece: Piece) -> Piece:
         outlets={**piece.outlets, "input": Outlet(name, inlet.dims)},
         needs=1,
     )
-
-
-def _shown(e: Foreign, piece: Piece) -> list[Line]:
-    """Report the components that are read elsewhere than under their names."""
-    lines = [
-        Line(e.label, "component", component, "carried", f"read {display((outlet.name, outlet.port))}")
-        for component, outlet in piece.outlets.items()
-        if (outlet.name, outlet.port) != (e.label, component)
-    ]
-    return lines + [
-        Line(e.label, "component", component, "carried", where)
-        for component, where in piece.elsewhere.items()
-        if component not in piece.outlets
-    ]

@@ -12,7 +12,7 @@ from deodar.elements.placeholder import Placeholder
 from deodar.importers.opening import read
 from deodar.model.check import problems
 from deodar_interop.importers.cosivina.classes import CLASSES
-from deodar_interop.importers.cosivina.classes.missing import MISSING
+from deodar_interop.importers.cosivina.translate import MISSING
 from tests.deodar_interop.importers.cosivina.files import element, written
 from tests.deodar_interop.importers.cosivina.oracle import Sim
 
