@@ -33,7 +33,7 @@ from deodar.model import document_files
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar_interop.importers.cosivina.classes import CLASSES
-from deodar_interop.importers.cosivina.classes.missing import MISSING
+from deodar_interop.importers.cosivina.translate import MISSING
 
 ROOT = Path(__file__).parent.parent
 SAMPLES = ROOT / "tests" / "deodar_interop" / "importers" / "cosivina"
