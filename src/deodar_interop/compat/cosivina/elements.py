@@ -18,13 +18,11 @@ class Element:
 
     Class attributes:
         PARAMETERS: parameters and their defaults, in the order in which the class is called.
-        FIXED: those that `loadSettings` does not change.
         ARGUMENTS: names of arguments that differ from those of their parameters.
         defaultOutputComponent: component that is read where none is named.
     """
 
     PARAMETERS: ClassVar[Mapping[str, Any]] = {}
-    FIXED: ClassVar[tuple[str, ...]] = ("size",)
     ARGUMENTS: ClassVar[Mapping[str, str]] = {}
     defaultOutputComponent: ClassVar[str] = "output"
 
@@ -92,8 +90,6 @@ class Element:
 class FileElement(Element):
     """An element of a file, of a class that the Python port lacks, with the parameters of the file."""
 
-    FIXED: ClassVar[tuple[str, ...]] = ("size", "inputSize", "outputSize", "stimulusSize")
-
     def __init__(self, label: str, kind: str, values: Mapping[str, Any]) -> None:
         super().__init__(label)
         self._kind = kind
@@ -126,13 +122,10 @@ class GaussStimulus2D(Element):
 class BoostStimulus(Element):
     """A number."""
 
-    FIXED = ()
-
 
 class CustomStimulus(Element):
     """A stimulus of any shape; it has the size of its pattern."""
 
-    FIXED = ("size", "pattern")
     ARGUMENTS = {"pattern": "stimulusPattern"}
 
     @property
@@ -187,7 +180,6 @@ class SumDimension(Element):
     """The sum of the input over one dimension or more."""
 
     PARAMETERS = {**CONSTRUCTORS["SumDimension"], "dimensionOrder": (1, 2)}
-    FIXED = ("sumDimensions", "size", "dimensionOrder")
     ARGUMENTS = {"size": "outputSize"}
 
 
@@ -217,7 +209,6 @@ class Transpose(Element):
 class ExpandDimension2D(Element):
     """A row or a column, repeated along the other dimension of a plane."""
 
-    FIXED = ("expandDimension", "size")
     ARGUMENTS = {"size": "outputSize"}
 
 

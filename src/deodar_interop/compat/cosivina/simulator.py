@@ -19,6 +19,7 @@ from deodar_interop.compat.cosivina.elements import CLASSES, Element, FileElemen
 from deodar_interop.compat.cosivina.running import Running
 from deodar_interop.importers.cosivina import file
 from deodar_interop.importers.cosivina.components import components
+from deodar_interop.importers.cosivina.constructors import is_fixed
 from deodar_interop.importers.cosivina.translate import read
 from deodar_interop.records import mat
 
@@ -206,7 +207,7 @@ class Simulator:
             )
         elements = [self._element(label) for label in labels]
         for element, name in zip(elements, names, strict=True):
-            if _parameter(element, name) in element.FIXED:
+            if is_fixed(element.kind, _parameter(element, name)):
                 raise ParameterError("cannot be changed", where=f"{element.label}: {name}")
         for element, name, value in zip(elements, names, values, strict=True):
             setattr(element, name, value)
@@ -240,7 +241,7 @@ class Simulator:
                 unmatched.append(f"{element.label}: the file has no such {element.kind}")
                 continue
             for name, value in other.values.items():
-                if element.isParameter(name) and (parameters == "all" or name not in element.FIXED):
+                if element.isParameter(name) and (parameters == "all" or not is_fixed(element.kind, name)):
                     setattr(element, name, value)
         _warn([*unmatched, *(f"{label}: the simulator has no such element" for label in there)])
         self._running = None

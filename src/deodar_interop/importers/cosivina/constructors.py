@@ -7,6 +7,15 @@ from typing import Any
 
 import numpy as np
 
+SIZES = ("size", "inputSize", "outputSize", "stimulusSize")
+FIXED: Mapping[str, tuple[str, ...]] = {
+    "BoostStimulus": (),
+    "CustomStimulus": ("size", "pattern"),
+    "SumDimension": ("sumDimensions", "size", "dimensionOrder"),
+    "ExpandDimension2D": ("expandDimension", "size"),
+}
+"""Parameters that `loadSettings` does not change, of classes in which they are not `SIZES`."""
+
 SIZE = {"size": (1, 1)}
 KERNEL_1D = {"circular": True, "normalized": True, "cutoffFactor": 5.0}
 KERNEL_2D = {"circularY": True, "circularX": True, "normalized": True, "cutoffFactor": 5.0}
@@ -252,3 +261,8 @@ FOLLOWING: Mapping[str, Callable[[dict[str, Any]], None]] = {
     "Convolution": _convolution,
 }
 """What the constructors derive from other arguments."""
+
+
+def is_fixed(kind: str, parameter: str) -> bool:
+    """Return whether `loadSettings` leaves a parameter of a class as it is."""
+    return parameter in FIXED.get(kind, SIZES)

@@ -363,6 +363,16 @@ def test_a_file_that_the_simulator_loads_is_read_beside_the_launcher(tmp_path):
         imported("sim = Simulator('file', 'pairs.json');\n", tmp_path)
 
 
+@pytest.mark.parametrize(("arguments", "samples"), [("'pair.json'", 60), ("'pair.json', 'all'", 80)])
+def test_settings_of_a_file_leave_sizes_as_they_are_unless_all_are_asked_for(arguments, samples, tmp_path):
+    sim, _ = built(PAIR.replace("n = 60", "n = 80"))
+    sim.elements["line"].values["tau"] = 33
+    (tmp_path / "pair.json").write_bytes(parameters(sim))
+    done = imported(launcher(SLIDER, model=PAIR + f"sim.loadSettings({arguments});\n"), tmp_path)
+    line = by_name(done, "line")
+    assert line.tau == 33 and line.axes[0].samples == samples
+
+
 def test_other_scripts_of_the_folder_are_read_where_they_are_named(tmp_path):
     (tmp_path / "buildPair.m").write_text(PAIR)
     (tmp_path / "addControls.m").write_text(launcher(SLIDER, model="", end="").strip())

@@ -10,7 +10,7 @@ import numpy as np
 from deodar.importers.report import Line
 from deodar_interop.importers.cosivina.classes import CLASSES
 from deodar_interop.importers.cosivina.components import components
-from deodar_interop.importers.cosivina.constructors import CONSTRUCTORS, OUTPUTS, parameters_of
+from deodar_interop.importers.cosivina.constructors import CONSTRUCTORS, OUTPUTS, is_fixed, parameters_of
 from deodar_interop.importers.cosivina.file import Simulator
 from deodar_interop.importers.cosivina.launchers import matlab_values
 from deodar_interop.importers.cosivina.launchers.expressions import NotRead
@@ -204,12 +204,19 @@ def set_parameter(script: ElementBuilder, built: BuiltElement, name: str, value:
 
 
 def load_settings(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
-    """Take over the parameters of a file; return that it was read."""
+    """Take over the parameters of a file that can be changed, or all; return that it was read."""
+    every_parameter = len(arguments) > 1 and matlab_values.string(arguments[1]) == "all"
+    load(script, sim, matlab_values.string(argument(arguments, 0)), every_parameter)
+    return matlab_values.flag(True)
+
+
+def load_file(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
+    """Take over a file; return that it was read."""
     load(script, sim, matlab_values.string(argument(arguments, 0)))
     return matlab_values.flag(True)
 
 
-def load(script: ElementBuilder, sim: BuiltSimulator, name: str) -> None:
+def load(script: ElementBuilder, sim: BuiltSimulator, name: str, every_parameter: bool = True) -> None:
     """Take over a file: all of it if the simulator has no elements, else the parameters of its elements."""
     stored = script.file(name)
     sim.step, sim.start = stored.step, stored.start
@@ -225,7 +232,11 @@ def load(script: ElementBuilder, sim: BuiltSimulator, name: str) -> None:
             why = f"line {script.line}: it has no such {built.kind}, which keeps its values"
             script.lines.append(Line(built.label, "preset", name, "dropped", why))
             continue
-        built.values.update({n: v for n, v in twin.values.items() if n in built.values})
+        built.values |= {
+            parameter: value
+            for parameter, value in twin.values.items()
+            if parameter in built.values and (every_parameter or not is_fixed(built.kind, parameter))
+        }
     for label in elements:
         if label not in sim.elements:
             why = f"line {script.line}: it has this {elements[label].kind}, the simulator does not"
@@ -297,7 +308,7 @@ SIMULATOR_METHODS: Mapping[str, Callable[[ElementBuilder, BuiltSimulator, Elemen
     "addConnection": add_connection,
     "setElementParameters": set_parameters,
     "loadSettings": load_settings,
-    "loadFromFile": load_settings,
+    "loadFromFile": load_file,
     "getElement": get_element,
     "getElementParameter": get_parameter,
     "isElement": is_element,
