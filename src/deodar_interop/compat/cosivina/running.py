@@ -25,7 +25,7 @@ from deodar_interop.exporters.cosivina.layout import size
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Outlet, axes
 from deodar_interop.importers.cosivina import file
-from deodar_interop.importers.cosivina.translate import Translation, read
+from deodar_interop.importers.cosivina.translate import Translation
 
 
 class Running:
@@ -37,17 +37,24 @@ class Running:
     """
 
     def __init__(self, content: bytes, seed: int) -> None:
-        self._content = content
-        done = read(content, "simulator.json")
-        self.report: ImportReport = done.report
-        self._model: Model = done.model
-        self._outlets = _outlets(content)
+        self._translate(content)
         self._seed = seed
         self._session: Session | None = None
         self._before: SessionSnapshot | None = None
         self._last: Session | None = None
         self._repeated: SessionSnapshot | None = None
         self._registers: dict[tuple[str, str], str] = {}
+
+    def _translate(self, content: bytes) -> None:
+        """Take over the model of a file, and where the components of its elements are."""
+        simulator = file.parse(content)
+        translation = Translation(simulator, False)
+        doc = translation.document("simulator")
+        imported = translation.imported(doc, "simulator.json", simulator.step, simulator.start)
+        self._content = content
+        self.report: ImportReport = imported.report
+        self._model: Model = imported.model
+        self._outlets = {label: dict(piece.outlets) for label, piece in translation.pieces.items()}
 
     @property
     def session(self) -> Session:
@@ -73,10 +80,7 @@ class Running:
         """Continue with other parameters; elements keep their states."""
         if content == self._content:
             return
-        self._content = content
-        done = read(content, "simulator.json")
-        self.report, self._model = done.report, done.model
-        self._outlets = _outlets(content)
+        self._translate(content)
         self.session.edit(self._model.document)
 
     def shown(self, label: str) -> list[str]:
@@ -125,9 +129,3 @@ def _registered(
     for (name, port), entry in zip(wanted, added, strict=True):
         document = edit.connect(document, by[name,], port, entry, "input", "")
     return document, registers
-
-
-def _outlets(content: bytes) -> dict[str, dict[str, Outlet]]:
-    """Return the components of each element that the translation shows."""
-    pieces = Translation(file.parse(content), False).pieces
-    return {label: dict(piece.outlets) for label, piece in pieces.items()}
