@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 
 import { expect, test } from "vitest";
 
-import { onlyWoff2 } from "./fonts";
+import { onlyUsed, onlyWoff2 } from "./fonts";
 
 test("a font keeps its source in woff2 alone", () => {
   const css =
@@ -20,4 +20,19 @@ test("the stylesheet of the formulas keeps no other source", () => {
   const css = onlyWoff2(readFileSync("node_modules/katex/dist/katex.min.css", "utf8"));
   expect(css).toContain("KaTeX_Main-Regular.woff2");
   expect(css).not.toMatch(/\.woff\)|\.ttf\)/);
+});
+
+test("of the alphabets of formulas only those remain that formulas have", () => {
+  const css = readFileSync("node_modules/katex/dist/katex.min.css", "utf8");
+  const families = (text: string) =>
+    new Set([...text.matchAll(/@font-face\{font-\w+:[^}]*?KaTeX_(\w+)/g)].map((found) => found[1]));
+  const used = families(onlyUsed(css));
+  expect(used).toContain("Main");
+  expect(used).toContain("Size4");
+  expect([...families(css)].filter((family) => !used.has(family))).toEqual([
+    "Fraktur",
+    "SansSerif",
+    "Script",
+    "Typewriter",
+  ]);
 });

@@ -16,7 +16,7 @@ import importlib.machinery
 import os
 from typing import Any
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 
 def _homes() -> dict[str, tuple[str, str]]:

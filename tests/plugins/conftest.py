@@ -33,7 +33,7 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
         modules: Mapping[str, str],
         entries: Mapping[str, Mapping[str, str]],
         version: str = "0.1.0",
-        requires: tuple[str, ...] = ("deodar>=0.1,<0.2",),
+        requires: tuple[str, ...] = ("deodar>=0.2,<0.3",),
     ) -> Path:
         for module, text in modules.items():
             (site / f"{module}.py").write_text(text, encoding="utf-8")
