@@ -3,7 +3,7 @@ import type { Plugin } from "vite";
 
 const OTHER = /,\s*url\([^)]*\.(?:woff|ttf)["']?\)\s*format\(["'](?:woff|truetype)["']\)/g;
 
-/** Alphabets that no formula of deodar has. In a formula of a package their letters have the font of the text. */
+/** Alphabets that no formula of deodar has; in one of a package their letters have the font of the text. */
 const UNUSED = /@font-face\{[^}]*KaTeX_(?:Fraktur|SansSerif|Script|Typewriter)[^}]*\}/g;
 
 /** The stylesheet without the sources in woff and ttf that stand behind one in woff2. */

@@ -22,8 +22,10 @@ class Socket {
   private failed = 0;
 
   open(): void {
-    const scheme = location.protocol === "https:" ? "wss" : "ws";
-    const socket = new WebSocket(`${scheme}://${location.host}/ws${location.search}`);
+    // below the path of the page, which a proxy may have chosen
+    const address = new URL(`ws${location.search}`, document.baseURI);
+    address.protocol = location.protocol === "https:" ? "wss" : "ws";
+    const socket = new WebSocket(address);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.failed = 0;

@@ -13,6 +13,7 @@ import pytest
 import websockets
 from websockets.sync.client import connect
 
+from deodar.errors import OutputError
 from deodar_studio.access import token
 from deodar_studio.access.guard import Guard, is_local
 from deodar_studio.web.serve import bind
@@ -98,7 +99,7 @@ def test_every_request_needs_the_token(root: Path, host: str) -> None:
         assert socket_status(local, "/ws?token=wrong") in (401, 403)
         assert socket_status(local, f"/ws?token={token}") == 101
         status, _, headers = get(local, f"/?token={token}")
-        assert status == 303 and headers["location"] == "/", "the token does not stay in the address"
+        assert status == 303 and headers["location"] == "./", "the token does not stay in the address"
         assert headers["referrer-policy"] == "no-referrer" and headers["cache-control"] == "no-store"
         given = headers["set-cookie"]
         assert (
@@ -118,7 +119,7 @@ def test_a_browser_from_another_site_gets_a_page_without_a_redirect(root: Path) 
     with studio(root) as address:
         path = f"/?{urlsplit(address).query}"
         status, body, headers = get(address, path, token=False, Sec_Fetch_Site="cross-site")
-        assert status == 200 and 'url=/"' in body and "deodar_token" in headers["set-cookie"]
+        assert status == 200 and 'url=./"' in body and "deodar_token" in headers["set-cookie"]
         assert get(address, path, token=False, Sec_Fetch_Site="none")[0] == 303
 
 
@@ -132,6 +133,17 @@ def test_a_user_without_the_token_is_asked_for_it(root: Path) -> None:
         )
         token = urlsplit(address).query.removeprefix("token=")
         assert token not in body
+
+
+def test_the_environment_states_the_token(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    token = "a-Token_of_32_letters_and_digits"
+    monkeypatch.setenv("DEODAR_TOKEN", token)
+    for host in ("127.0.0.1", "0.0.0.0"):
+        with studio(root, host=host) as address:
+            assert urlsplit(address).query == f"token={token}"
+    monkeypatch.setenv("DEODAR_TOKEN", "short")
+    with pytest.raises(OutputError, match="DEODAR_TOKEN is no token of 32 letters"), studio(root):
+        pass
 
 
 def test_no_token_accepts_every_connection(root: Path) -> None:

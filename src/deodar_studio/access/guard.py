@@ -33,7 +33,7 @@ body { font: 1rem/1.5 system-ui, sans-serif; max-width: 34rem; margin: 15vh auto
 <h1>deodar studio</h1>
 <p>This studio needs its token. Open the address that <code>deodar studio</code> printed in the terminal, or
 enter the token of that address:</p>
-<form action="/" method="get">
+<form action="./" method="get">
 <label>Token <input name="token" type="password" autocomplete="off" autofocus></label> <button>Open</button>
 </form>
 </html>
@@ -41,8 +41,8 @@ enter the token of that address:</p>
 ON = """<!doctype html>
 <html lang="en">
 <title>deodar studio</title>
-<meta http-equiv="refresh" content="0; url=/">
-<p><a href="/">Open the studio</a></p>
+<meta http-equiv="refresh" content="0; url=./">
+<p><a href="./">Open the studio</a></p>
 </html>
 """
 
@@ -129,7 +129,7 @@ class Guard:
         if headers.get("sec-fetch-site") == "cross-site":
             answer: Response = HTMLResponse(ON, headers=HEADERS)
         else:
-            answer = RedirectResponse("/", 303, headers=HEADERS)
+            answer = RedirectResponse("./", 303, headers=HEADERS)
         answer.headers["cache-control"] = "no-store"
         answer.set_cookie(self.cookie, self._token, httponly=True, samesite="strict")
         await answer(scope, receive, send)

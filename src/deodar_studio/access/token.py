@@ -3,7 +3,8 @@
 A studio that listens on this machine alone stores the token of its port in a file that only this user can
 read, so that open pages connect again after a restart at the same port. A process that can read that file can
 act as the user anyway. A studio that other machines can reach uses a new token at each start, because its
-connection is not encrypted.
+connection is not encrypted. A program that starts a studio for others, such as a hub of notebooks, states the
+token in the environment, which only processes of this user can read.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ import stat
 import time
 from pathlib import Path
 
+from deodar.errors import OutputError
+
+VARIABLE = "DEODAR_TOKEN"
 FORM = re.compile(r"^[A-Za-z0-9_-]{32}$")
 DAYS = 30
 """Days after which the token of an unused port is removed (a guess)."""
@@ -24,6 +28,22 @@ DAYS = 30
 def new() -> str:
     """Return a token of 192 random bits."""
     return secrets.token_urlsafe(24)
+
+
+def stated() -> str:
+    """Return the token that the environment states, empty if none.
+
+    Raises:
+        OutputError: it has not the form of the tokens of `new`: it could be guessed, or would not pass
+            through a cookie.
+    """
+    token = os.environ.get(VARIABLE, "")
+    if token and not FORM.match(token):
+        raise OutputError(
+            f"{VARIABLE} is no token of 32 letters, digits, - and _",
+            fix='Make one: python -c "import secrets; print(secrets.token_urlsafe(24))"',
+        )
+    return token
 
 
 def kept(folder: Path, port: int) -> str:

@@ -98,11 +98,11 @@ def prepare(
     `ready` is called with the address when the server is ready. `ended` is called when the server stops,
     before a signal such as SIGTERM ends the process.
     """
+    secret = tokens.stated() if service.token else ""
     host, bound = service.host, bind(service.host, service.port)
     number = bound.getsockname()[1]
-    secret = (
-        "" if not service.token else tokens.kept(state_folder(), number) if is_local(host) else tokens.new()
-    )
+    if service.token and not secret:
+        secret = tokens.kept(state_folder(), number) if is_local(host) else tokens.new()
     shown = host if host not in ("0.0.0.0", "::") else socket.gethostname()
     address = (
         f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={secret}' if secret else ''}"
