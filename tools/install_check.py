@@ -30,7 +30,7 @@ KEPT = ("PIP_", "SSL_", "REQUESTS_", "HTTP", "NO_PROXY", "http", "no_proxy", "LA
 
 @dataclass(frozen=True)
 class Walk:
-    """What the page tells a reader to do: a file to write, commands to type, and the line that they print."""
+    """What the page asks a reader to do: a file to write, commands to type, and the line that they print."""
 
     file: str
     content: str
@@ -39,7 +39,7 @@ class Walk:
 
 
 def walk(page: str) -> Walk:
-    """Return what the section of the page tells a reader to do."""
+    """Return what the section of the page asks a reader to do."""
     [section] = re.findall(rf"^## {SECTION}\n(.*?)(?=^## )", page, re.MULTILINE | re.DOTALL)
     [(file, content)] = re.findall(r'^```python title="([\w.]+)"\n(.*?)^```$', section, re.M | re.S)
     [commands] = re.findall(r"^```sh\n(.*?)^```$", section, re.M | re.S)
@@ -56,21 +56,21 @@ def main(arguments: Sequence[str]) -> int:
     wheels = sorted(args.dist.resolve().glob("deodar-*.whl"))
     if len(wheels) != 1:
         parser.error(f"{args.dist} has {len(wheels)} wheels of deodar; one is needed")
-    told = walk(PAGE.read_text(encoding="utf-8"))
-    return max(_check(told, wheels[0], python) for python in args.python)
+    steps = walk(PAGE.read_text(encoding="utf-8"))
+    return max(_check(steps, wheels[0], python) for python in args.python)
 
 
-def _check(told: Walk, wheel: Path, python: str) -> int:
+def _check(steps: Walk, wheel: Path, python: str) -> int:
     """Run the commands in an empty folder; return the status."""
-    about = "import sys; print(sys.executable, sys.version.split()[0])"
-    real, version = subprocess.check_output([python, "-c", about], text=True).split()
+    question = "import sys; print(sys.executable, sys.version.split()[0])"
+    real, version = subprocess.check_output([python, "-c", question], text=True).split()
     print(f"Python {version}, {wheel.name}", flush=True)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         environment = surroundings(folder, Path(real), wheel)
-        (folder / told.file).write_text(told.content, encoding="utf-8")
+        (folder / steps.file).write_text(steps.content, encoding="utf-8")
         printed, begun = "", time.perf_counter()
-        for command in told.commands:
+        for command in steps.commands:
             before = time.perf_counter()
             done = subprocess.run(
                 ["/bin/sh", "-c", command], cwd=folder, env=environment, capture_output=True, text=True
@@ -81,10 +81,10 @@ def _check(told: Walk, wheel: Path, python: str) -> int:
                 return 1
             printed += done.stdout
         print(f"{(time.perf_counter() - begun) / 60:7.1f} min until the last command has ended")
-    if told.prints not in printed.splitlines():
-        print(f"not printed: {told.prints!r}; printed:\n{printed[-2000:]}")
+    if steps.prints not in printed.splitlines():
+        print(f"not printed: {steps.prints!r}; printed:\n{printed[-2000:]}")
         return 1
-    print(f"          {told.prints}")
+    print(f"          {steps.prints}")
     return 0
 
 
@@ -96,8 +96,8 @@ def surroundings(folder: Path, python: Path, wheel: Path) -> dict[str, str]:
     (programs / "python3").symlink_to(python)
     taken = folder / ".constraints"
     taken.write_text(f"deodar @ {wheel.as_uri()}\n", encoding="utf-8")
-    kept = {name: value for name, value in os.environ.items() if name.startswith(KEPT)}
-    environment = kept | {"PATH": str(programs), "HOME": str(home), "PIP_CONSTRAINT": str(taken)}
+    of_pip = {name: os.environ[name] for name in os.environ if name.startswith(KEPT)}
+    environment = of_pip | {"PATH": str(programs), "HOME": str(home), "PIP_CONSTRAINT": str(taken)}
     assert shutil.which("node", path=environment["PATH"]) is None
     return environment
 

@@ -91,10 +91,10 @@ def _build(dist: Path) -> int:
     _run(str(python), "-m", "pip", "install", "-q", "build", "twine")
     for project in (ROOT, ROOT / "native"):
         _run(str(python), "-m", "build", "--outdir", str(dist), str(project))
-    made = sorted(dist.iterdir())
-    _run(str(python), "-m", "twine", "check", "--strict", *map(str, made))
-    problems = [problem for path in made for problem in judged(path)]
-    for path in made:
+    distributions = sorted(dist.iterdir())
+    _run(str(python), "-m", "twine", "check", "--strict", *map(str, distributions))
+    problems = [problem for path in distributions for problem in judged(path)]
+    for path in distributions:
         print(f"{path.stat().st_size / 1e6:5.2f} MB  {path.name}")
     print(*problems, sep="\n")
     return 1 if problems else 0

@@ -1,7 +1,7 @@
 """Adds the studio to a Jupyter server, at `deodar/` below its address: one studio for each user.
 
-jupyter-server-proxy starts it when it is first opened, and asks for the login of the server. Other users of the
-machine cannot use its port, because only the proxy knows the token.
+jupyter-server-proxy starts it when it is first opened, and asks for the login of the server. Other users of
+the machine cannot use its port, because only the proxy knows the token.
 """
 
 import secrets

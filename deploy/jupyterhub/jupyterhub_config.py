@@ -1,5 +1,7 @@
-"""What a JupyterHub needs so that a login opens a studio of one's own. Users, spawner and TLS are those of the
-hub; deodar and jupyter-server-proxy are installed where its spawner starts servers.
+"""What a JupyterHub needs so that a login opens a studio of one's own.
+
+Users, spawner and TLS are those of the hub; deodar and jupyter-server-proxy are installed where its spawner
+starts servers.
 """
 
 from pathlib import Path

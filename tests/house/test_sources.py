@@ -37,7 +37,7 @@ MUTABLE_CALLS = {
 }
 PAGES = [
     *sorted((ROOT / "docs").glob("*.md")),
-    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md")),
+    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md", "RELEASING.md")),
 ]
 PAGE = [p for p in texts() if (ROOT / "studio") in p.parents and p.suffix in {".ts", ".tsx", ".css"}]
 CHANGES = {"append", "add", "update", "pop", "clear", "extend", "insert", "remove", "setdefault", "discard"}
