@@ -96,7 +96,8 @@ def _build(dist: Path) -> int:
     problems = [problem for path in distributions for problem in judged(path)]
     for path in distributions:
         print(f"{path.stat().st_size / 1e6:5.2f} MB  {path.name}")
-    print(*problems, sep="\n")
+    for problem in problems:
+        print(problem)
     return 1 if problems else 0
 
 

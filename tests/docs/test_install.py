@@ -27,7 +27,7 @@ python3 -m venv --without-pip peak
 ```
 
 ```text
-a {thing}
+a {noun}
 ```
 
 ## Other ways
@@ -48,7 +48,7 @@ def test_the_file_of_the_page_prints_the_line_of_the_page(capsys: pytest.Capture
 
 
 @pytest.mark.parametrize(
-    ("command", "thing", "status", "said"),
+    ("command", "noun", "status", "answer"),
     [
         ("peak/bin/python peak.py", "peak", 0, "min until the last command has ended"),
         ("peak/bin/python peak.py", "field", 1, "not printed: 'a field'; printed:\na peak"),
@@ -58,20 +58,20 @@ def test_the_file_of_the_page_prints_the_line_of_the_page(capsys: pytest.Capture
 )
 def test_the_check_runs_the_commands_of_the_page_in_an_empty_folder(
     command: str,
-    thing: str,
+    noun: str,
     status: int,
-    said: str,
+    answer: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     page = tmp_path / "page.md"
-    page.write_text(MADE.format(command=command, thing=thing))
+    page.write_text(MADE.format(command=command, noun=noun))
     monkeypatch.setattr(check, "PAGE", page)
     (tmp_path / "deodar-1-py3-none-any.whl").touch()
     assert check.main([str(tmp_path), sys.executable]) == status
     printed = capsys.readouterr().out
-    assert said in printed
+    assert answer in printed
     assert re.search(r"^ +[\d.]+ s  python3 -m venv --without-pip peak$", printed, re.MULTILINE)
 
 

@@ -36,11 +36,11 @@ def test_the_package_for_conda_has_the_version_and_the_dependencies_of_the_proje
     python = f"python {PROJECT['project']['requires-python']}"
     assert _section("run") == [
         python,
-        *(f"{CONDA_NAMES.get(one.name, one.name)} {one.specifier}" for one in needed),
+        *(f"{CONDA_NAMES.get(need.name, need.name)} {need.specifier}" for need in needed),
     ]
     built = [Requirement(text) for text in PROJECT["build-system"]["requires"]]
     # the sdist has the built page
-    tools = {f"{one.name} {one.specifier}" for one in built if not one.name.startswith("nodejs")}
+    tools = {f"{tool.name} {tool.specifier}" for tool in built if not tool.name.startswith("nodejs")}
     assert set(_section("host")) == {python, "pip", *tools}
 
 
