@@ -20,8 +20,8 @@ def unpacked(place: Path, trust: bool) -> tuple[Path, str]:
         trust: whether modules that come with a package may be imported and run.
 
     Raises:
-        DocumentError: the package is damaged, it holds a figure, or what it holds cannot be opened without its
-            modules.
+        DocumentError: the package is damaged, it holds a figure, or what it holds cannot be opened without
+            its modules.
     """
     if not packing.has_contents(place):
         return place, ""

@@ -108,7 +108,7 @@ class Hub:
                 self._loop.call_soon_threadsafe(self.notify)
 
     async def open(self, place: Path, discard: bool, discard_experiment: bool) -> str:
-        """Open a document, a record or an experiment; return a sentence on the import of a file of another tool.
+        """Open a document, a record or an experiment; return a sentence on the import of another tool's file.
 
         Raises:
             ConfirmationRequired: without `discard`, if the document has unsaved edits, or, without

@@ -22,8 +22,8 @@ async def open_file(
 ) -> Answer:
     """Open a document, a record, an experiment or a package below the root.
 
-    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment. The
-    `text` of the answer is a sentence on the package that was opened.
+    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
+    The `text` of the answer is a sentence on the package that was opened.
     """
     place = hub.workspace.inside(path)
     inner, sentence = await in_file_thread(lambda: unpacked(place, hub.project.trust), path)

@@ -79,8 +79,8 @@ def selection_plan(name: str, **settings: object) -> dd.Experiment:
 
 
 def test_a_record_comes_back_with_what_made_it(folder: Path) -> None:
-    data = dd.simulate(dd.load("example:node"), 20, record="u.activation")
-    dd.save_record(data, "node.zarr")
+    record = dd.simulate(dd.load("example:node"), 20, record="u.activation")
+    dd.save_record(record, "node.zarr")
     packed = dd.pack("node.zarr")
     contents = dd.contents(packed)
     assert (contents.kind, contents.path, contents.about["run"]) == (
@@ -91,7 +91,7 @@ def test_a_record_comes_back_with_what_made_it(folder: Path) -> None:
     assert contents.about["made by"].startswith(f"deodar {dd.__version__}, jax ")
     assert contents == dd.contents("node.zarr")
     inner = dd.unpack(packed, "apart")
-    assert inner == Path("apart", "node.zarr") and dd.load_record(inner).identical(data)
+    assert inner == Path("apart", "node.zarr") and dd.load_record(inner).identical(record)
 
 
 def test_equal_contents_give_equal_packages(folder: Path) -> None:
@@ -121,8 +121,8 @@ def test_results_are_repeated_row_by_row(folder: Path) -> None:
     dd.save(dd.load("example:selection"), "model.json")
     before = selection_plan("choice").run("results")
     packed = dd.pack("results")
-    about = dd.contents(packed).about
-    assert (about["experiment"], about["trials"]) == ("choice", "2 of 2")
+    lines = dd.contents(packed).about
+    assert (lines["experiment"], lines["trials"]) == ("choice", "2 of 2")
     inner = dd.unpack(packed, "apart")
     assert dd.load_results(inner).equals(before) and len(list((inner / "records").iterdir())) == 2
     dd.Experiment.load(inner / "experiment.json").run("again")
@@ -216,8 +216,8 @@ def test_a_package_without_its_module_says_which_is_missing(folder: Path) -> Non
 
 
 def test_a_world_of_the_script_itself_cannot_be_packed(folder: Path) -> None:
-    data = dd.simulate(lit(), 20, record="eye.output", world=world_of_main())
-    dd.save_record(data, "lit.nc")
+    record = dd.simulate(lit(), 20, record="eye.output", world=world_of_main())
+    dd.save_record(record, "lit.nc")
     assert dd.contents("lit.nc").modules == ()  # the record names no module: it can only be drawn
 
 
@@ -289,18 +289,18 @@ def test_a_package_with_other_contents_than_stated_is_refused(
 
 def test_no_flipped_bit_goes_unnoticed(folder: Path) -> None:
     packed = packed_record()
-    whole, wanted = packed.read_bytes(), dd.load_record("node.nc")
+    content, record = packed.read_bytes(), dd.load_record("node.nc")
     draw = np.random.default_rng(0)
     for k in range(60):
-        content = bytearray(whole)
-        content[int(draw.integers(len(whole)))] ^= 1 << int(draw.integers(8))
-        Path("flipped.deodar").write_bytes(bytes(content))
+        flipped = bytearray(content)
+        flipped[int(draw.integers(len(content)))] ^= 1 << int(draw.integers(8))
+        Path("flipped.deodar").write_bytes(bytes(flipped))
         try:
             inner = dd.unpack("flipped.deodar", f"flipped-{k}")
         except DeodarError:
             assert not Path(f"flipped-{k}").exists()
         else:
-            assert dd.load_record(inner).identical(wanted)
+            assert dd.load_record(inner).identical(record)
 
 
 def test_unpacking_replaces_a_folder_only_with_force(folder: Path) -> None:
