@@ -13,7 +13,8 @@ from deodar.model import output
 
 HELP = "list the examples that come with deodar, copy one, or open one in the studio"
 EPILOG = """\
-list prints every example with a sentence. copy writes its files into DIR, which is made if it is missing.
+list prints every example with a sentence. copy writes its files into DIR, which is made if it is missing;
+copy exercises and copy solutions write the notebooks of the exercises, and their solutions.
 open starts the studio with a copy that has no file yet. Wherever a command takes the FILE of a model,
 example:NAME stands for an example: deodar run example:selection"""
 
@@ -106,6 +107,8 @@ def _copy(args: argparse.Namespace) -> int:
         next_step = (
             f"deodar studio {_options.shown(targets[0])}"
             if targets[0].suffix == ".json"
+            else f"jupyter lab {_options.shown(targets[0])}"
+            if targets[0].suffix == ".ipynb"
             else f"python {_options.shown(targets[0])}"
         )
         print(f"Copied {', '.join(_options.shown(t) for t in targets)}. Next: {next_step}")

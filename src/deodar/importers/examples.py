@@ -22,6 +22,9 @@ PREFIX = "example:"
 LONGEST = 140
 """Largest number of characters of a sentence."""
 
+COURSE = {"exercises": "exercises/*.ipynb", "solutions": "exercises/solutions/*.py"}
+"""Files that are copied together, by the name under which they are copied."""
+
 MAKERS = ("make", "pictures")
 """Scripts of the folder that write the examples and their pictures, and are not examples."""
 
@@ -79,8 +82,10 @@ def file(name: str) -> Path:
 
 def parts(name: str) -> list[Path]:
     """List the files that an example needs, its own first: the arrays of a document, the documents of a
-    script.
+    script; or the notebooks of the exercises, or their solutions.
     """
+    if name in COURSE:
+        return sorted(folder().glob(COURSE[name]))
     own = file(name)
     text = own.read_text(encoding="utf-8")
     if own.suffix == ".json":

@@ -125,7 +125,7 @@ def test_an_event_that_is_missing_or_out_of_order_is_noticed(name: str):
 
 
 class ToldTable:
-    """A table whose steps are told: each activation and the place of the tool from its step on.
+    """A table whose steps are listed: each activation and the place of the tool from its step on.
 
     Attributes:
         changes: values by the number of the step from which on they hold.
