@@ -16,6 +16,7 @@ COMMANDS = {
     "record": ("run {file}", "plot {file}", "studio {file}"),
     "experiment": ("experiment {file}",),
     "results": ("experiment {file}",),
+    "table": (),
     "figure": ("plot {file}",),
 }
 """What to type next, for each kind of work."""

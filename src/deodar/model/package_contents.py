@@ -21,11 +21,12 @@ NOUNS = {
     "record": "a record",
     "experiment": "an experiment",
     "results": "the results of an experiment",
+    "table": "the table of an experiment",
     "figure": "the file of a figure",
 }
 """What can be packed, and how messages call it."""
 
-PackedKind = Literal["document", "record", "experiment", "results", "figure"]
+PackedKind = Literal["document", "record", "experiment", "results", "table", "figure"]
 ShortText = Annotated[str, msgspec.Meta(max_length=2000)]
 Hash = Annotated[str, msgspec.Meta(pattern="^[0-9a-f]{64}$")]
 
@@ -62,7 +63,8 @@ class Contents(Summarised, msgspec.Struct, frozen=True, forbid_unknown_fields=Tr
     """What is in a package.
 
     Attributes:
-        kind: what is packed: document, record, experiment, results or figure.
+        kind: what is packed: document, record, experiment, results, table (of results, alone) or
+            figure.
         path: the entry, or the folder of entries, that is opened.
         about: what it is and what made it: names and values, for people.
         modules: modules of the user that are needed to run it.

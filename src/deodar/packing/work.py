@@ -10,10 +10,10 @@ import dataclasses as dc
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from deodar import codec, registry
-from deodar.errors import DocumentError, Fix, RecordError
+from deodar.errors import DocumentError, Fix
 from deodar.experiments import results
 from deodar.experiments.design import Design
 from deodar.experiments.record_target import PLACE
@@ -26,6 +26,9 @@ from deodar.packing.modules import of_document, of_world
 from deodar.recording import files, provenance
 from deodar.recording.record import about as origin_of
 from deodar.summary import counted
+
+if TYPE_CHECKING:
+    import xarray
 
 Needs = Mapping[str, tuple[str, ...]]
 """For each module of the user the names that are needed of it."""
@@ -60,6 +63,8 @@ def work_at(path: str | Path) -> Work:
     place = Path(os.path.abspath(examples.named(path)))
     if place.is_dir():
         return _results(place) if (place / results.ROWS).is_file() else _record(place)
+    if place.name in (results.TABLE, results.DATASET) and (place.parent / results.ROWS).is_file():
+        return _results(place.parent)
     if place.suffix.lower() == ".toml":
         return _figure(place)
     if place.suffix.lower() in (".nc", ".csv"):
@@ -89,11 +94,7 @@ def _record(place: Path) -> Work:
     try:
         origin: dict[str, Any] = origin_of(record)
         if "document" not in origin:
-            raise RecordError(
-                "is the table of an experiment",
-                where=str(place),
-                fix=Fix("Pack the folder that holds it", "Pack the folder that deodar experiment wrote"),
-            )
+            return _table(place, record, origin)
         variables = [str(name) for name in record.data_vars]
     finally:
         record.close()
@@ -110,15 +111,21 @@ def _record(place: Path) -> Work:
     return Work("record", place.name, content, about, _merged(of_document(doc), of_world(world)))
 
 
+def _table(place: Path, table: xarray.Dataset, origin: Mapping[str, Any]) -> Work:
+    about = {"experiment": str(origin["name"]), "trials": str(table.sizes.get("trial", 0))}
+    about |= {"world": str(origin["world"]["world"])} if origin.get("world") else {}
+    about |= {"columns": _columns(table), "made by": _made_by(origin)}
+    return Work("table", place.name, {place.name: place}, about)
+
+
 def _results(place: Path) -> Work:
     identity, rows = results.stored(place)
     doc: Document = document_files.load(place / results.MODEL)
     world: Any = identity.get("world")
-    data = results.load_results(place)
     about = {"experiment": str(identity["name"]), "model": _named(doc)}
     about |= {"trials": f"{len(rows)} of {len(_design(place / results.EXPERIMENT).cells)}"}
     about |= {"world": str(world["world"])} if world else {}
-    about |= {"columns": ", ".join(map(str, (*data.coords, *data.data_vars)))}
+    about |= {"columns": _columns(results.load_results(place))}
     if (place / PLACE).is_file():
         about["records"] = "in a store elsewhere, which is not included"
     about["made by"] = _made_by(identity)
@@ -251,6 +258,10 @@ def _of_document(doc: Document) -> dict[str, str]:
 
 def _named(doc: Document) -> str:
     return f"{doc.name} ({counted(len(doc.entries), 'element')})"
+
+
+def _columns(table: xarray.Dataset) -> str:
+    return ", ".join(map(str, (*table.coords, *table.data_vars)))
 
 
 def _made_by(origin: Mapping[str, Any]) -> str:

@@ -131,6 +131,15 @@ def test_results_are_repeated_row_by_row(folder: Path) -> None:
     assert str(compared) == "The repetition has the same rows, in 2 trials"
 
 
+def test_the_table_of_an_experiment_says_what_made_it(folder: Path) -> None:
+    dd.save(dd.load("example:selection"), "model.json")
+    selection_plan("choice").run("results")
+    assert dd.contents("results/trials.nc") == dd.contents("results")
+    moved = dd.contents(Path("results/trials.nc").rename("alone.nc"))
+    assert (moved.kind, moved.about["experiment"], moved.about["trials"]) == ("table", "choice", "2")
+    assert moved.about["made by"].startswith(f"deodar {dd.__version__}, jax ")
+
+
 def test_results_of_another_seed_are_told_apart(folder: Path) -> None:
     dd.save(dd.load("example:selection"), "model.json")
     for seed in (0, 1):
