@@ -56,7 +56,7 @@ class Progress(int):
 
     def __str__(self) -> str:
         count = f"{int(self)}{f' of {self.of}' if self.of else ''} {self.unit}" if self.unit else ""
-        time_left = "" if self.seconds_left is None else f"about {self.seconds_left:.0f} s left"
+        time_left = "" if self.seconds_left is None else f"about {lasting(self.seconds_left)} left"
         return ": ".join(filter(None, [self.task, ", ".join(filter(None, [self.stage, count, time_left]))]))
 
 
@@ -100,8 +100,8 @@ def telling(progress: Shown, task: str, unit: str = "") -> Generator[Tell]:
     try:
         yield tell
     finally:
-        if terminal is not None and show is not None and not callable(progress):
-            _replace_line(terminal, "")
+        if show is not None and not callable(progress):
+            erase()
 
 
 @contextlib.contextmanager
@@ -149,6 +149,20 @@ def _drawn(terminal: Any, after: float) -> Callable[[Progress], None]:
         due[0] = moment + REDRAW_AFTER
 
     return show
+
+
+def erase() -> None:
+    """Erase the drawn progress, so that a line can take its place; the next progress is drawn below."""
+    if (terminal := _terminal()) is not None:
+        _replace_line(terminal, "")
+
+
+def lasting(seconds: float) -> str:
+    """Return a duration in words: 40 s, 12 min, 3 h 5 min."""
+    minutes = round(seconds / 60)
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"
 
 
 def _replace_line(terminal: Any, text: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import shlex
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -131,9 +132,9 @@ def arithmetic(args: argparse.Namespace) -> str:
     return "float32-exact" if single and args.accuracy == "exact" else args.precision or "float32"
 
 
-def progress(args: argparse.Namespace) -> bool | None:
-    """Return whether a run draws its progress; None: on a terminal."""
-    return False if args.no_progress or args.json else None
+def progress(args: argparse.Namespace) -> bool:
+    """Return whether a command draws its progress, which it does on a terminal alone."""
+    return sys.stderr.isatty() and not (args.no_progress or args.json)
 
 
 def flags(*names: str) -> str:

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 from deodar import codec
 from deodar.cli import _long, _machines, _options, _package, _work_plan
-from deodar.cli._bar import Bar
 from deodar.credentials import masked
 from deodar.errors import OutputError, WorkerError
 from deodar.recording import places
@@ -141,9 +140,8 @@ def _run(args: argparse.Namespace) -> int:
     out: Path = args.out or places.free(Path.cwd(), experiment.name)
     _confirm(args, setup, out)
     try:
-        with Bar(args.no_progress or args.json, "trials") as bar:
-            on = Resources(workers=args.workers or None, cluster=cluster, progress=bar.show)
-            results = run_trials(setup, out, on, part)
+        on = Resources(workers=args.workers or None, cluster=cluster, progress=_options.progress(args))
+        results = run_trials(setup, out, on, part)
     except (KeyboardInterrupt, OutputError, WorkerError) as stop:
         if not (out / ROWS).is_file():
             raise

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from deodar import codec
 from deodar.cli import _figure, _options, _report
-from deodar.cli._bar import Bar
 from deodar.exporters.tools import EXPORTERS, of_models, of_records
 from deodar.resources import Resources
 
@@ -90,10 +88,8 @@ def run(args: argparse.Namespace) -> int:
         every, args.every = args.every, None  # of the frames, not of the samples in a panel
         drawn = _figure.drawn(args)
         names = drawn.names
-        with Bar(args.no_progress or not sys.stderr.isatty(), "frames") as bar:
-            drawn.figure.animate(
-                out, drawn.record, every, args.speed, args.width, args.force, Resources(progress=bar.show)
-            )
+        on = Resources(progress=_options.progress(args))
+        drawn.figure.animate(out, drawn.record, every, args.speed, args.width, args.force, on)
     else:
         names = _convert(args, format, out)
     if args.json:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
-from deodar.cli._bar import Bar
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.locus import Locus
@@ -106,18 +104,17 @@ def run(args: argparse.Namespace) -> int:
         args.x: (args.x_low, args.x_high, args.x_number),
         args.y: (args.y_low, args.y_high, args.y_number),
     }
-    with Bar(args.no_progress or args.json or not sys.stderr.isatty(), "cells") as bar:
-        regimes = regime_map(
-            model,
-            over,
-            args.field,
-            args.strength,
-            refine=not args.every_cell,
-            on=Resources(progress=bar.show),
-            sigma=args.sigma,
-            inputs=args.input,
-            precision=args.precision,
-        )
+    regimes = regime_map(
+        model,
+        over,
+        args.field,
+        args.strength,
+        refine=not args.every_cell,
+        on=Resources(progress=_options.progress(args)),
+        sigma=args.sigma,
+        inputs=args.input,
+        precision=args.precision,
+    )
     loci = regime_loci(regimes) if args.loci else []
     if target is not None:
         _files.save_figure(regime_map_figure(regimes, loci), target, args.force)

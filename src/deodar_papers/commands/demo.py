@@ -14,6 +14,7 @@ from deodar.cli._options import paragraph, shown, use_cores
 from deodar.codec import Json
 from deodar.errors import DeodarError, OutputError, OutputExists
 from deodar.model import output
+from deodar.progress import Tell, erase, telling
 from deodar.recording import places
 from deodar_papers import papers
 from deodar_papers.papers import Demonstration
@@ -28,36 +29,18 @@ DEFAULT = "story"
 
 
 class _Shown:
-    """A progress bar on stderr, and lines on stdout; `quiet` hides the lines."""
+    """The progress of a demonstration, and lines on stdout; `quiet` hides the lines."""
 
-    def __init__(self, no_bar: bool, quiet: bool) -> None:
-        # start-up time
-        from rich.console import Console
-        from rich.progress import BarColumn, Progress, TextColumn
-
-        columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
-        self._bar = Progress(
-            *columns,
-            console=Console(file=sys.stderr),
-            transient=True,
-            disable=no_bar or not sys.stderr.isatty(),
-            redirect_stdout=sys.stdout.isatty(),  # lines come above the bar; those for a pipe do not
-        )
-        self._task = self._bar.add_task("compiling", total=1.0)
-        self._quiet = quiet
-
-    def __enter__(self) -> _Shown:
-        self._bar.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.stop()
+    def __init__(self, tell: Tell, quiet: bool) -> None:
+        self._tell, self._quiet = tell, quiet
 
     def __call__(self, task: str, share: float) -> None:
-        self._bar.update(self._task, description=task, completed=share)
+        self._tell(0, 1, task=task, share=share)
 
     def line(self, text: str) -> None:
         if not self._quiet:
+            if sys.stdout.isatty():
+                erase()
             print(text, flush=True)
 
 
@@ -103,8 +86,9 @@ def run(args: argparse.Namespace) -> int:
     out = args.out or _free(args.name)
     claim(out, args.force)
     use_cores(args.cores)
-    with _Shown(args.no_progress, args.json) as show:
-        done = demo.run(args, show)
+    with telling(_options.progress(args), "compiling") as tell:
+        tell()
+        done = demo.run(args, _Shown(tell, args.json))
     return _tell(args, out, done)
 
 

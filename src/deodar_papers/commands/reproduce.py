@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 from deodar import codec
 from deodar.batch.on_cluster import ClusterPool
 from deodar.cli import _machines, _options, _rescue
-from deodar.cli._bar import Bar, lasting
 from deodar.codec import Json
 from deodar.errors import OutputError, UnknownName, WorkerError, did_you_mean
 from deodar.experiments.jobs import run_jobs
 from deodar.experiments.rows import Rows, claim
 from deodar.model import output
+from deodar.progress import lasting
 from deodar.recording import places, writer_lock
 from deodar.resources import Resources
 from deodar_papers import papers
@@ -112,8 +112,8 @@ def _ran(
 ) -> bool:
     """Run the jobs, and return whether they came to their end; otherwise say how to resume them."""
     try:
-        with Bar(args.no_progress or args.json, "runs") as bar:
-            run_jobs(jobs, rows, Resources(workers=args.workers or None, progress=bar.show), pool)
+        on = Resources(workers=args.workers or None, progress=_options.progress(args))
+        run_jobs(jobs, rows, on, pool)
     except KeyboardInterrupt:
         print(
             f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Resume with: {_again(args, out)}",

@@ -15,14 +15,12 @@ import pytest
 from deodar import cli
 from deodar.batch import scheduler, simulate
 from deodar.cli import _long
-from deodar.cli._bar import Bar
 from deodar.experiments import following, planning, setup
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.results import load_results
 from deodar.experiments.trial import TrialPlan
-from deodar.progress import Progress
 from tests.deodar.experiments.robots import decider
 
 
@@ -310,10 +308,3 @@ def test_a_plan_prints_pieces_memory_and_time(file, capsys, tmp_path, monkeypatc
     assert cli.main(["plan", "when.json", "--cluster"]) == 0
     assert "when: 16 trials in 4 pieces of at most 4; about" in capsys.readouterr().out
     assert not list(tmp_path.glob("when-*"))
-
-
-def test_the_bar_is_full_when_all_work_is_done():
-    bar = Bar(True, "trials")
-    bar.show(Progress(3, 4, seconds_left=100.0))
-    (task,) = bar._bar.tasks
-    assert (task.percentage, task.fields) == (75, {"done": "3 of 4 trials", "left": "2 min left"})

@@ -6,6 +6,7 @@ import errno
 import json
 import os
 import re
+import sys
 import types
 
 import pytest
@@ -13,9 +14,9 @@ from matplotlib.figure import Figure
 
 from deodar import cli
 from deodar.analysis.claims import Claim
-from deodar.cli._bar import lasting
 from deodar.experiments.jobs import Job
 from deodar.model import output
+from deodar.progress import lasting
 from deodar_papers import papers
 from deodar_papers._report import Report
 from tests.deodar.experiments import decisions
@@ -109,11 +110,10 @@ def test_the_command_to_resume_repeats_all_arguments(toy, capsys):
 
 
 def test_a_progress_bar_shows_the_number_of_runs(toy, capsys, monkeypatch):
-    monkeypatch.setenv("FORCE_COLOR", "1")
-    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     assert cli.main(["reproduce", "toy", "--out", "here"]) == 0
     message = capsys.readouterr().err
-    assert "of 6 runs" in message and "left" in message
+    assert "of 6 trials" in message
 
 
 def test_a_quick_folder_is_not_resumed_by_the_whole_reproduction(toy, capsys):

@@ -159,9 +159,11 @@ def test_without_a_display_or_a_terminal_nothing_is_offered(
 
 
 TERMINAL = """
+from deodar.progress import telling
 from deodar_papers.commands.demo import _Shown
 import time
-with _Shown(no_bar=False, quiet=False) as show:
+with telling(True, "compiling") as tell:
+    show = _Shown(tell, quiet=False)
     show("computing the run of a field", 0.0)
     time.sleep(0.3)
     show.line("1  The story of one field")
@@ -190,5 +192,5 @@ def test_at_a_terminal_the_line_of_the_present_task_is_overwritten() -> None:
     text = output.decode()
     assert text.index("computing the run of a field") < text.index("1  The story of one field")
     after = text[text.rindex("computing the run") :]
-    assert "\x1b[2K" in after, "the line of the task is erased"
+    assert f"\r{' ' * 79}\r1  The story" in after, "the line of the task is erased"
     assert text.rstrip().endswith("the end")
