@@ -23,6 +23,7 @@ import msgspec
 
 import deodar as dd
 from deodar import cli, docstring, kinds, registry
+from deodar.cli._options import CommandParser
 from deodar.parameters import Needed
 from deodar.worlds import _settings
 
@@ -561,7 +562,7 @@ def fill(text: str) -> str:
 
 def command(name: str, module: Any) -> str:
     """What a command does, and its arguments."""
-    parser = argparse.ArgumentParser(prog=f"deodar {name}", add_help=False)
+    parser = CommandParser(prog=f"deodar {name}", add_help=False)
     module.arguments(parser)
     rows: list[tuple[str, str]] = []
     for action in parser._actions:

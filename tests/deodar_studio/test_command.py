@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import http.client
 import os
 import shutil
@@ -301,6 +300,6 @@ def test_an_unknown_example_is_an_error_that_states_what_to_type(
 
 
 def test_the_command_takes_names_of_examples_as_other_commands_do() -> None:
-    parser = argparse.ArgumentParser()
+    parser = _options.CommandParser()
     COMMANDS["studio"].arguments(parser)
     assert next(a for a in parser._actions if a.dest == "file").type is _options.document

@@ -14,9 +14,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import NoReturn
 
 from deodar import __version__
+from deodar.cli._options import CommandParser
 from deodar.errors import DeodarError, UnknownName, first_line
 from deodar.extensions import Extensions, requires
 
@@ -40,15 +40,9 @@ def _needed(words: Sequence[str]) -> dict[str, ModuleType]:
     return named or dict(sorted(COMMANDS.items()))
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        """Print an invalid call as one sentence with a fix, and exit with status 2."""
-        self.exit(2, f"{self.prog}: {message}. Type: {self.prog} --help\n")
-
-
 def parser(words: Sequence[str] = ()) -> argparse.ArgumentParser:
     """Return the parser of the command line, with the commands that the call needs."""
-    top = _Parser(prog="deodar", description="A workbench for Dynamic Field Theory.")
+    top = CommandParser(prog="deodar", description="A workbench for Dynamic Field Theory.")
     top.add_argument("--version", action="version", version=f"deodar {__version__}")
     top.add_argument(
         "--import",

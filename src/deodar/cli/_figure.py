@@ -41,67 +41,48 @@ class DrawnFigure(NamedTuple):
     stem: str
 
 
-def add_record(parser: argparse.ArgumentParser, more: str = "") -> None:
+def add_record(parser: _options.CommandParser, more: str = "") -> None:
     """Add the record and its variables; `more` says what else the first argument may be."""
-    parser.add_argument(
+    parser.option(
         "record",
-        type=Path,
-        metavar="RECORD",
-        help=f"a record (.zarr, .nc), a folder that deodar run wrote, or the file of a figure (.toml){more}",
+        "RECORD",
+        f"a record (.zarr, .nc), a folder that deodar run wrote, or the file of a figure (.toml){more}",
+        Path,
     )
-    parser.add_argument(
+    parser.option(
         "variables",
+        "VARIABLE",
+        "paths of variables, for example u.activation (default: all); after a .toml file: the record",
         nargs="*",
-        metavar="VARIABLE",
-        help="paths of variables, for example u.activation (default: all); after a .toml file: the record",
     )
 
 
-def add_view(parser: argparse.ArgumentParser) -> None:
+def add_view(parser: _options.CommandParser) -> None:
     """Add the options that select a part of the variables."""
-    parser.add_argument(
-        "--kind",
-        metavar="K",
-        help="kind of figure, such as time_course, space_time or path, or one of a package",
+    parser.option(
+        "--kind", "K", "kind of figure, such as time_course, space_time or path, or one of a package"
     )
-    parser.add_argument("--at", nargs="+", action="extend", type=float, metavar="T", help="times to draw")
-    parser.add_argument(
-        "--trial",
-        type=_options.whole,
-        metavar="N",
-        help="trial to draw (default: all as lines; the first as a map)",
-    )
-    parser.add_argument(
-        "--where", type=_options.pair, action="append", metavar="PATH=VALUE", help="point of a sweep to draw"
-    )
-    parser.add_argument(
-        "--axes", nargs="+", metavar="AXIS", help="axes onto which a field is projected, one or two"
-    )
+    parser.option("--at", "T", "times to draw", float, nargs="+", action="extend")
+    parser.option("--trial", "N", "trial to draw (default: all as lines; the first as a map)", _options.whole)
+    parser.option("--where", "PATH=VALUE", "point of a sweep to draw", _options.pair, action="append")
+    parser.option("--axes", "AXIS", "axes onto which a field is projected, one or two", nargs="+")
     parser.add_argument(
         "--reduce", choices=("maximum", "integral"), help="how it is projected (default maximum)"
     )
-    parser.add_argument(
+    parser.option(
         "--place",
+        "X[,Y...]",
+        "place of a field whose time course is drawn; may be given again",
         action="append",
-        metavar="X[,Y...]",
-        help="place of a field whose time course is drawn; may be given again",
     )
-    parser.add_argument(
-        "--time-range",
-        nargs=2,
-        type=float,
-        metavar=("FROM", "TO"),
-        help="times to draw, in the record's unit",
-    )
-    parser.add_argument(
+    parser.option("--time-range", ("FROM", "TO"), "times to draw, in the record's unit", float, nargs=2)
+    parser.option(
         "--every",
-        type=_options.positive,
-        metavar="T",
-        help="time between two samples, or two frames of a video (default: all; of a video at most 600)",
+        "T",
+        "time between two samples, or two frames of a video (default: all; of a video at most 600)",
+        _options.positive,
     )
-    parser.add_argument(
-        "--value-range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="ends of the scale of the values"
-    )
+    parser.option("--value-range", ("LOW", "HIGH"), "ends of the scale of the values", float, nargs=2)
 
 
 def drawn(args: argparse.Namespace) -> DrawnFigure:

@@ -25,30 +25,18 @@ OF_A_RECORD = ("record", "every", "out", "force")
 OF_A_LIVE_RUN = ("speed", "longest_step")
 
 
-def add(parser: argparse.ArgumentParser) -> None:
+def add(parser: _options.CommandParser) -> None:
     """Add `--live`, `--speed`, `--longest-step` and `--cost`."""
-    parser.add_argument(
-        "--live",
-        action="store_true",
-        help="pace the run to the wall clock and print how well it kept to it; recorded with --record",
+    parser.flag(
+        "--live", "pace the run to the wall clock and print how well it kept to it; recorded with --record"
     )
-    parser.add_argument(
-        "--speed",
-        type=_speed,
-        metavar="S",
-        help="with --live: document time over wall time, or max (default 1: real time)",
+    parser.option(
+        "--speed", "S", "with --live: document time over wall time, or max (default 1: real time)", _speed
     )
-    parser.add_argument(
-        "--longest-step",
-        type=float,
-        metavar="DT",
-        help="with --live: let the step grow up to this where time is short",
+    parser.option(
+        "--longest-step", "DT", "with --live: let the step grow up to this where time is short", float
     )
-    parser.add_argument(
-        "--cost",
-        action="store_true",
-        help="print what each element costs in a step, measured at the end; writes no record",
-    )
+    parser.flag("--cost", "print what each element costs in a step, measured at the end; writes no record")
 
 
 def refuse_alone(args: argparse.Namespace) -> None:

@@ -7,7 +7,7 @@ import sys
 import time
 from collections.abc import Callable
 
-from deodar.cli import _question
+from deodar.cli import _options, _question
 from deodar.errors import TimeError
 
 TRIAL_SECONDS = 0.5
@@ -17,9 +17,9 @@ MOST_TRIED = 1_000_000
 """Most steps of a trial run."""
 
 
-def add_yes(parser: argparse.ArgumentParser) -> None:
+def add_yes(parser: _options.CommandParser) -> None:
     """Add `--yes`."""
-    parser.add_argument("--yes", action="store_true", help="begin runs of 1e9 steps and more without asking")
+    parser.flag("--yes", "begin runs of 1e9 steps and more without asking")
 
 
 def confirm(

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from deodar.cluster import Cluster
 
 
-def add_cluster(parser: argparse.ArgumentParser, what: str, mixed: bool = False) -> None:
+def add_cluster(parser: _options.CommandParser, what: str, mixed: bool = False) -> None:
     """Add `--cluster`, `--trust-network`, `--patience` and `--mixed`.
 
     Args:
@@ -20,30 +20,23 @@ def add_cluster(parser: argparse.ArgumentParser, what: str, mixed: bool = False)
         what: what the workers share.
         mixed: whether to add `--mixed`.
     """
-    parser.add_argument(
+    parser.option(
         "--cluster",
-        metavar="ADDRESS",
-        help=(
-            f"share the {what} among the workers of a scheduler at tcp://HOST:PORT or tls://HOST:PORT, of"
-            " local:N processes, or of jobs of SLURM as slurm:FILE states them (extra cluster)"
-        ),
+        "ADDRESS",
+        f"share the {what} among the workers of a scheduler at tcp://HOST:PORT or tls://HOST:PORT, of"
+        " local:N processes, or of jobs of SLURM as slurm:FILE states them (extra cluster)",
     )
-    parser.add_argument(
+    parser.flag(
         "--trust-network",
-        action="store_true",
-        help="allow workers beyond this machine, in a network of your own: messages are not encrypted",
+        "allow workers beyond this machine, in a network of your own: messages are not encrypted",
     )
     if mixed:
-        parser.add_argument(
-            "--mixed",
-            action="store_true",
-            help="allow workers whose processors differ; each row names its own",
-        )
-    parser.add_argument(
+        parser.flag("--mixed", "allow workers whose processors differ; each row names its own")
+    parser.option(
         "--patience",
-        type=_options.positive,
-        metavar="S",
-        help="seconds without any worker after which the run ends (default 60)",
+        "S",
+        "seconds without any worker after which the run ends (default 60)",
+        _options.positive,
     )
 
 
@@ -71,29 +64,25 @@ def cluster_again(args: argparse.Namespace) -> list[str]:
     return options + ([f"--patience {args.patience:g}"] if args.patience else [])
 
 
-def add_devices(parser: argparse.ArgumentParser) -> None:
+def add_devices(parser: _options.CommandParser) -> None:
     """Add `--devices`."""
-    parser.add_argument(
+    parser.option(
         "--devices",
-        type=_options.several,
-        metavar="N",
-        help=(
-            "share trials and sweep points, or the fields of a single run, among N devices of the kind of"
-            " --device, or all"
-        ),
+        "N",
+        "share trials and sweep points, or the fields of a single run, among N devices of the kind of"
+        " --device, or all",
+        _options.several,
     )
 
 
-def add_hosts(parser: argparse.ArgumentParser) -> None:
+def add_hosts(parser: _options.CommandParser) -> None:
     """Add `--hosts`."""
-    parser.add_argument(
+    parser.option(
         "--hosts",
-        type=hosts,
-        metavar="ADDRESS",
-        help=(
-            "with --devices: join the other hosts that run the same command: HOST:PORT,COUNT,INDEX with the"
-            " address of the first one, or auto under srun and mpirun"
-        ),
+        "ADDRESS",
+        "with --devices: join the other hosts that run the same command: HOST:PORT,COUNT,INDEX with the"
+        " address of the first one, or auto under srun and mpirun",
+        hosts,
     )
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from deodar import codec
 from deodar.errors import UnknownName
@@ -19,7 +19,42 @@ if TYPE_CHECKING:
     from deodar.worlds._base import World
 
 
-def add_each(parser: argparse.ArgumentParser, members: Mapping[str, ModuleType]) -> dict[str, str]:
+class CommandParser(argparse.ArgumentParser):
+    """The parser of a command, whose `run` refuses a call like argparse by `args.wrong(text)`."""
+
+    def __init__(self, **how: Any) -> None:
+        super().__init__(**how)
+        self.set_defaults(wrong=self.error)
+
+    def flag(self, name: str, meaning: str) -> None:
+        """Add an option without a value."""
+        self.add_argument(name, action="store_true", help=meaning)
+
+    def option(
+        self,
+        names: str,
+        value: str | tuple[str, ...],
+        meaning: str,
+        parse: Callable[[str], Any] = str,
+        **how: Any,
+    ) -> None:
+        """Add an argument with a value.
+
+        Args:
+            names: its name, or an option's names with spaces between them, as they are typed.
+            value: what the help calls the value, or each of several.
+            meaning: the help.
+            parse: returns the value of a text.
+            how: other keywords of `add_argument`.
+        """
+        self.add_argument(*names.split(), metavar=value, help=meaning, type=parse, **how)
+
+    def error(self, message: str) -> NoReturn:
+        """Print an invalid call as one sentence with a fix, and exit with status 2."""
+        self.exit(2, f"{self.prog}: {message}. Type: {self.prog} --help\n")
+
+
+def add_each(parser: CommandParser, members: Mapping[str, ModuleType]) -> dict[str, str]:
     """Let each member with `arguments` add its own; return the name of the member by the option."""
     names: dict[str, str] = {}
     for name, member in members.items():
@@ -30,35 +65,26 @@ def add_each(parser: argparse.ArgumentParser, members: Mapping[str, ModuleType])
     return names
 
 
-def add_json(parser: argparse.ArgumentParser) -> None:
+def add_json(parser: CommandParser) -> None:
     """Add `--json`."""
-    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+    parser.flag("--json", "print the answer as JSON")
 
 
-def add_force(parser: argparse.ArgumentParser) -> None:
+def add_force(parser: CommandParser) -> None:
     """Add `--force`."""
-    parser.add_argument("--force", action="store_true", help="replace what an earlier run wrote there")
+    parser.flag("--force", "replace what an earlier run wrote there")
 
 
-def add_world(parser: argparse.ArgumentParser) -> None:
+def add_world(parser: CommandParser) -> None:
     """Add `--world` and `--trust`."""
-    parser.add_argument(
-        "--world",
-        metavar="KIND:ARGUMENT",
-        help="what the model's sensors read, for example picture:photo.jpg",
-    )
-    parser.add_argument(
-        "--trust", action="store_true", help="allow functions that the document names to be imported and run"
-    )
+    parser.option("--world", "KIND:ARGUMENT", "what the model's sensors read, for example picture:photo.jpg")
+    parser.flag("--trust", "allow functions that the document names to be imported and run")
 
 
-def add_cores(parser: argparse.ArgumentParser) -> None:
+def add_cores(parser: CommandParser) -> None:
     """Add `--cores`."""
-    parser.add_argument(
-        "--cores",
-        type=whole,
-        metavar="N",
-        help="cores that a program uses (default 1, the quickest for most models)",
+    parser.option(
+        "--cores", "N", "cores that a program uses (default 1, the quickest for most models)", whole
     )
 
 
@@ -82,19 +108,16 @@ def use_rounding(separate: bool) -> None:
         use_separate_rounding()
 
 
-def add_rounding(parser: argparse.ArgumentParser) -> None:
+def add_rounding(parser: CommandParser) -> None:
     """Add `--separate-rounding`."""
-    parser.add_argument(
+    parser.flag(
         "--separate-rounding",
-        action="store_true",
-        help=(
-            "round a product before it is added to something, so that parts of a model in other processes"
-            " give the same bits as the whole (x86 only; takes longer)"
-        ),
+        "round a product before it is added to something, so that parts of a model in other processes"
+        " give the same bits as the whole (x86 only; takes longer)",
     )
 
 
-def add_accuracy(parser: argparse.ArgumentParser) -> None:
+def add_accuracy(parser: CommandParser) -> None:
     """Add `--precision` and `--accuracy`."""
     parser.add_argument(
         "--precision", choices=("float32", "float64"), help="of all numbers (default float32)"
@@ -106,24 +129,20 @@ def add_accuracy(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_run(parser: argparse.ArgumentParser) -> None:
+def add_run(parser: CommandParser) -> None:
     """Add `--seed`, `--precision`, `--accuracy`, `--device`, `--cores`, `--separate-rounding` and
     `--no-progress`.
     """
-    parser.add_argument(
-        "--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)"
-    )
+    parser.option("--seed", "N", "seed of all noise, 0 to 4294967295 (default 0)", whole)
     add_accuracy(parser)
-    parser.add_argument(
+    parser.option(
         "--device",
-        metavar="NAME",
-        help=(
-            "where to run: cpu, gpu, or one of several as gpu:1 (default cpu, the quickest for small models)"
-        ),
+        "NAME",
+        "where to run: cpu, gpu, or one of several as gpu:1 (default cpu, the quickest for small models)",
     )
     add_cores(parser)
     add_rounding(parser)
-    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+    parser.flag("--no-progress", "show no progress bar")
 
 
 def arithmetic(args: argparse.Namespace) -> str:
@@ -142,11 +161,6 @@ def flags(*names: str) -> str:
     return ", ".join(f"--{name.replace('_', '-')}" for name in names)
 
 
-def wrong(parser: argparse.ArgumentParser) -> None:
-    """Let `run` refuse a call like argparse: `args.wrong(text)` prints the text and exits with status 2."""
-    parser.set_defaults(wrong=parser.error)
-
-
 def document(text: str) -> Path:
     """Return the path of a document, or that of the example which `example:NAME` names."""
     try:
@@ -156,17 +170,15 @@ def document(text: str) -> Path:
 
 
 def add_document(
-    parser: argparse.ArgumentParser, meaning: str = "a document (.json, .deodar), or example:NAME", **how: Any
+    parser: CommandParser, meaning: str = "a document (.json, .deodar), or example:NAME", **how: Any
 ) -> None:
     """Add `FILE`: a document, or an example by its name."""
     parser.add_argument("file", type=document, metavar="FILE", help=meaning, **how)
 
 
-def add_set(parser: argparse.ArgumentParser) -> None:
+def add_set(parser: CommandParser) -> None:
     """Add `--set`, which `apply_set` applies."""
-    parser.add_argument(
-        "--set", type=setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
-    )
+    parser.option("--set", "PATH=VALUE", "change a parameter first", setting, action="append")
 
 
 def apply_set(model: Model, args: argparse.Namespace) -> None:

@@ -18,12 +18,12 @@ EPILOG = """\
 A problem stops a run; a warning never does. Status 1 if there is a problem, or, with --strict, a warning."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser)
-    parser.add_argument("--strict", action="store_true", help="count warnings as problems: status 1")
-    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+    parser.flag("--strict", "count warnings as problems: status 1")
+    _options.add_json(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -17,47 +17,35 @@ if TYPE_CHECKING:
 HELP = "follow the steady states of a model over one parameter, and locate its instabilities"
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     _options.add_document(parser)
-    parser.add_argument("parameter", metavar="PARAMETER", help="path of the parameter, as s.amplitude")
-    parser.add_argument("first", type=float, metavar="FIRST", help="its first value")
-    parser.add_argument("last", type=float, metavar="LAST", help="its last value")
+    parser.option("parameter", "PARAMETER", "path of the parameter, as s.amplitude")
+    parser.option("first", "FIRST", "its first value", float)
+    parser.option("last", "LAST", "its last value", float)
     _options.add_set(parser)
-    parser.add_argument(
+    parser.option(
         "--induced-by",
-        type=_options.setting,
+        "PATH=VALUE",
+        "value of another parameter at which the model settles first: the input of a peak that remains",
+        _options.setting,
         action="append",
-        metavar="PATH=VALUE",
-        help="value of another parameter at which the model settles first: the input of a peak that remains",
     )
-    parser.add_argument("--hold", nargs="+", default=[], metavar="PATH", help="elements that are constant")
-    parser.add_argument(
-        "--even",
-        nargs="+",
-        default=[],
-        metavar="AXIS",
-        help="axes whose two sides are mirror images",
-    )
-    parser.add_argument("--at", type=float, default=0.0, metavar="T", help="time of the stimuli")
-    parser.add_argument("--show", default="", metavar="PORT", help="port to draw (default: the first field)")
-    parser.add_argument(
-        "--switch", action="store_true", help="follow the branches that leave branch points as well"
-    )
-    parser.add_argument(
-        "--one-grid", action="store_true", help="do not repeat on a grid twice as fine, for the errors"
-    )
-    parser.add_argument(
-        "-o",
-        "--out",
-        type=Path,
-        metavar="FIGURE",
-        help="the figure, .png or .svg, or the branch alone, .nc or .zarr"
+    parser.option("--hold", "PATH", "elements that are constant", nargs="+", default=[])
+    parser.option("--even", "AXIS", "axes whose two sides are mirror images", nargs="+", default=[])
+    parser.option("--at", "T", "time of the stimuli", float, default=0.0)
+    parser.option("--show", "PORT", "port to draw (default: the first field)", default="")
+    parser.flag("--switch", "follow the branches that leave branch points as well")
+    parser.flag("--one-grid", "do not repeat on a grid twice as fine, for the errors")
+    parser.option(
+        "-o --out",
+        "FIGURE",
+        "the figure, .png or .svg, or the branch alone, .nc or .zarr"
         " (default: FILE-continuation-001.png, -002, ...)",
+        Path,
     )
-    parser.add_argument("--save", type=Path, metavar="BRANCH", help="write the branch as well, .nc or .zarr")
+    parser.option("--save", "BRANCH", "write the branch as well, .nc or .zarr", Path)
     _options.add_force(parser)
-    _options.wrong(parser)
     _options.add_json(parser)
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from deodar import __version__, codec
+from deodar.cli import _options
 from deodar.errors import DocumentError
 
 HELP = "list installed packages, devices, the cache of compiled programs, and what is missing"
@@ -22,22 +23,17 @@ EXTRA = re.compile(r"""([\w.-]+).*extra == ["']([\w-]+)["']""")
 GIB = 2**30
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument(
-        "files", nargs="*", metavar="FILE", help="documents and experiments whose packages are looked for"
-    )
-    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
-    parser.add_argument(
+    parser.option("files", "FILE", "documents and experiments whose packages are looked for", nargs="*")
+    _options.add_json(parser)
+    parser.flag(
         "--plans",
-        action="store_true",
-        help="measure every convolution strategy and compare it with its estimated cost (about a minute)",
+        "measure every convolution strategy and compare it with its estimated cost (about a minute)",
     )
-
-    parser.add_argument(
+    parser.flag(
         "--sizes",
-        action="store_true",
-        help="measure the size of each package that deodar needs, and the time of its import (half a minute)",
+        "measure the size of each package that deodar needs, and the time of its import (half a minute)",
     )
 
 

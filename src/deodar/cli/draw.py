@@ -12,26 +12,20 @@ from deodar.recording import places
 HELP = "draw the architecture in a file as SVG, PDF or PNG"
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     _options.add_document(parser)
-    parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="FILE",
-        help=".svg, .pdf or .png (default: NAME-architecture-001.svg, ... here)",
+    parser.option(
+        "--out -o", "FILE", ".svg, .pdf or .png (default: NAME-architecture-001.svg, ... here)", Path
     )
-    parser.add_argument(
-        "--width", type=float, metavar="INCHES", help="width of the picture (default: names 7.5 points high)"
-    )
-    parser.add_argument(
+    parser.option("--width", "INCHES", "width of the picture (default: names 7.5 points high)", float)
+    parser.option(
         "--depth",
-        type=_options.whole,
-        metavar="N",
-        help="draw N levels of groups open, each group below as one box (default: all)",
+        "N",
+        "draw N levels of groups open, each group below as one box (default: all)",
+        _options.whole,
     )
-    parser.add_argument("--no-legend", action="store_true", help="omit the legend")
+    parser.flag("--no-legend", "omit the legend")
     _options.add_force(parser)
     _options.add_json(parser)
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from deodar import codec
+from deodar.cli import _options
 from deodar.declarations import range_text
 
 if TYPE_CHECKING:  # this also imports NumPy
@@ -18,10 +19,10 @@ HELP = (
 )
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument("kind", nargs="?", metavar="KIND", help="show this one, for example Field")
-    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+    parser.option("kind", "KIND", "show this one, for example Field", nargs="?")
+    _options.add_json(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -22,25 +22,18 @@ WIDEST = 110
 """Columns of the list in a pipe, which has no width."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument(
         "what", nargs="?", default="list", choices=("list", "copy", "open"), help="what to do (default list)"
     )
-    parser.add_argument(
-        "name", nargs="?", metavar="NAME", help="copy, open: the example, for example selection"
-    )
-    parser.add_argument(
-        "folder",
-        nargs="?",
-        type=Path,
-        metavar="DIR",
-        help="copy: the folder to write into (default: the working folder)",
+    parser.option("name", "NAME", "copy, open: the example, for example selection", nargs="?")
+    parser.option(
+        "folder", "DIR", "copy: the folder to write into (default: the working folder)", Path, nargs="?"
     )
     _options.add_force(parser)
     _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:

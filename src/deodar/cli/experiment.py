@@ -34,72 +34,51 @@ MOST_CELLS = 24
 """Most combinations of levels that are listed; the table contains all of them."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument(
+    parser.option(
         "file",
-        type=Path,
-        metavar="FILE|FOLDER|merge",
-        help=(
-            "an experiment (.json), which names its model; the folder of results: run it again and compare;"
-            " a package of either; merge: write the rows of folders into --out"
-        ),
+        "FILE|FOLDER|merge",
+        "an experiment (.json), which names its model; the folder of results: run it again and compare;"
+        " a package of either; merge: write the rows of folders into --out",
+        Path,
     )
-    parser.add_argument("folders", nargs="*", type=Path, metavar="FOLDER", help="with merge: the folders")
-    parser.add_argument(
+    parser.option("folders", "FOLDER", "with merge: the folders", Path, nargs="*")
+    parser.option(
         "--trials",
-        type=trials,
-        metavar="N|A:B",
-        help="trials of each combination of levels, instead of the file's; A:B: only the trials A to B - 1",
+        "N|A:B",
+        "trials of each combination of levels, instead of the file's; A:B: only the trials A to B - 1",
+        trials,
     )
-    parser.add_argument(
+    parser.option(
         "--follow",
-        type=Path,
-        metavar="FOLDER",
-        help="print how far another process has come that writes this folder, until it ends",
+        "FOLDER",
+        "print how far another process has come that writes this folder, until it ends",
+        Path,
     )
-    parser.add_argument(
-        "--seed",
-        type=_options.whole,
-        metavar="N",
-        help="seed of all noise and of what is drawn, instead of the file's",
+    parser.option(
+        "--seed", "N", "seed of all noise and of what is drawn, instead of the file's", _options.whole
     )
-    parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="DIR",
-        help="folder to write, or to resume (default: NAME-001, NAME-002, ... here)",
+    parser.option(
+        "--out -o", "DIR", "folder to write, or to resume (default: NAME-001, NAME-002, ... here)", Path
     )
-    parser.add_argument(
-        "--workers",
-        type=_options.whole,
-        metavar="N",
-        help="share the trials among N processes of one core each",
-    )
-    parser.add_argument(
+    parser.option("--workers", "N", "share the trials among N processes of one core each", _options.whole)
+    parser.option(
         "--records",
-        metavar="STORE",
-        help=(
-            "write the records of trials into a folder, or to an address such as s3://BUCKET/NAME (extra"
-            " store), with one object for each batch; all workers must reach it"
-        ),
+        "STORE",
+        "write the records of trials into a folder, or to an address such as s3://BUCKET/NAME (extra"
+        " store), with one object for each batch; all workers must reach it",
     )
     _machines.add_cluster(parser, "trials", mixed=True)
-    _options.wrong(parser)
     _long.add_yes(parser)
     _options.add_world(parser)
-    parser.add_argument(
-        "--check", action="store_true", help="only check whether it can be run, and in which batches"
-    )
-    parser.add_argument(
-        "--plan",
-        action="store_true",
-        help="only measure the beginning of a batch, and print memory and time for numbers of workers",
+    parser.flag("--check", "only check whether it can be run, and in which batches")
+    parser.flag(
+        "--plan", "only measure the beginning of a batch, and print memory and time for numbers of workers"
     )
     _options.add_json(parser)
-    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+    parser.flag("--no-progress", "show no progress bar")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -31,7 +31,7 @@ SELECTED = ("trial", "where", "time_range", "every")
 """Options that select what is drawn, and what of a record is written."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     records, models = of_records(), of_models()
     parser.epilog = EPILOG.format(
@@ -40,39 +40,25 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     )
     formats = [*DATA, *records, *VIDEOS, *models]
     _figure.add_record(parser, f"; with --to {' or '.join(models) or 'TOOL'} a model")
-    parser.add_argument(
-        "--to",
-        choices=formats,
-        metavar="FORMAT",
-        help=f"{', '.join(formats)} (default: given by the ending of --out)",
+    parser.option(
+        "--to", "FORMAT", f"{', '.join(formats)} (default: given by the ending of --out)", choices=formats
     )
-    parser.add_argument(
-        "--out", "-o", type=Path, metavar="PATH", help="file or folder (default: NAME-export-001, ... here)"
-    )
+    parser.option("--out -o", "PATH", "file or folder (default: NAME-export-001, ... here)", Path)
     _figure.add_view(parser)
-    parser.add_argument(
+    parser.option(
         "--speed",
-        type=_options.positive,
-        metavar="S",
-        help="of a video: time of the record by time of the video (default: 25 frames in a second)",
+        "S",
+        "of a video: time of the record by time of the video (default: 25 frames in a second)",
+        _options.positive,
     )
-    parser.add_argument(
-        "--width",
-        type=_options.whole,
-        default=960,
-        metavar="PIXELS",
-        help="of a video: width in pixels (default 960)",
+    parser.option(
+        "--width", "PIXELS", "of a video: width in pixels (default 960)", _options.whole, default=960
     )
-    parser.add_argument(
-        "--strict",
-        action="store_true",
-        help="of a model: fail, and write nothing, if anything is approximated or dropped",
-    )
+    parser.flag("--strict", "of a model: fail, and write nothing, if anything is approximated or dropped")
     parser.set_defaults(exporter_of_option=_options.add_each(parser, models))
-    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+    parser.flag("--no-progress", "show no progress bar")
     _options.add_force(parser)
     _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -19,23 +19,15 @@ in the document: as text in its notes, and line by line for the panel Import rep
 with --strict if anything was not carried."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = f"Tools: {', '.join(p.name for p in IMPORTERS.packaged())}. {EPILOG}"
     _options.add_document(parser, "the file of the other tool")
-    parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="OUT",
-        help="the document to write (.json); without it only the report is shown",
+    parser.option(
+        "--out -o", "OUT", "the document to write (.json); without it only the report is shown", Path
     )
-    parser.add_argument("--bugs", action="store_true", help="reproduce known errors of the other tool")
-    parser.add_argument(
-        "--strict",
-        action="store_true",
-        help="fail, and write nothing, if anything is approximated or dropped",
-    )
+    parser.flag("--bugs", "reproduce known errors of the other tool")
+    parser.flag("--strict", "fail, and write nothing, if anything is approximated or dropped")
     _options.add_json(parser)
     _options.add_force(parser)
 

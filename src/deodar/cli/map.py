@@ -17,40 +17,30 @@ if TYPE_CHECKING:
 HELP = "map the regimes of a field over two parameters: silent, input-driven, self-sustained, selective"
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     _options.add_document(parser)
-    _options.wrong(parser)
     for side, which, example in (("x", "across", "u.global_inhibition"), ("y", "up", "u.resting_level")):
         name = side.upper()
-        parser.add_argument(side, metavar=name, help=f"path of the parameter {which}, as {example}")
-        parser.add_argument(f"{side}_low", type=float, metavar=f"{name}LOW", help="its lowest value")
-        parser.add_argument(f"{side}_high", type=float, metavar=f"{name}HIGH", help="its highest value")
-        parser.add_argument(
-            f"{side}_number", type=_options.whole, metavar=f"{name}N", help="how many values, at least 2"
-        )
-    parser.add_argument(
-        "--field", default="", metavar="PATH", help="the field or node (default: the only one)"
-    )
+        parser.option(side, name, f"path of the parameter {which}, as {example}")
+        parser.option(f"{side}_low", f"{name}LOW", "its lowest value", float)
+        parser.option(f"{side}_high", f"{name}HIGH", "its highest value", float)
+        parser.option(f"{side}_number", f"{name}N", "how many values, at least 2", _options.whole)
+    parser.option("--field", "PATH", "the field or node (default: the only one)", default="")
     _options.add_set(parser)
-    parser.add_argument(
+    parser.option(
         "--strength",
-        type=_options.positive,
-        metavar="AMPLITUDE",
-        help="of the inputs (default: 1.2 times the distance between resting level and threshold)",
+        "AMPLITUDE",
+        "of the inputs (default: 1.2 times the distance between resting level and threshold)",
+        _options.positive,
     )
-    parser.add_argument(
-        "--sigma",
-        type=_options.positive,
-        metavar="WIDTH",
-        help="width of the inputs (default: that of the kernel)",
-    )
-    parser.add_argument(
+    parser.option("--sigma", "WIDTH", "width of the inputs (default: that of the kernel)", _options.positive)
+    parser.option(
         "--input",
+        "PATH",
+        "stimuli (and couplings) of the document to keep as constant input",
         nargs="+",
         default=[],
-        metavar="PATH",
-        help="stimuli (and couplings) of the document to keep as constant input",
     )
     parser.add_argument(
         "--precision",
@@ -58,23 +48,17 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         default="float32",
         help="of the computation (default: float32)",
     )
-    parser.add_argument(
-        "--every-cell", action="store_true", help="compute every cell, not only those beside another regime"
+    parser.flag("--every-cell", "compute every cell, not only those beside another regime")
+    parser.option(
+        "-o --out",
+        "FIGURE",
+        "the figure, .png or .svg, or the map alone, .nc or .zarr (default: FILE-map-001.png, -002, ...)",
+        Path,
     )
-    parser.add_argument(
-        "-o",
-        "--out",
-        type=Path,
-        metavar="FIGURE",
-        help="the figure, .png or .svg, or the map alone, .nc or .zarr"
-        " (default: FILE-map-001.png, -002, ...)",
-    )
-    parser.add_argument(
-        "--loci", action="store_true", help="compute the borders that are folds, and draw them as lines"
-    )
-    parser.add_argument("--save", type=Path, metavar="MAP", help="write the map as well, .nc or .zarr")
+    parser.flag("--loci", "compute the borders that are folds, and draw them as lines")
+    parser.option("--save", "MAP", "write the map as well, .nc or .zarr", Path)
     _options.add_force(parser)
-    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+    parser.flag("--no-progress", "show no progress bar")
     _options.add_json(parser)
 
 

@@ -22,7 +22,7 @@ COMMANDS = {
 """What to type next, for each kind of work."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser, "a package (.deodar), a document, a record, an experiment or a figure")

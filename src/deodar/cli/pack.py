@@ -17,26 +17,20 @@ run, experiment, plot and studio take a package as it is. Modules of your own ar
 --with-code to include them."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(parser, "what to pack, or the package to unpack")
-    parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="OUT",
-        help="the package to write, OUT.deodar, or the folder to unpack into (default: FILE's name, here)",
+    parser.option(
+        "--out -o",
+        "OUT",
+        "the package to write, OUT.deodar, or the folder to unpack into (default: FILE's name, here)",
+        Path,
     )
-    parser.add_argument(
-        "--with-code",
-        action="store_true",
-        help="include the modules of your own that it needs; they run only with --trust",
-    )
-    parser.add_argument("--unpack", action="store_true", help="write what FILE holds into the folder OUT")
+    parser.flag("--with-code", "include the modules of your own that it needs; they run only with --trust")
+    parser.flag("--unpack", "write what FILE holds into the folder OUT")
     _options.add_force(parser)
     _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -21,20 +21,13 @@ Without --devices: the groups of equal elements, how their kernels are applied, 
 needs; the devices need not be there."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    _options.wrong(parser)
     _options.add_document(parser)
-    parser.add_argument(
-        "--devices", type=_options.several, metavar="N", help="divide the fields among N devices, or all"
-    )
-    parser.add_argument(
-        "--device", metavar="KIND", help="with --devices all: cpu or gpu, whose devices are counted"
-    )
-    parser.add_argument(
-        "--cluster", action="store_true", help="plan the trials of an experiment for many workers"
-    )
+    parser.option("--devices", "N", "divide the fields among N devices, or all", _options.several)
+    parser.option("--device", "KIND", "with --devices all: cpu or gpu, whose devices are counted")
+    parser.flag("--cluster", "plan the trials of an experiment for many workers")
     _options.add_accuracy(parser)
     _options.add_json(parser)
 

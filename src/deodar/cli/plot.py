@@ -34,45 +34,37 @@ draw them. Further branches, or loci over a map, are drawn into the same figure;
 replaces the activation of a branch."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     _figure.add_record(parser)
     _figure.add_view(parser)
-    parser.add_argument(
+    parser.option(
         "--gif",
-        type=Path,
-        metavar="FILE",
-        help="also write a video of one variable that is a path (x and y over time), in its arena",
+        "FILE",
+        "also write a video of one variable that is a path (x and y over time), in its arena",
+        Path,
     )
-    parser.add_argument(
-        "--save-as",
-        type=Path,
-        metavar="FILE",
-        help="also write what is drawn as the file of a figure, .toml",
+    parser.option("--save-as", "FILE", "also write what is drawn as the file of a figure, .toml", Path)
+    parser.option(
+        "--out -o",
+        "FILE",
+        ".png, .svg or .pdf (default: NAME-plot-001.png, ... here; of a .toml file NAME-001.pdf)",
+        Path,
     )
-    parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="FILE",
-        help=".png, .svg or .pdf (default: NAME-plot-001.png, ... here; of a .toml file NAME-001.pdf)",
-    )
-    parser.add_argument(
+    parser.flag(
         "--follow",
-        action="store_true",
-        help="wait for the record, and draw again while it grows, until its run ends or Ctrl-C is pressed",
+        "wait for the record, and draw again while it grows, until its run ends or Ctrl-C is pressed",
     )
-    parser.add_argument(
+    parser.option(
         "--interval",
-        type=_options.positive,
+        "S",
+        "with --follow: seconds between two figures (default 1)",
+        _options.positive,
         default=1.0,
-        metavar="S",
-        help="with --follow: seconds between two figures (default 1)",
     )
     _options.add_force(parser)
     _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -19,21 +19,15 @@ HELP = (
 )
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     _options.add_document(parser)
-    parser.add_argument(
-        "element", metavar="ELEMENT", help="path of the field or node; it is measured alone and without noise"
+    parser.option("element", "ELEMENT", "path of the field or node; it is measured alone and without noise")
+    parser.option(
+        "-o --out", "FIGURE", "the figure, .png or .svg (default: FILE-regimes-001.png, -002, ...)", Path
     )
-    parser.add_argument(
-        "-o",
-        "--out",
-        type=Path,
-        metavar="FIGURE",
-        help="the figure, .png or .svg (default: FILE-regimes-001.png, -002, ...)",
-    )
-    parser.add_argument("--force", action="store_true", help="replace the figure if it exists")
-    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+    parser.flag("--force", "replace the figure if it exists")
+    _options.add_json(parser)
     parser.add_argument(
         "--precision",
         choices=("float32", "float64"),
@@ -41,19 +35,15 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="of the computation (default: float32)",
     )
     _options.add_cores(parser)
-    parser.add_argument(
-        "--sigma",
-        type=float,
-        nargs="+",
-        metavar="WIDTH",
-        help="width of the localised input (default: that of the kernel)",
+    parser.option(
+        "--sigma", "WIDTH", "width of the localised input (default: that of the kernel)", float, nargs="+"
     )
-    parser.add_argument(
+    parser.option(
         "--input",
+        "PATH",
+        "stimuli (and couplings) of the document to keep as constant input",
         nargs="+",
         default=[],
-        metavar="PATH",
-        help="stimuli (and couplings) of the document to keep as constant input",
     )
 
 

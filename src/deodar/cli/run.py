@@ -15,54 +15,49 @@ of one (.deodar): it is run again as it was, and compared. Both write a new fold
 model that made it. Look at it with: deodar plot FOLDER"""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument(
+    parser.option(
         "file",
-        type=_options.document,
-        metavar="FILE|RECORD",
-        help="a document (.json, .deodar) or example:NAME to run, or a record to run again",
+        "FILE|RECORD",
+        "a document (.json, .deodar) or example:NAME to run, or a record to run again",
+        _options.document,
     )
-    parser.add_argument(
+    parser.option(
         "--duration",
-        type=float,
-        metavar="D",
-        help="how long, in the document's time unit (needed for a document; of an example as its notes say)",
+        "D",
+        "how long, in the document's time unit (needed for a document; of an example as its notes say)",
+        float,
     )
     parser.add_argument("--dt", type=float, help="Euler step (default: the document's own, else 1)")
-    parser.add_argument(
+    parser.option(
         "--record",
+        "PATH",
+        "ports to record, for example u.activation (default: every field, at the end)",
         nargs="+",
         action="extend",
-        metavar="PATH",
-        help="ports to record, for example u.activation (default: every field, at the end)",
     )
-    parser.add_argument("--every", type=float, metavar="T", help="time between records (default: every step)")
-    parser.add_argument(
-        "--trials", type=_options.whole, metavar="N", help="number of trials; they differ in their noise"
-    )
-    parser.add_argument(
-        "--workers",
-        type=_options.whole,
-        metavar="N",
-        help="share trials and sweep points among N processes of one core each",
+    parser.option("--every", "T", "time between records (default: every step)", float)
+    parser.option("--trials", "N", "number of trials; they differ in their noise", _options.whole)
+    parser.option(
+        "--workers", "N", "share trials and sweep points among N processes of one core each", _options.whole
     )
     _machines.add_devices(parser)
     _machines.add_hosts(parser)
     _machines.add_cluster(parser, "pieces of a large batch")
-    parser.add_argument(
+    parser.option(
         "--sweep",
-        type=_options.values,
+        "PATH=V1,V2,...",
+        "run at each value; several make a grid",
+        _options.values,
         action="append",
-        metavar="PATH=V1,V2,...",
-        help="run at each value; several make a grid",
     )
-    parser.add_argument(
+    parser.option(
         "--points",
-        type=Path,
-        metavar="FILE",
-        help="run at each point of a list: .csv (a line of paths, then one of numbers each) or .json",
+        "FILE",
+        "run at each point of a list: .csv (a line of paths, then one of numbers each) or .json",
+        Path,
     )
     parser.add_argument(
         "--own-noise",
@@ -74,34 +69,24 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--format", choices=("zarr", "netcdf", "csv"), default="zarr", help="of the record (default zarr)"
     )
-    parser.add_argument(
+    parser.flag(
         "--resume",
-        action="store_true",
-        help=(
-            "continue a RECORD that was killed or stopped, with --cluster on a cluster; with --duration make"
-            " a complete one longer"
-        ),
+        "continue a RECORD that was killed or stopped, with --cluster on a cluster; with --duration make"
+        " a complete one longer",
     )
-    parser.add_argument(
+    parser.option(
         "--snapshots",
-        type=float,
-        metavar="T",
-        help="time between two stored states for --resume (default: about every 30 s of wall time)",
+        "T",
+        "time between two stored states for --resume (default: about every 30 s of wall time)",
+        float,
     )
-    parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="DIR",
-        help="folder to write (default: NAME-001, NAME-002, ... here)",
-    )
+    parser.option("--out -o", "DIR", "folder to write (default: NAME-001, NAME-002, ... here)", Path)
     _options.add_run(parser)
     _long.add_yes(parser)
     _options.add_world(parser)
     _live.add(parser)
     _options.add_force(parser)
     _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -14,12 +14,10 @@ from deodar.model import output
 HELP = "write a Python script that makes the same document"
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     _options.add_document(parser)
-    parser.add_argument(
-        "--out", "-o", type=Path, metavar="SCRIPT", help="the script to write (default: print it)"
-    )
+    parser.option("--out -o", "SCRIPT", "the script to write (default: print it)", Path)
     _options.add_force(parser)
     _options.add_json(parser)
 

@@ -18,27 +18,22 @@ if TYPE_CHECKING:
 HELP = "find parameters at which a field meets requirements: thresholds, memory, selection, width of peaks"
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     _options.add_document(parser)
-    parser.add_argument(
-        "requirements", type=Path, metavar="REQUIREMENTS", help="parameters and requirements, as JSON"
-    )
+    parser.option("requirements", "REQUIREMENTS", "parameters and requirements, as JSON", Path)
     _options.add_set(parser)
-    parser.add_argument("--field", metavar="PATH", help="the field or node (default: the only one)")
-    parser.add_argument("--seed", type=_options.whole, metavar="N", help="seed of the search (default 0)")
-    parser.add_argument(
-        "--budget", type=_options.whole, metavar="N", help="most candidates of the search (default 8000)"
-    )
-    parser.add_argument(
-        "-o",
-        "--out",
-        type=Path,
-        metavar="TUNED",
-        help="write the tuned document, .json or .deodar; its notes say what it is tuned to",
+    parser.option("--field", "PATH", "the field or node (default: the only one)")
+    parser.option("--seed", "N", "seed of the search (default 0)", _options.whole)
+    parser.option("--budget", "N", "most candidates of the search (default 8000)", _options.whole)
+    parser.option(
+        "-o --out",
+        "TUNED",
+        "write the tuned document, .json or .deodar; its notes say what it is tuned to",
+        Path,
     )
     _options.add_force(parser)
-    parser.add_argument("--no-progress", action="store_true", help="do not show what is done")
+    parser.flag("--no-progress", "do not show what is done")
     _options.add_json(parser)
 
 

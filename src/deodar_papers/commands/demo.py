@@ -44,28 +44,20 @@ class _Shown:
             print(text, flush=True)
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command; each demonstration adds its own."""
     demos = papers.demos()
     about = "; ".join(f"{name}: {demo.HELP}" for name, demo in demos.items())
-    parser.add_argument("name", nargs="?", choices=tuple(demos), default=DEFAULT, metavar="NAME", help=about)
+    parser.option("name", "NAME", about, nargs="?", choices=tuple(demos), default=DEFAULT)
     parser.set_defaults(owners=_options.add_each(parser, demos))
-    parser.add_argument(
-        "--seed", type=_options.whole, metavar="N", help="seed of all noise (default 0; of the story 12)"
+    parser.option("--seed", "N", "seed of all noise (default 0; of the story 12)", _options.whole)
+    parser.option(
+        "--out -o", "DIR", "folder for what is written (default: a new one in the working folder)", Path
     )
-    parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="DIR",
-        help="folder for what is written (default: a new one in the working folder)",
-    )
-    parser.add_argument(
-        "--force", action="store_true", help="replace the folder --out that an earlier demo wrote"
-    )
-    parser.add_argument("--json", action="store_true", help="print the claims as JSON")
+    parser.flag("--force", "replace the folder --out that an earlier demo wrote")
+    parser.flag("--json", "print the claims as JSON")
     _options.add_cores(parser)
-    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+    parser.flag("--no-progress", "show no progress bar")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -40,39 +40,28 @@ ROWS = "runs.jsonl"
 RESULTS = "results.json"
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.PAPERS)}")
-    parser.add_argument(
+    parser.option("paper", "PAPER", f"which one: {', '.join(papers.PAPERS)}")
+    parser.flag(
         "--quick",
-        action="store_true",
-        help="a part of the runs, at most 20 of each condition; a claim is false only where they exclude it",
+        "a part of the runs, at most 20 of each condition; a claim is false only where they exclude it",
     )
-    parser.add_argument(
+    parser.option(
         "--only",
+        "CONDITION",
+        "only conditions whose names begin with this, for example z/carrot",
         nargs="+",
         default=[],
-        metavar="CONDITION",
-        help="only conditions whose names begin with this, for example z/carrot",
     )
-    parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="DIR",
-        help="folder to write, or to resume (default: PAPER-001, PAPER-002, ... here)",
+    parser.option(
+        "--out -o", "DIR", "folder to write, or to resume (default: PAPER-001, PAPER-002, ... here)", Path
     )
-    parser.add_argument(
-        "--workers",
-        type=_options.whole,
-        metavar="N",
-        help="share the runs among N processes of one core each",
-    )
+    parser.option("--workers", "N", "share the runs among N processes of one core each", _options.whole)
     _machines.add_cluster(parser, "runs")
     _options.add_json(parser)
-    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
-    _options.wrong(parser)
+    parser.flag("--no-progress", "show no progress bar")
 
 
 def run(args: argparse.Namespace) -> int:

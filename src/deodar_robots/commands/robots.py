@@ -21,14 +21,11 @@ WATCHED = 1.0
 """Time for which the readings of a live robot are counted, s."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.add_argument("what", nargs="?", choices=("check",), help="check the robot of FILE; moves nothing")
-    parser.add_argument(
-        "file", nargs="?", metavar="FILE[@PLACE]", help="a robot file, or the name of a shipped one"
-    )
+    parser.option("file", "FILE[@PLACE]", "a robot file, or the name of a shipped one", nargs="?")
     _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -16,24 +16,20 @@ if TYPE_CHECKING:
 HELP = "put a world or a model on the network, as a robot that another process moves"
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument(
-        "world", nargs="?", metavar="KIND:ARGUMENT", help="the world, for example arena:blocks"
-    )
-    parser.add_argument(
+    parser.option("world", "KIND:ARGUMENT", "the world, for example arena:blocks", nargs="?")
+    parser.option(
         "--model",
-        type=_options.document,
-        metavar="FILE",
-        help="a model in place of a world: its motors are sensors of the other model, its sensors motors",
+        "FILE",
+        "a model in place of a world: its motors are sensors of the other model, its sensors motors",
+        _options.document,
     )
-    parser.add_argument(
-        "--at", metavar="ENDPOINT", help="where to listen (default tcp/127.0.0.1:7461, this machine alone)"
-    )
-    parser.add_argument(
+    parser.option("--at", "ENDPOINT", "where to listen (default tcp/127.0.0.1:7461, this machine alone)")
+    parser.option(
         "--name",
-        metavar="NAME",
-        help="name of the robot (default: that of its file, or the kind of the world and a number)",
+        "NAME",
+        "name of the robot (default: that of its file, or the kind of the world and a number)",
     )
     parser.add_argument(
         "--clock",
@@ -43,20 +39,18 @@ def arguments(parser: argparse.ArgumentParser) -> None:
             " (default: that of the robot file; step; live where the readings come from outside)"
         ),
     )
-    parser.add_argument(
+    parser.flag(
         "--trusted",
-        action="store_true",
-        help="allow an endpoint beyond this machine, in a network of your own: messages are not encrypted",
+        "allow an endpoint beyond this machine, in a network of your own: messages are not encrypted",
     )
     for name, what in (
         ("certificate", "certificate of this server, for an endpoint tls/HOST:PORT, which encrypts messages"),
         ("key", "private key of the certificate"),
         ("authority", "certificate of the authority; only models with a certificate that it signed connect"),
     ):
-        parser.add_argument(f"--{name}", metavar="FILE", default="", help=what)
+        parser.option(f"--{name}", "FILE", what, default="")
     _options.add_rounding(parser)
     _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:

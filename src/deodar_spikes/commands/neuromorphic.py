@@ -32,32 +32,23 @@ ROWS = {
 """Measures: their names in the table, and what they are."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument("what", choices=("compare", "chips"), help="what to do")
     _options.add_document(
         parser, "of compare: a document (.json, .deodar), or example:NAME", nargs="?", default=None
     )
-    parser.add_argument("--trials", type=_options.whole, default=100, metavar="N", help="default 100")
-    parser.add_argument(
-        "--duration", type=_options.positive, metavar="T", help="document time (default: 1000 ms)"
-    )
+    parser.option("--trials", "N", "default 100", _options.whole, default=100)
+    parser.option("--duration", "T", "document time (default: 1000 ms)", _options.positive)
     options.add(parser)
-    parser.add_argument(
-        "--seed", type=_options.whole, metavar="N", help="seed of noise and mismatch (default 0)"
-    )
-    parser.add_argument(
-        "--norse", metavar="PYTHON", help="Python of an environment with norse (default: this one)"
-    )
-    parser.add_argument("--no-norse", action="store_true", help="run without norse")
+    parser.option("--seed", "N", "seed of noise and mismatch (default 0)", _options.whole)
+    parser.option("--norse", "PYTHON", "Python of an environment with norse (default: this one)")
+    parser.flag("--no-norse", "run without norse")
     _options.add_world(parser)
-    parser.add_argument(
-        "-o", "--out", type=Path, metavar="FIGURE", help="draw rates beside spikes, of the first trial"
-    )
+    parser.option("-o --out", "FIGURE", "draw rates beside spikes, of the first trial", Path)
     _options.add_force(parser)
     _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -19,35 +19,24 @@ in the printed address, also on this machine, which other users may share. A res
 the token; with --host each start has a new one."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
+def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     _options.add_document(
         parser, "a document, an experiment, a record, a package of one (.deodar), or example:NAME", nargs="?"
     )
-    parser.add_argument(
-        "--port",
-        type=_options.whole,
-        metavar="N",
-        help="port to listen on (default: the first free one from 8430 on; 0: any)",
+    parser.option(
+        "--port", "N", "port to listen on (default: the first free one from 8430 on; 0: any)", _options.whole
     )
-    parser.add_argument(
-        "--host",
-        default="127.0.0.1",
-        metavar="H",
-        help="address to listen on (default 127.0.0.1: this machine only)",
+    parser.option(
+        "--host", "H", "address to listen on (default 127.0.0.1: this machine only)", default="127.0.0.1"
     )
-    parser.add_argument(
-        "--no-browser", action="store_true", help="do not open the browser, only print the address"
-    )
-    parser.add_argument(
-        "--no-token",
-        action="store_true",
-        help="allow everyone who can connect to use the studio: at least every user of this machine",
+    parser.flag("--no-browser", "do not open the browser, only print the address")
+    parser.flag(
+        "--no-token", "allow everyone who can connect to use the studio: at least every user of this machine"
     )
     _options.add_world(parser)
     _options.add_cores(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -87,6 +76,6 @@ def run(args: argparse.Namespace) -> int:
 
 def open_document(path: str) -> int:
     """Serve the studio with a document, as `deodar studio PATH` does."""
-    parser = argparse.ArgumentParser(prog="deodar studio")
+    parser = _options.CommandParser(prog="deodar studio")
     arguments(parser)
     return run(parser.parse_args([path]))

@@ -139,11 +139,9 @@ def test_an_example_can_be_named_instead_of_a_file(words: list[str]) -> None:
 @pytest.mark.parametrize("command", ["check", "run", "regimes", "import", "pack"])
 def test_every_command_with_a_model_accepts_names_of_examples(command: str) -> None:
     """They share one type of argument, which agrees with `load` of scripts."""
-    import argparse
-
     from deodar.cli import _options
 
-    parser = argparse.ArgumentParser()
+    parser = _options.CommandParser()
     cli.COMMANDS[command].arguments(parser)
     assert next(a for a in parser._actions if a.dest == "file").type is _options.document
     assert _options.document("example:node") == examples.file("node")
