@@ -7,7 +7,7 @@ and every sum of the graph a list of index arrays. A planner may rewrite a plan 
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
@@ -19,7 +19,7 @@ from deodar.errors import ModelError
 from deodar.leaves import bind, leaves, resting, structure
 from deodar.model.document import Document
 from deodar.model.order import NodeRole, order
-from deodar.model.resolve import Instant, Node, resolve
+from deodar.model.resolve import Instant, Node, reach, readers, resolve
 from deodar.numerics.axes import Axes
 from deodar.numerics.choice import MANY, Shards
 from deodar.numerics.exact import LOW
@@ -147,36 +147,19 @@ class Plan:
         """Return the output calls at time t on which ports of groups depend: (group, port), including
         input ports.
         """
-        want: set[int] = set()
-        todo: list[tuple[int, Sequence[str]]] = []
-        for g, port in slots:
+
+        def sources(g: int, ports: Iterable[str]) -> set[int]:
+            # a port that an output passes on may be one that the group has not got now
+            return {read.source[0] for port in ports for read in self.reads.get((g, port), ())}
+
+        def before(g: int) -> set[int]:  # all outputs of a group are computed together
             node = self.groups[g].like
-            if port in node.outs:  # all its outputs are computed together
-                todo.append((g, [p for out in node.outs for p in node.passes(out)]))
-                want.add(g)
-            else:
-                todo.append((g, [port]))
-        done: set[tuple[int, str]] = set()
-        while todo:
-            g, ports = todo.pop()
-            for port in ports:
-                if (g, port) in done:
-                    continue
-                done.add((g, port))
-                # a port that it passes on may be one that it has not got now
-                for read in self.reads.get((g, port), ()):
-                    source = read.source[0]
-                    want.add(source)
-                    todo.append(
-                        (
-                            source,
-                            [
-                                p
-                                for o in self.groups[source].like.outs
-                                for p in self.groups[source].like.passes(o)
-                            ],
-                        )
-                    )
+            return sources(g, [port for out in node.outs for port in node.passes(out)])
+
+        start: set[int] = set()
+        for g, port in slots:
+            start |= {g} if port in self.groups[g].like.outs else sources(g, [port])
+        want = reach(start, before)
         return [c for c in self.calls if c.role == "output" and c.instant == 0 and c.group in want]
 
 
@@ -262,18 +245,13 @@ def strategies_of(
 
 
 def _still(nodes: Sequence[Node], embodied: bool) -> dict[str, bool]:
-    by = {n.id: n for n in nodes}
-    constant: dict[str, bool] = {}
 
-    def still(n: Node) -> bool:
-        if n.id not in constant:
-            constant[n.id] = False
-            alone = not n.element.stateful and n.element.steady() and n.element.noise_axes() is None
-            alone = alone and not (embodied and bool(n.element.external))
-            constant[n.id] = alone and all(still(by[s[0]]) for slots in n.reads.values() for s in slots)
-        return constant[n.id]
+    def changes(n: Node) -> bool:
+        alone = not n.element.stateful and n.element.steady() and n.element.noise_axes() is None
+        return not alone or (embodied and bool(n.element.external))
 
-    return {n.id: still(n) for n in nodes}
+    changing = reach((n.id for n in nodes if changes(n)), readers(nodes).__getitem__)
+    return {n.id: n.id not in changing for n in nodes}
 
 
 def _sensory(nodes: Sequence[Node], still: Mapping[str, bool]) -> dict[str, bool]:

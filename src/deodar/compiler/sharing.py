@@ -59,7 +59,8 @@ def shared(nodes: Sequence[Node], strategy_of: dict[str, Strategy]) -> list[Node
     smooth: set[str] = set()
     """Nodes whose output is complete as waves: a field's own is not, before a kernel has been applied to it.
     """
-    for n in _upstream_first([n for n in nodes if strategy_of[n.id].shared and role(n) != "source"]):
+    joining = [n for n in nodes if strategy_of[n.id].shared and role(n) != "source"]
+    for n in sorted(joining, key=lambda n: (n.level, n.id)):  # upstream first
         if role(n) == "filter" or (
             n.reads["input"]
             and all(s[0] in smooth and _joined(by[s[0]], n, strategy_of) for s in n.reads["input"])
@@ -118,10 +119,6 @@ def _joined(a: Node, b: Node, strategy_of: Mapping[str, Strategy]) -> bool:
         and dict(first.choices)[first.shared] == dict(second.choices)[second.shared]
     )
     return same and a.every == b.every and acted_axes(a) == acted_axes(b)
-
-
-def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
-    return sorted(nodes, key=lambda n: (n.level, n.id))
 
 
 # ------------------------------------------------------------------------------------------ wrapped functions

@@ -18,7 +18,7 @@ from deodar.compiler.functions import convolved_axes
 from deodar.element import Element
 from deodar.leaves import structure
 from deodar.model.document import Document
-from deodar.model.resolve import Node
+from deodar.model.resolve import Node, reach
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
 from deodar.numerics.choice import Choice, Shards, by_matrices, together
@@ -183,13 +183,7 @@ def _reached(first: str, nodes: Sequence[Node]) -> set[str]:
         for source, port, _ in n.reads["input"]:
             beside[source].append(n.id)
             beside[n.id] += [source] if port == "output" else []
-    reached, todo = {first}, [first]
-    while todo:
-        n = by[todo.pop()]
-        new = {i for i in beside[n.id] if i in by and i not in reached and _linked(n, by[i])}
-        reached |= new
-        todo += new
-    return reached
+    return reach([first], lambda i: [j for j in beside[i] if j in by and _linked(by[i], by[j])])
 
 
 def _linked(a: Node, b: Node) -> bool:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+
+from deodar.model.resolve import reach
 
 BYTES = {1: ("pred", "s8", "u8"), 2: ("bf16", "f16"), 8: ("s64", "u64", "f64", "c64"), 16: ("c128",)}
 """Sizes of numbers by their names in a compiled program; all others have 4 bytes."""
@@ -57,19 +59,12 @@ class Collective:
 def collectives(text: str) -> list[Collective]:
     """Return the operations that exchange numbers in one step of a compiled chunk: those inside its loops."""
     computations = dict(_computations(text))
-    inside: set[str] = set()
-    todo = [
-        name
-        for lines in computations.values()
-        for line in lines
-        if " while(" in line
-        for name in _called(line)
-    ]
-    while todo:
-        name = todo.pop()
-        if name in computations and name not in inside:
-            inside.add(name)
-            todo += [called for line in computations[name] for called in _called(line)]
+
+    def called(lines: Iterable[str]) -> list[str]:
+        return [name for line in lines for name in _called(line) if name in computations]
+
+    loops = (line for lines in computations.values() for line in lines if " while(" in line)
+    inside = reach(called(loops), lambda name: called(computations[name]))
     return [
         collective
         for name in sorted(inside)

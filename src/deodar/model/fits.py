@@ -17,7 +17,7 @@ from deodar.element import Coupling, Element
 from deodar.errors import AxesError, DeodarError
 from deodar.model import document_files, edit, find, new_elements
 from deodar.model.document import Document, Entry
-from deodar.model.resolve import Node, misfit, resolve
+from deodar.model.resolve import Node, misfit, reach, resolve
 from deodar.numerics.axes import Axes, Axis, describe, shape
 from deodar.parameters import parameters
 
@@ -355,16 +355,14 @@ class _Judge:
 
     def upstream(self, ident: str, port: str) -> set[tuple[str, str]]:
         """Return the input ports on which an output port depends in the same instant."""
-        inputs: set[tuple[str, str]] = set()
-        todo = [(ident, port)]
-        while todo:
-            i, out = todo.pop()
-            element = self.doc.by_id()[i].element
-            for name in type(element).direct.get(out, ()):
-                if (i, name) not in inputs:
-                    inputs.add((i, name))
-                    todo += self.into.get((i, name), [])
-        return inputs
+
+        def direct(i: str, out: str) -> list[tuple[str, str]]:
+            return [(i, name) for name in type(self.doc.by_id()[i].element).direct.get(out, ())]
+
+        return reach(
+            direct(ident, port),
+            lambda end: [before for output in self.into.get(end, []) for before in direct(*output)],
+        )
 
     @functools.cached_property
     def into(self) -> Mapping[tuple[str, str], list[tuple[str, str]]]:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-from collections.abc import Callable, Sequence
-from typing import Any, Literal
+from collections.abc import Callable, Collection, Iterable, Sequence
+from typing import Any, Literal, TypeVar
 
 from deodar.couplings.delay import Delay
 from deodar.couplings.project import Project
@@ -20,6 +20,7 @@ from deodar.model.document import Connection, Document, Entry
 from deodar.numerics.axes import Axes, describe, shape
 from deodar.parameters import parameters
 
+T = TypeVar("T")
 Instant = Literal[0, 1]
 Slot = tuple[str, str, Instant]
 """Element id, output port, and the time of reading: 0 at time t, 1 at t + dt."""
@@ -55,6 +56,27 @@ class Node:
     def deferred(self) -> bool:
         """Whether its outputs depend on inputs of the same instant."""
         return any(self.passes(port) for port in self.outs)
+
+
+def reach(start: Iterable[T], following: Callable[[T], Iterable[T]]) -> set[T]:
+    """Return what a walk of a graph reaches, its start included."""
+    reached = set(start)
+    ahead = list(reached)
+    while ahead:
+        new = set(following(ahead.pop())) - reached
+        reached |= new
+        ahead += new
+    return reached
+
+
+def readers(nodes: Collection[Node]) -> dict[str, set[str]]:
+    """Return, for each node, the ids of the nodes that read one of its outputs."""
+    reading: dict[str, set[str]] = {n.id: set() for n in nodes}
+    for n in nodes:
+        for slots in n.reads.values():
+            for source, _, _ in slots:
+                reading[source].add(n.id)
+    return reading
 
 
 class _Resolver:
@@ -170,14 +192,7 @@ class _Resolver:
     def follows(self, ident: str, origin: str) -> bool:
         """Return whether the axes of a coupling follow, through couplings, from those of another."""
         if self.after[0] != origin:  # called for all sources of one element in sequence
-            seen: set[str] = set()
-            ahead = [origin]
-            while ahead:
-                i = ahead.pop()
-                if i not in seen:
-                    seen.add(i)
-                    ahead += self.feeds[i]
-            self.after = (origin, seen)
+            self.after = (origin, reach([origin], self.feeds.__getitem__))
         return ident in self.after[1]
 
     def _direct_ports(self, element: Element) -> set[str]:

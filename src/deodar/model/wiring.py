@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from deodar.errors import Problem
 from deodar.model.document import Document
-from deodar.model.resolve import Node
+from deodar.model.resolve import Node, reach, readers
 from deodar.numerics.intervals import ANY, ZERO, Interval, total
 
 MOST_PASSES = 200
@@ -31,12 +31,7 @@ class Wiring:
     @functools.cached_property
     def readers(self) -> dict[str, set[str]]:
         """For each node, the ids of the nodes that read one of its outputs."""
-        readers: dict[str, set[str]] = {i: set() for i in self.nodes}
-        for n in self.nodes.values():
-            for slots in n.reads.values():
-                for source, _, _ in slots:
-                    readers[source].add(n.id)
-        return readers
+        return readers(self.nodes.values())
 
     def sources(self, node: Node, port: str = "input") -> list[Node]:
         """Return the document's own elements that a port reads, through implicit projections and delays."""
@@ -53,13 +48,7 @@ class Wiring:
 
         Without any, the model is a template, which gets its inputs where it is used.
         """
-        reached = {n.id for n in self.declared if not n.element.ports()}
-        ahead = list(reached)
-        while ahead:
-            new = self.readers[ahead.pop()] - reached
-            reached |= new
-            ahead += new
-        return reached
+        return reach((n.id for n in self.declared if not n.element.ports()), self.readers.__getitem__)
 
     @functools.cached_property
     def position(self) -> dict[str, int]:
