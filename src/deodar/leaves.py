@@ -104,25 +104,19 @@ def structure(part: Part, neutral: frozenset[str] = frozenset(), prefix: str = "
     return tuple(out)
 
 
-def arrays(part: Part) -> Iterator[np.ndarray]:
-    """Yield the arrays among the parameters of a part and of its nested parts."""
-    for p in parameters(type(part)):
-        value = getattr(part, p.name)
-        if isinstance(value, FrozenArray):
-            yield value.data
-        elif p.form in ("part", "parts") and value is not None:
-            for inner in value if p.form == "parts" else (value,):
-                yield from arrays(inner)
+def parameter_values(part: Part) -> Iterator[tuple[Parameter, Any]]:
+    """Yield the declaration and the value of every parameter of a part and, at any depth, of its inner parts.
 
-
-def nested(part: Part) -> Iterator[Part]:
-    """Yield the parts inside a part, at any depth."""
+    An inner part comes before its own parameters, those of a list one by one; None is left out.
+    """
     for p in parameters(type(part)):
         value = getattr(part, p.name)
         if p.form in ("part", "parts") and value is not None:
             for inner in value if p.form == "parts" else (value,):
-                yield inner
-                yield from nested(inner)
+                yield p, inner
+                yield from parameter_values(inner)
+        elif value is not None:
+            yield p, value
 
 
 @dc.dataclass(frozen=True)

@@ -42,13 +42,14 @@ from deodar.compiler.program import BEGUN, Chunk, Port, Program, precision_conte
 from deodar.compiler.shard import DividedFields
 from deodar.element import Arrays
 from deodar.errors import Fix, ModelError, ParameterError, Untrusted
-from deodar.leaves import arrays, resting, structure
+from deodar.leaves import parameter_values, resting, structure
 from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.numerics import native
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.pytree import PyTree
+from deodar.parameters import FrozenArray
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
@@ -682,7 +683,8 @@ def _shared(request: ProgramRequest) -> Executable:
 
 def _bytes(doc: Document) -> int:
     """Return the size in bytes of the arrays among the parameters of a document."""
-    return sum(a.nbytes for e in doc.entries for a in arrays(e.element))
+    inside = (value for e in doc.entries for _, value in parameter_values(e.element))
+    return sum(value.data.nbytes for value in inside if isinstance(value, FrozenArray))
 
 
 def signature(doc: Document) -> Hashable:

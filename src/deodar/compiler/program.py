@@ -26,7 +26,7 @@ from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.compiler.traffic import scope
 from deodar.element import Arrays, Element, Setting, Time
-from deodar.leaves import bind, leaves, nested
+from deodar.leaves import bind, leaves, parameter_values
 from deodar.numerics.axes import shape
 from deodar.numerics.derivatives import without_derivative
 from deodar.numerics.exact import LOW, Exact
@@ -661,7 +661,7 @@ def _jumps(group: RowGroup) -> frozenset[str]:
     element, node = group.like.element, group.like
     names = {path for path, _, p in leaves(element) if p.role in ("moment", "duration")}
     names |= set(element.jumps_at())
-    if any(isinstance(part, SigmoidFunction) and part.jumps for part in nested(element)):
+    if any(isinstance(v, SigmoidFunction) and v.jumps for _, v in parameter_values(element)):
         setting = Setting(node.ins, node.outs, np.dtype("float32"))
         names |= {*node.ins, *group.offset, *group.arrays, *jax.eval_shape(lambda: element.init(setting))}
     return frozenset(names)

@@ -19,9 +19,10 @@ import psutil
 
 from deodar import codec, registry
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
+from deodar.leaves import parameter_values
 from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
-from deodar.model.parts import arrays_in, axes_in, kinds_in, to_json
+from deodar.model.parts import axes_in, kinds_in, to_json
 from deodar.model.paths import display
 from deodar.model.reader import from_data
 from deodar.numerics.axes import Axis
@@ -101,8 +102,9 @@ def arrays(doc: Document) -> dict[str, FrozenArray]:
     """Return the arrays of a document by their keys, as `to_data` does."""
     table: dict[str, FrozenArray] = {}
     for e in doc.entries:
-        for array in arrays_in(e.element):
-            _key(table, "array", array)
+        for p, value in parameter_values(e.element):
+            if p.form == "array":
+                _key(table, "array", value)
     return table
 
 

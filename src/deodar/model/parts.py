@@ -10,7 +10,7 @@ from typing import Any
 from deodar import codec, registry
 from deodar.declarations import Needed
 from deodar.errors import Fix, ParameterError, Problem, UnknownName, did_you_mean
-from deodar.leaves import get
+from deodar.leaves import get, parameter_values
 from deodar.numerics.axes import Axis
 from deodar.parameters import PLAIN, FrozenArray, Parameter, Part, an, normal, parameter, parameters, show
 
@@ -93,33 +93,13 @@ def to_json(
     return out
 
 
-def axes_in(part: Any) -> Iterator[Axis]:
+def axes_in(part: Part) -> Iterator[Axis]:
     """Yield the axes of a part and of the parts inside it, in the order of the fields."""
-    for p in parameters(type(part)):
-        value = getattr(part, p.name) if p.form in ("axes", "axis", "part", "parts") else None
-        if value is None:
-            continue
-        match p.form:
-            case "axes":
-                yield from value
-            case "axis":
-                yield value
-            case "part":
-                yield from axes_in(value)
-            case _:
-                for inner in value:
-                    yield from axes_in(inner)
-
-
-def arrays_in(part: Any) -> Iterator[FrozenArray]:
-    """Yield the arrays of a part and of the parts inside it, in the order of the fields."""
-    for p in parameters(type(part)):
-        value = getattr(part, p.name) if p.form in ("array", "part", "parts") else None
-        if isinstance(value, FrozenArray):
+    for p, value in parameter_values(part):
+        if p.form == "axes":
+            yield from value
+        elif p.form == "axis":
             yield value
-        elif value is not None:
-            for inner in value if p.form == "parts" else [value]:
-                yield from arrays_in(inner)
 
 
 def _plain(

@@ -9,7 +9,6 @@ import dataclasses as dc
 import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from deodar.diagrams.boxes import number
 from deodar.diagrams.graph import Graph, GroupPath, Item, ItemForm, Wire
@@ -18,6 +17,7 @@ from deodar.elements.motor import Motor
 from deodar.elements.placeholder import Placeholder
 from deodar.elements.sensor import Sensor
 from deodar.model import find
+from deodar.model.building import positions
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import Axes
@@ -110,7 +110,8 @@ class _Sketch:
         axes_of = {box.id: box.axes for box in items}
         differ = {w.source for w in wires if axes_of[w.target] != axes_of[w.source]}
         items = tuple(dc.replace(i, axes_shown=i.form != "source" or i.id in differ) for i in items)
-        return Graph(self.doc.name, items, tuple(wires), self._groups(items), self._positions())
+        places = {i: place for i, place in positions(self.doc).items() if i in self.by}
+        return Graph(self.doc.name, items, tuple(wires), self._groups(items), places)
 
     def _groups(self, items: Sequence[Item]) -> dict[GroupPath, str]:
         groups = {g: "" for g in self.doc.groups} | {use.group: use.template for use in self.doc.uses}
@@ -179,12 +180,3 @@ class _Sketch:
         )
         captions = tuple(caption(self.by[ident].element) for ident in on)
         return Wire(source.id, target.id, source_port, target_port, sign, captions, "delayed" in reads)
-
-    def _positions(self) -> dict[str, tuple[float, float]]:
-        boxes: Any = self.doc.layout.get("boxes")
-        out: dict[str, tuple[float, float]] = {}
-        for ident, box in boxes.items() if isinstance(boxes, Mapping) else ():
-            x, y = (box.get("x"), box.get("y")) if isinstance(box, Mapping) else (None, None)
-            if ident in self.by and isinstance(x, int | float) and isinstance(y, int | float):
-                out[ident] = float(x), float(y)
-        return out
