@@ -201,21 +201,15 @@ def get(part: Part, path: str) -> Any:
 
 def replace(part: P, path: str, value: Any) -> P:
     """Return a copy with one value changed and checked: `replace(field, "kernel.0.sigma", 3)`."""
-    head, _, rest = path.partition(".")
-    if rest:
-        inner = _child(part, head, path)
-        value = _replace_inside(inner, rest, value, path)
-    else:
-        parameter(type(part), head)
-    return dc.replace(typing.cast(Any, part), **{head: value})
+    return _replaced(part, path.split("."), value, path)
 
 
-def _replace_inside(holder: Any, path: str, value: Any, whole: str) -> Any:
+def _replaced(holder: Any, steps: Sequence[str], value: Any, path: str) -> Any:
+    head, *rest = steps
+    inner = _child(holder, head, path)
+    new = _replaced(inner, rest, value, path) if rest else value
     if isinstance(holder, Part):
-        return replace(holder, path, value)
-    head, _, rest = path.partition(".")
-    inner = _child(holder, head, whole)
-    new = _replace_inside(inner, rest, value, whole) if rest else value
+        return dc.replace(typing.cast(Any, holder), **{head: new})
     if holder and isinstance(holder[0], tuple) and len(holder[0]) == 2:
         return tuple((k, new if k == head else v) for k, v in holder)
     return (*holder[: int(head)], new, *holder[int(head) + 1 :])

@@ -17,7 +17,7 @@ def driven(doc: Document, path: str) -> list[Leaf]:
     """
     target = find.target(doc, path)
     if target.entry is None:
-        links = next(k.links for k in doc.parameters if k.name == target.document_parameter)
+        links = next(k.links for k in doc.parameters if k.name == target.parameter)
         if not links:
             raise ParameterError(
                 f"the document parameter {path!r} drives nothing",

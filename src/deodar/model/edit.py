@@ -16,12 +16,12 @@ from deodar import codec
 from deodar.codec import Json
 from deodar.element import Element
 from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, did_you_mean
-from deodar.leaves import get, replace
+from deodar.leaves import replace
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, DocumentParameter, Entry, Use
 from deodar.model.paths import PathNames, display, stored_id
 from deodar.numerics.axes import Axis
-from deodar.parameters import Reference, is_text, parameter, parameters, real, show
+from deodar.parameters import Reference, is_text, parameters, real, show
 
 TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|ms|s|min))$")
 
@@ -319,7 +319,7 @@ def change(doc: Document, path: str, value: Any) -> Document:
     """
     target = find.target(doc, path)
     return (
-        document_parameter(doc, target.document_parameter, value)
+        document_parameter(doc, target.parameter, value)
         if target.entry is None
         else put(doc, target.entry.id, target.parameter, value)
     )
@@ -599,8 +599,6 @@ def _with_axis(part: Any, old: Axis, new: Axis) -> Any:
 def _put(doc: Document, ident: str, path: str, value: Any) -> Document:
     entry = doc.by_id()[ident]
     try:
-        parameter(type(entry.element), path.split(".")[0])
-        get(entry.element, path)
         new = replace(entry.element, path, value)
     except (ParameterError, UnknownName) as error:
         problem = error.problems[0]

@@ -14,11 +14,10 @@ from deodar.parameters import parameters
 
 @dc.dataclass(frozen=True)
 class Target:
-    """The target of a parameter path: a document parameter, or a parameter of an element."""
+    """The target of a parameter path: a parameter of an element, or a document parameter, by its name."""
 
     entry: Entry | None
     parameter: str
-    document_parameter: str = ""
 
 
 def entry(doc: Document, ident: str) -> Entry:
@@ -102,7 +101,7 @@ def target(doc: Document, path: str) -> Target:
         if inner.split(".")[0] in [p.name for p in parameters(type(entry.element))]:
             return Target(entry, inner)
     if path in [k.name for k in doc.parameters]:
-        return Target(None, "", path)
+        return Target(None, path)
     if matches:
         entry, rest = matches[0]
         parameter_names = [p.name for p in parameters(type(entry.element)) if p.name != "name"]
@@ -121,9 +120,17 @@ def target(doc: Document, path: str) -> Target:
 def value(doc: Document, path: str) -> Any:
     """Return the value of the parameter at a path."""
     end = target(doc, path)
-    if end.entry is None:
-        return next(k.value for k in doc.parameters if k.name == end.document_parameter)
-    return get(end.entry.element, end.parameter)
+    return present(doc, end.entry.id if end.entry else "", end.parameter)
+
+
+def present(doc: Document, ident: str, path: str) -> Any:
+    """Return the value of a parameter of an element, or of a document parameter, whose id is ""."""
+    if ident:
+        return get(entry(doc, ident).element, path)
+    numbers = [k.value for k in doc.parameters if k.name == path]
+    if not numbers:
+        raise UnknownName(f"the document has no parameter {path!r}")
+    return numbers[0]
 
 
 def number(doc: Document, ident: str, leaf: str) -> float:

@@ -12,7 +12,6 @@ from typing import Any, cast
 
 from deodar.codec import Json
 from deodar.errors import DeodarError, UnknownName, did_you_mean
-from deodar.leaves import get
 from deodar.model import edit, find
 from deodar.model.document import Document
 
@@ -94,7 +93,7 @@ def take_preset(doc: Document, preset: KeptPreset) -> tuple[Document, list[tuple
         where = ident if entry is None else entry.path
         for path, value in values.items():
             try:
-                if _present(doc, ident, path) == (tuple(value) if isinstance(value, list) else value):
+                if find.present(doc, ident, path) == (tuple(value) if isinstance(value, list) else value):
                     continue
                 if ident:
                     doc = edit.put(doc, ident, path, value)
@@ -105,13 +104,3 @@ def take_preset(doc: Document, preset: KeptPreset) -> tuple[Document, list[tuple
             else:
                 lines.append((where, path, ""))
     return doc, lines
-
-
-def _present(doc: Document, ident: str, path: str) -> Any:
-    """Return the present value of a parameter of an element, or of a document parameter."""
-    if ident:
-        return get(find.entry(doc, ident).element, path)
-    numbers = [p.value for p in doc.parameters if p.name == path]
-    if not numbers:
-        raise UnknownName(f"the document has no parameter {path!r}")
-    return numbers[0]

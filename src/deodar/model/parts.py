@@ -309,21 +309,15 @@ def value_from_json(
 
 
 def _declared(part: Any, path: str) -> tuple[Parameter, bool]:
-    """Return the declaration at the end of a path, and whether it means the whole value (not an item of
-    it).
-    """
+    """Return the declaration at the end of a path, and whether it means the whole value, not an item."""
     *before, last = path.split(".")
     holder, p = part, None
     for step in before:
-        if isinstance(holder, Part):
-            p = parameter(type(holder), step)
-            holder = getattr(holder, step)
-        else:
-            holder = get(holder, step)
+        p = parameter(type(holder), step) if isinstance(holder, Part) else p
+        holder = get(holder, step)
     if isinstance(holder, Part):
         return parameter(type(holder), last), True
-    if p is None:
-        raise UnknownName(f"nothing lies inside {path!r}")
+    assert p is not None  # the whole is a part
     return p, False
 
 

@@ -110,9 +110,8 @@ def _single(doc: Document, path: str) -> float:
     numbers = np.ravel(number) if real(number) is not None or np.ndim(number) else np.zeros(0)
     if numbers.dtype.kind not in "fiu" or numbers.size != 1:
         inside: list[str] = []
-        if (entry := find.target(doc, path).entry) is not None:
-            parameter = find.target(doc, path).parameter
-            inside = [n for n, _, _ in leaves(entry.element) if n.startswith(f"{parameter}.")]
+        if (target := find.target(doc, path)).entry is not None:
+            inside = [n for n, _, _ in leaves(target.entry.element) if n.startswith(f"{target.parameter}.")]
         fix = f"Name one of: {', '.join(inside)}" if inside else ""
         raise ParameterError(f"is not one number, but {show(number)}", where=path, fix=fix)
     return float(numbers[0])
@@ -150,7 +149,7 @@ def _declared(doc: Document, path: str) -> list[tuple[float | None, float | None
     """Return the declared ranges of the numbers that a parameter drives."""
     target = find.target(doc, path)
     if target.entry is None:
-        links = next(k.links for k in doc.parameters if k.name == target.document_parameter)
+        links = next(k.links for k in doc.parameters if k.name == target.parameter)
         pairs = [(find.entry(doc, ident), leaf) for ident, leaf in links]
     else:
         pairs = [(target.entry, target.parameter)]
