@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import re
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 Cost = Literal["live", "rebuild", "recompile"]
 Role = Literal["", "time constant", "time scale", "rate", "speed", "moment", "duration"]
@@ -70,7 +70,7 @@ class Declaration:
     exact: bool = dc.field(default=False, kw_only=True)
     names: Names = dc.field(default="", kw_only=True)
     section: FormSection | None = dc.field(default=None, kw_only=True)
-    cost: ClassVar[Cost] = "recompile"
+    cost: Cost = dc.field(default="recompile", init=False)
 
 
 class Live(Declaration):
@@ -92,8 +92,6 @@ class Rebuild(Declaration):
 
 class Recompile(Declaration):
     """A change compiles a new program; states are kept by the element's id."""
-
-    cost = "recompile"
 
 
 @dc.dataclass(frozen=True)

@@ -27,7 +27,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 
 from deodar import docstring
-from deodar.declarations import TIME_ROLES, Cost, Declaration, FormSection, Names, Needed, Recompile, Role
+from deodar.declarations import TIME_ROLES, Cost, Declaration, Needed, Recompile
 from deodar.declarations import Live as Live
 from deodar.declarations import Rebuild as Rebuild
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
@@ -116,27 +116,16 @@ ValueForm = Literal[
 ]
 
 
-@dc.dataclass(frozen=True)
-class Parameter:
+@dc.dataclass(frozen=True, kw_only=True)
+class Parameter(Declaration):
     """One parameter, read from its declaration."""
 
     name: str
     form: ValueForm
     cost: Cost
-    unit: str
-    lower: float | None
-    upper: float | None
-    neutral: float | None
-    choices: tuple[str, ...]
-    meaning: str
     default: Any
-    of: type[Any] | None = None
-    optional: bool = False
-    off: bool = False
-    role: Role = ""
-    exact: bool = False
-    names: Names = ""
-    section: FormSection | None = None
+    of: type[Any] | None
+    optional: bool
 
     @property
     def traced(self) -> bool:
@@ -272,26 +261,12 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
             f"{cls.__name__}.{field.name}: a parameter whose unit has time in it, and no other, declares a"
             f" role: {', '.join(TIME_ROLES)}"
         )
-    exact = d.exact or d.role == "moment"
-    return Parameter(
-        field.name,
-        form,
-        d.cost,
-        d.unit,
-        d.lower,
-        d.upper,
-        d.neutral,
-        d.choices,
-        d.meaning or _meaning(docstring.descriptions(cls).get(field.name, "")),
-        default,
-        of,
-        optional,
-        d.off,
-        d.role,
-        exact,
-        d.names,
-        d.section,
-    )
+    declared: dict[str, Any] = vars(d) | {
+        "cost": d.cost,
+        "meaning": d.meaning or _meaning(docstring.descriptions(cls).get(field.name, "")),
+        "exact": d.exact or d.role == "moment",
+    }
+    return Parameter(**declared, name=field.name, form=form, default=default, of=of, optional=optional)
 
 
 def _meaning(description: str) -> str:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import dataclasses as dc
 import re
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from deodar.codec import Json
-from deodar.declarations import Cost, FormSection, Names, Needed, range_text
+from deodar.declarations import Cost, Declaration, FormSection, Needed, range_text
 from deodar.kinds.symbols import NAME, is_letter, symbol
 from deodar.kinds.typed import typed
 from deodar.model.parts import to_json
@@ -24,45 +25,32 @@ ENDLESS = 1e20
 """A time of this size as a default means: never."""
 
 
-@dc.dataclass(frozen=True)
-class ParameterDescription:
-    """What a parameter is.
+@dc.dataclass(frozen=True, kw_only=True)
+class ParameterDescription(Declaration):
+    """What a parameter is: its declaration, and what follows from it.
 
     Attributes:
         name: its name.
         form: the shape of its value.
-        cost: what a change costs.
-        meaning: one phrase, from the declaration.
         description: what the docstring says of it.
         symbol: its symbol in the equation, as TeX; "" without one.
-        unit: unit of its value.
-        lower: lowest value; None: any.
-        upper: highest value; None: any.
         default: the default as documents write it; axes and arrays have none.
         typed: the default as one types it in a call; "required" without one.
         optional: whether it may be None.
-        choices: the allowed texts; empty: any.
         of: names of the kinds that its value may have, where it is a part or a list of parts.
-        names: what a text names: a port, an element, a parameter, an event; "" anything.
         section: the section of a form that lists it; "" its head.
     """
 
     name: str
     form: ValueForm
     cost: Cost
-    meaning: str
     description: str
     symbol: str
-    unit: str
-    lower: float | None
-    upper: float | None
     default: Json
     typed: str
     optional: bool
-    choices: tuple[str, ...]
     of: tuple[str, ...]
-    names: Names
-    section: FormSection
+    section: FormSection = ""
 
     @property
     def range(self) -> str:
@@ -81,23 +69,18 @@ def describe_parameter(
         equation: the equation of its kind.
         known: every registered kind by name.
     """
+    declared: dict[str, Any] = {field.name: getattr(p, field.name) for field in dc.fields(Declaration)}
+    declared["section"] = _section(p) if p.section is None else p.section
     return ParameterDescription(
+        **declared,
         name=p.name,
         form=p.form,
-        cost=p.cost,
-        meaning=p.meaning,
         description=description,
         symbol=_symbol(p, description, equation),
-        unit=p.unit,
-        lower=p.lower,
-        upper=p.upper,
         default=_default(p),
         typed=_typed(p),
         optional=p.optional,
-        choices=p.choices,
         of=tuple(name for name, cls in known.items() if p.of is not None and _holds(p, p.of, cls)),
-        names=p.names,
-        section=_section(p) if p.section is None else p.section,
     )
 
 
@@ -114,7 +97,7 @@ def _section(p: Parameter) -> FormSection:
 
 def plain(part: Part) -> Json:
     """Return a part as documents write it, without arrays: documents keep those in files."""
-    return _without_arrays(to_json(part, _no_axis, _no_file))
+    return _without_arrays(to_json(part, _no_key, _no_key))
 
 
 def _holds(p: Parameter, of: type, cls: type) -> bool:
@@ -159,11 +142,7 @@ def _typed(p: Parameter) -> str:
     return "none" if value is None or value == () else typed(value)
 
 
-def _no_axis(axis: Axis) -> str:
-    return ""
-
-
-def _no_file(array: FrozenArray) -> str:
+def _no_key(shared: Axis | FrozenArray) -> str:
     return ""
 
 
