@@ -160,7 +160,7 @@ def erase() -> None:
 def lasting(seconds: float) -> str:
     """Return a duration in words: 40 s, 12 min, 3 h 5 min."""
     minutes = round(seconds / 60)
-    if seconds < 90:
+    if seconds < 100:
         return f"{seconds:.0f} s"
     return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"
 
