@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 class CommandParser(argparse.ArgumentParser):
     """The parser of a command, whose `run` refuses a call like argparse by `args.wrong(text)`."""
 
-    def __init__(self, **how: Any) -> None:
-        super().__init__(**how)
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
         self.set_defaults(wrong=self.error)
 
     def flag(self, name: str, meaning: str) -> None:
@@ -33,21 +33,21 @@ class CommandParser(argparse.ArgumentParser):
     def option(
         self,
         names: str,
-        value: str | tuple[str, ...],
+        noun: str | tuple[str, ...],
         meaning: str,
         parse: Callable[[str], Any] = str,
-        **how: Any,
+        **settings: Any,
     ) -> None:
         """Add an argument with a value.
 
         Args:
             names: its name, or an option's names with spaces between them, as they are typed.
-            value: what the help calls the value, or each of several.
+            noun: what the help calls the value, or each of several.
             meaning: the help.
             parse: returns the value of a text.
-            how: other keywords of `add_argument`.
+            settings: other keywords of `add_argument`.
         """
-        self.add_argument(*names.split(), metavar=value, help=meaning, type=parse, **how)
+        self.add_argument(*names.split(), metavar=noun, help=meaning, type=parse, **settings)
 
     def error(self, message: str) -> NoReturn:
         """Print an invalid call as one sentence with a fix, and exit with status 2."""

@@ -683,8 +683,8 @@ def _shared(request: ProgramRequest) -> Executable:
 
 def _bytes(doc: Document) -> int:
     """Return the size in bytes of the arrays among the parameters of a document."""
-    inside = (value for e in doc.entries for _, value in parameter_values(e.element))
-    return sum(value.data.nbytes for value in inside if isinstance(value, FrozenArray))
+    leaves = (leaf for e in doc.entries for _, leaf in parameter_values(e.element))
+    return sum(leaf.data.nbytes for leaf in leaves if isinstance(leaf, FrozenArray))
 
 
 def signature(doc: Document) -> Hashable:

@@ -47,7 +47,7 @@ class SharedNode(Node):
 
 def plain_ports(ports: Mapping[str, T]) -> dict[str, T]:
     """Return the ports of the element, without the ports for spectral modes."""
-    return {name: value for name, value in ports.items() if not name.endswith((WAVES, REST))}
+    return {name: port for name, port in ports.items() if not name.endswith((WAVES, REST))}
 
 
 def shared(nodes: Sequence[Node], strategy_of: dict[str, Strategy]) -> list[Node]:

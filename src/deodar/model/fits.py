@@ -234,12 +234,12 @@ class _Judge:
         self.doc = doc
         nodes, self.problems = resolve(doc)
         self.nodes = {n.id: n for n in nodes if n.declared}
-        self.known = document_files.axes(doc)
+        self.axes = document_files.axes(doc)
         self.ends = doc.ends()
         self.resolved = 0
 
     def key(self, axis: Axis) -> str:
-        return document_files.axis_key(self.known, axis)
+        return document_files.axis_key(self.axes, axis)
 
     def output(self, ident: str, port: str) -> Axes | None:
         node = self.nodes.get(ident)

@@ -229,15 +229,15 @@ class Package:
         """Write an entry into a new file, and compare it with what the contents state."""
         entry, digest = self._entries[name], hashlib.sha256()
         with _reading(name), self._zip.open(entry) as source, target.open("xb") as file:
-            left = entry.file_size
-            while block := source.read(min(BLOCK, left + 1)):
-                left -= len(block)
-                if left < 0:
+            missing = entry.file_size
+            while block := source.read(min(BLOCK, missing + 1)):
+                missing -= len(block)
+                if missing < 0:
                     break
                 digest.update(block)
                 file.write(block)
         stated = self.contents.files.get(name)
-        if left or (stated is not None and digest.hexdigest() != stated.sha256):
+        if missing or (stated is not None and digest.hexdigest() != stated.sha256):
             raise _changed(name)
 
     def _content(self, entry: zipfile.ZipInfo) -> bytes:

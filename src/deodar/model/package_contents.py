@@ -90,8 +90,8 @@ class Contents(Summarised, msgspec.Struct, frozen=True, forbid_unknown_fields=Tr
     def _summary(self) -> Summary:
         rows = [*self.about.items()]
         for module in self.modules:
-            how = module.distribution or (", ".join(module.files) if module.files else "not included")
-            rows.append((f"needs {module.name}", f"{', '.join(module.defines)}: {how}"))
+            place = module.distribution or (", ".join(module.files) if module.files else "not included")
+            rows.append((f"needs {module.name}", f"{', '.join(module.defines)}: {place}"))
         size = f"{counted(len(self.files), 'file')}, {sized(self.size)}"
         return Summary(f"{self.noun}: {self.path} ({size})", rows)
 
@@ -104,13 +104,13 @@ class Contents(Summarised, msgspec.Struct, frozen=True, forbid_unknown_fields=Tr
         return {"deodar_package": VERSION, **msgspec.to_builtins(self)}
 
     @classmethod
-    def from_data(cls, data: Any) -> Contents:
+    def from_data(cls, plain: Any) -> Contents:
         """Return the contents that plain data state.
 
         Raises:
             DocumentError: they are not the contents of a package, or of a later version of deodar.
         """
-        content = dict(cast("dict[str, Any]", data)) if isinstance(data, dict) else {}
+        content = dict(cast("dict[str, Any]", plain)) if isinstance(plain, dict) else {}
         version = content.pop("deodar_package", None)
         if version != VERSION:
             raise DocumentError(

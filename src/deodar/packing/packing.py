@@ -52,7 +52,7 @@ def pack(
         entries = {name: content for name, content in work.files.items() if isinstance(content, bytes)}
         output.write(target, package.pack(entries))
         return target
-    stated = Contents(work.kind, work.path, dict(work.about), needed)
+    stated = Contents(work.kind, work.path, dict(work.lines), needed)
     entries = {**work.files, **files}
     output.write(target, lambda beside: package.write(beside, stated, entries))
     return target
@@ -75,7 +75,7 @@ def contents(path: str | Path) -> Contents:
     else:
         work = work_at(path)
     stated = {name: package.stated_entry(content) for name, content in work.files.items()}
-    return Contents(work.kind, work.path, dict(work.about), _modules(work, False)[0], stated)
+    return Contents(work.kind, work.path, dict(work.lines), _modules(work, False)[0], stated)
 
 
 def unpack(

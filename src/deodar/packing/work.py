@@ -42,14 +42,14 @@ class Work:
         kind: document, record, experiment, results or figure.
         path: the file or folder that is opened, as a path in the package.
         files: content, or place, of each file, by its path in the package.
-        about: what it is and what made it: names and values, for people.
+        lines: what it is and what made it: names and values, for people.
         needs: modules of the user without which it does not run, and the names that are needed of each.
     """
 
     kind: PackedKind
     path: str
     files: Mapping[str, Path | bytes]
-    about: Mapping[str, str]
+    lines: Mapping[str, str]
     needs: Needs = dc.field(default_factory=lambda: {})
 
 
@@ -62,9 +62,9 @@ def work_at(path: str | Path) -> Work:
     """
     place = Path(os.path.abspath(examples.named(path)))
     if place.is_dir():
-        return _results(place) if (place / results.ROWS).is_file() else _record(place)
+        return _results_folder(place) if (place / results.ROWS).is_file() else _record(place)
     if place.name in (results.TABLE, results.DATASET) and (place.parent / results.ROWS).is_file():
-        return _results(place.parent)
+        return _results_folder(place.parent)
     if place.suffix.lower() == ".toml":
         return _figure(place)
     if place.suffix.lower() in (".nc", ".csv"):
@@ -104,33 +104,33 @@ def _record(place: Path) -> Work:
     run = [
         f"{key} {origin[key]:g}" for key in ("duration", "dt", "seed", "trials") if _is_number(origin, key)
     ]
-    about = {"model": _named(doc), "run": ", ".join(run) or "a session"}
-    about |= {"sweep": ", ".join(origin["sweep"])} if origin.get("sweep") else {}
-    about |= {"world": str(world["world"])} if world else {}
-    about |= {"holds": ", ".join(variables), "made by": _made_by(origin)}
-    return Work("record", place.name, content, about, _merged(of_document(doc), of_world(world)))
+    lines = {"model": _named(doc), "run": ", ".join(run) or "a session"}
+    lines |= {"sweep": ", ".join(origin["sweep"])} if origin.get("sweep") else {}
+    lines |= {"world": str(world["world"])} if world else {}
+    lines |= {"holds": ", ".join(variables), "made by": _made_by(origin)}
+    return Work("record", place.name, content, lines, _merged(of_document(doc), of_world(world)))
 
 
 def _table(place: Path, table: xarray.Dataset, origin: Mapping[str, Any]) -> Work:
-    about = {"experiment": str(origin["name"]), "trials": str(table.sizes.get("trial", 0))}
-    about |= {"world": str(origin["world"]["world"])} if origin.get("world") else {}
-    about |= {"columns": _columns(table), "made by": _made_by(origin)}
-    return Work("table", place.name, {place.name: place}, about)
+    lines = {"experiment": str(origin["name"]), "trials": str(table.sizes.get("trial", 0))}
+    lines |= {"world": str(origin["world"]["world"])} if origin.get("world") else {}
+    lines |= {"columns": _columns(table), "made by": _made_by(origin)}
+    return Work("table", place.name, {place.name: place}, lines)
 
 
-def _results(place: Path) -> Work:
+def _results_folder(place: Path) -> Work:
     identity, rows = results.stored(place)
     doc: Document = document_files.load(place / results.MODEL)
     world: Any = identity.get("world")
-    about = {"experiment": str(identity["name"]), "model": _named(doc)}
-    about |= {"trials": f"{len(rows)} of {len(_design(place / results.EXPERIMENT).cells)}"}
-    about |= {"world": str(world["world"])} if world else {}
-    about |= {"columns": _columns(results.load_results(place))}
+    lines = {"experiment": str(identity["name"]), "model": _named(doc)}
+    lines |= {"trials": f"{len(rows)} of {len(_design(place / results.EXPERIMENT).cells)}"}
+    lines |= {"world": str(world["world"])} if world else {}
+    lines |= {"columns": _columns(results.load_results(place))}
     if (place / PLACE).is_file():
-        about["records"] = "in a store elsewhere, which is not included"
-    about["made by"] = _made_by(identity)
+        lines["records"] = "in a store elsewhere, which is not included"
+    lines["made by"] = _made_by(identity)
     content = _below(place, place.parent) | _beside(world, place.name)
-    return Work("results", place.name, content, about, _merged(of_document(doc), of_world(world)))
+    return Work("results", place.name, content, lines, _merged(of_document(doc), of_world(world)))
 
 
 def _experiment(place: Path) -> Work:
@@ -142,13 +142,13 @@ def _experiment(place: Path) -> Work:
     if file and (place.parent / file).is_file():
         beside.append(_relative(place, file, "the file of the world"))
     root = _root(beside)
-    about = {"experiment": design.name, "model": _named(doc), "trials": str(len(design.cells))}
-    about |= {"world": str(named["world"])} if kind else {}
-    about |= {"factors": ", ".join(factor.name for factor in design.factors)} if design.factors else {}
+    lines = {"experiment": design.name, "model": _named(doc), "trials": str(len(design.cells))}
+    lines |= {"world": str(named["world"])} if kind else {}
+    lines |= {"factors": ", ".join(factor.name for factor in design.factors)} if design.factors else {}
     worlds = {name.lower(): world for name, world in registry.kinds("worlds").items()}
     needs = _merged(of_document(doc), of_world(worlds.get(kind.lower())))
     content = {_inside(path, root): path for path in beside}
-    return Work("experiment", _inside(place, root), content, about, needs)
+    return Work("experiment", _inside(place, root), content, lines, needs)
 
 
 def _model_files(place: Path, name: str) -> list[Path]:
@@ -175,20 +175,20 @@ def _figure(place: Path) -> Work:
     records = [_relative(place, name, "the record") for name in dict.fromkeys(names)]
     root = _root([place, *records])
     content: dict[str, Path | bytes] = {_inside(place, root): place}
-    made: dict[str, None] = {}
+    machines: dict[str, None] = {}
     needs: Needs = {}
     for path in records:
         work = _record(path)
         top = path.parent
         content |= {_inside(top / name, root): file for name, file in work.files.items()}
-        made[work.about["made by"]] = None
+        machines[work.lines["made by"]] = None
         needs = _merged(needs, work.needs)
-    about = {
+    lines = {
         "panels": ", ".join(panel.variable for panel in figure.panels),
         "records": ", ".join(_inside(path, root) for path in records),
-        "made by": "; ".join(made),
+        "made by": "; ".join(machines),
     }
-    return Work("figure", _inside(place, root), content, about, needs)
+    return Work("figure", _inside(place, root), content, lines, needs)
 
 
 # -------------------------------------------------------------------------------------------------- parts
@@ -201,10 +201,10 @@ def _design(place: Path) -> Design:
 def _is_experiment(place: Path) -> bool:
     """Return whether a file is an experiment: JSON with the key `experiment`."""
     try:
-        data = codec.parse(place.read_bytes()) if place.suffix.lower() == ".json" else None
+        content = codec.parse(place.read_bytes()) if place.suffix.lower() == ".json" else None
     except ValueError:
         return False
-    return isinstance(data, dict) and "experiment" in data
+    return isinstance(content, dict) and "experiment" in content
 
 
 def _below(place: Path, root: Path) -> dict[str, Path | bytes]:
@@ -252,8 +252,8 @@ def _is_number(origin: Mapping[str, Any], key: str) -> bool:
 
 
 def _of_document(doc: Document) -> dict[str, str]:
-    about = {"model": _named(doc)}
-    return about | ({"notes": doc.notes.strip().splitlines()[0][:200]} if doc.notes.strip() else {})
+    lines = {"model": _named(doc)}
+    return lines | ({"notes": doc.notes.strip().splitlines()[0][:200]} if doc.notes.strip() else {})
 
 
 def _named(doc: Document) -> str:
@@ -265,16 +265,16 @@ def _columns(table: xarray.Dataset) -> str:
 
 
 def _made_by(origin: Mapping[str, Any]) -> str:
-    made: Mapping[str, str] = origin.get("made_by") or {}
+    makers: Mapping[str, str] = origin.get("made_by") or {}
     programs = ("deodar", "jax", "numpy", "python")
-    versions = [f"{name} {made[name]}" for name in programs if name in made]
-    where = [made[name] for name in ("device", "machine") if name in made]
+    versions = [f"{name} {makers[name]}" for name in programs if name in makers]
+    where = [makers[name] for name in ("device", "machine") if name in makers]
     return ", ".join([*versions, *where]) or "not stated"
 
 
 def _merged(*needs: Needs) -> Needs:
     merged: dict[str, tuple[str, ...]] = {}
-    for each in needs:
-        for module, names in each.items():
+    for modules in needs:
+        for module, names in modules.items():
             merged[module] = tuple(dict.fromkeys((*merged.get(module, ()), *names)))
     return merged

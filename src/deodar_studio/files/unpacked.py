@@ -32,7 +32,7 @@ def unpacked(place: Path, trust: bool) -> tuple[Path, str]:
             where=place.name,
             fix=Fix(f"Draw it: deodar plot {inner}"),
         )
-    made = contents.about.get("made by", "")
+    makers = contents.about.get("made by", "")
     sentence = f"{place.name} is unpacked in {inner.relative_to(place.parent).parts[0]}: {contents.noun}"
     opened = inner / EXPERIMENT if contents.kind == "results" else inner
-    return opened, sentence + (f", made by {made}" if made else "")
+    return opened, sentence + (f", made by {makers}" if makers else "")
