@@ -140,7 +140,7 @@ class Package:
         if entry.file_size > MOST_CONTENTS:
             raise DocumentError(f"{CONTENTS} has {entry.file_size / 2**20:.0f} MiB")
         contents = Contents.from_data(codec.read(self._content(entry)))
-        for name in [name for name in contents.files if not is_inside(name)]:
+        for name in [name for name in (contents.path, *contents.files) if not is_inside(name)]:
             raise DocumentError(f"{name!r} lies outside the package", where=CONTENTS)
         for name in sorted({*self._entries, *contents.files} - {CONTENTS}):
             stated, present = contents.files.get(name), self._entries.get(name)

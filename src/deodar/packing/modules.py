@@ -168,7 +168,7 @@ def require(contents: Contents, folder: Path, trust: bool) -> None:
                 f"Read {listed}; if you trust it: trust=True", f"Read {listed}; if you trust it, add --trust"
             ),
         )
-    sys.path.insert(0, str(folder / CODE))
+    sys.path.insert(0, str((folder / CODE).resolve()))
     for module in included:
         try:
             importlib.import_module(module.name)

@@ -244,7 +244,7 @@ def packed_record() -> Path:
     return dd.pack("node.nc")
 
 
-def rewritten(path: Path, change: dict[str, bytes | None], **stated: object) -> Path:
+def rewritten(path: Path, change: dict[str, bytes | None], /, **stated: object) -> Path:
     """Write the package again with other entries and other contents; None: without the entry."""
     with zipfile.ZipFile(path) as z:
         entries: dict[str, bytes | None] = {name: z.read(name) for name in z.namelist()}
@@ -281,6 +281,7 @@ def test_a_file_that_was_exchanged_is_noticed(folder: Path) -> None:
         ({}, {"kind": "virus"}, "kind"),
         ({}, {"deodar_package": 2}, "version 2"),
         ({}, {"colour": 1}, "colour"),
+        ({}, {"path": "../node.nc"}, "outside the package"),
         ({"contents.json": b"[]"}, {}, "is not a package of deodar"),
         ({"contents.json": b"{"}, {}, "JSON"),
         *(({name: b"1"}, {"files": {name: entry}}, "outside the package") for name, entry in ESCAPES.items()),
