@@ -244,6 +244,10 @@ class RecordError(DeodarError):
     """Raised when a record cannot be read, drawn or repeated."""
 
 
+class DamagedFile(RecordError):
+    """Raised when the content of a stored file is not what was written."""
+
+
 class GraphError(DeodarError):
     """Raised when a file of NIR cannot be read, or its graph cannot be simulated."""
 

@@ -1,8 +1,8 @@
 """The cache of compiled programs between processes, in the user's cache folder.
 
-The cache stores deodar's programs only; their key depends on the lowered program, the versions and the
-machine. JAX's own cache and its flags are unchanged. `DEODAR_CACHE` names another folder; "off" disables the
-cache.
+The cache stores deodar's programs only, sealed (`deodar.sealed`); their key depends on the lowered program,
+the versions and the machine. JAX's own cache and its flags are unchanged. `DEODAR_CACHE` names another
+folder; "off" disables the cache.
 """
 
 from __future__ import annotations
@@ -22,8 +22,10 @@ import platformdirs
 from jax.experimental import serialize_executable
 from jax.stages import Compiled, Lowered
 
+from deodar import sealed
 from deodar.compiler import hosts
 from deodar.compiler.device import Device
+from deodar.errors import DamagedFile
 from deodar.model import output
 
 CompilerOptions = dict[str, str | bool | int]
@@ -128,15 +130,21 @@ def _processor() -> str:
 
 def _read(path: Path, lowered: Lowered, devices: Sequence[Device]) -> Compiled | None:
     try:
-        payload = path.read_bytes()
-        with contextlib.suppress(OSError):
-            os.utime(path)  # mark the file as used: the longest unused files are dropped first
-        return serialize_executable.deserialize_and_load(
-            payload, lowered.in_tree, lowered.out_tree, devices[0].client, [*devices]
-        )
+        # checked before it is loaded: a program with one wrong bit may end Python, or compute other numbers
+        payload = sealed.unseal(path.read_bytes())
     except FileNotFoundError:
         return None
-    # a damaged file, or one of another build: the program is compiled again and the file replaced
+    except (OSError, DamagedFile):  # also one of an earlier version, without a seal
+        with contextlib.suppress(OSError):
+            path.unlink()
+        return None
+    with contextlib.suppress(OSError):
+        os.utime(path)  # mark the file as used: the longest unused files are dropped first
+    try:
+        return serialize_executable.deserialize_and_load(
+            bytes(payload), lowered.in_tree, lowered.out_tree, devices[0].client, [*devices]
+        )
+    # a program of another build of XLA: it is compiled again and the file replaced
     except Exception:
         return None
 
@@ -145,7 +153,7 @@ def _write(path: Path, compiled: Compiled) -> None:
     try:
         payload = serialize_executable.serialize(compiled)[0]
         path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-        output.write(path, payload, durable=False, private=True)
+        output.write(path, sealed.seal(payload), durable=False, private=True)
         if int(path.name[:8], 16) % LISTED == 0:  # the name is a hash, so every process finds the same files
             _prune(path.parent)
     except Exception:  # a full or read-only disk, or a backend that cannot serialise, only costs time

@@ -17,7 +17,7 @@ from typing import Any, BinaryIO, cast
 import numpy as np
 import psutil
 
-from deodar import codec, registry
+from deodar import codec, npz, registry
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
 from deodar.leaves import parameter_values
 from deodar.model import output, package
@@ -310,26 +310,19 @@ def _arrays(data: Any, read: Callable[[str], bytes | None]) -> dict[str, FrozenA
 
 def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
     """Return the arrays of an array file; objects that need pickle are refused."""
+    out: dict[str, FrozenArray] = {}
     try:
-        with zipfile.ZipFile(io.BytesIO(content)) as z:
-            require_room(sum(entry.file_size for entry in z.infolist()), name)
-        with np.load(io.BytesIO(content), allow_pickle=False) as z:
-            out: dict[str, FrozenArray] = {}
-            for key in z.files:
-                array = z[key]
-                if array.dtype.kind not in "fiub" or not np.isfinite(array).all():
-                    raise DocumentError(
-                        f"the array {key!r} in {name!r} does not hold finite numbers only", where="arrays"
-                    )
-                out[key] = FrozenArray(array)
-            return out
-    except DocumentError:
-        raise
-    except Exception as error:
+        for key, array in npz.arrays(content, ARRAY_SHARE * psutil.virtual_memory().available):
+            if array.dtype.kind not in "fiub" or not np.isfinite(array).all():
+                raise DocumentError(
+                    f"the array {key!r} in {name!r} does not hold finite numbers only", where="arrays"
+                )
+            out[key] = FrozenArray(array)
+    except (MemoryError, ValueError) as error:
         raise DocumentError(
-            f"the array file {name!r} cannot be read as plain arrays ({type(error).__name__}: {error})",
-            where="arrays",
+            f"the array file {name!r} cannot be read as plain arrays ({error})", where="arrays"
         ) from None
+    return out
 
 
 __all__ = [

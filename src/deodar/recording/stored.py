@@ -1,13 +1,12 @@
 """States of runs as files, so that another process can continue from them.
 
-A file is a NumPy archive (.npz, never pickled): the arrays of a PyTree in order, and one text, JSON, with
-everything else. The structure of the tree is not stored: the reader has an equal one, of the same model.
+A file is a sealed NumPy archive (.npz, never pickled): the arrays of a PyTree in order, and one text, JSON,
+with everything else. The structure of the tree is not stored: the reader has an equal one, of the same model.
+Files of earlier versions have no seal.
 """
 
 from __future__ import annotations
 
-import io
-import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,15 +14,17 @@ from typing import Any
 import jax
 import numpy as np
 
-from deodar import codec
+from deodar import codec, npz, sealed
 from deodar.codec import JsonObject
 from deodar.compiler import hosts
-from deodar.errors import RecordError
+from deodar.errors import DamagedFile, RecordError
 from deodar.model import output
 from deodar.numerics.pytree import PyTree
 
 VERSION = 1
 HEADER = "header"
+ZIP = b"PK"
+"""How a file of an earlier version begins."""
 
 
 def leaves(tree: PyTree, of: str) -> list[np.ndarray]:
@@ -62,55 +63,53 @@ def write(path: Path, metadata: Mapping[str, Any], arrays: Sequence[np.ndarray],
         OutputError: the system refused.
     """
     text = codec.line({"kind": kind, "version": VERSION, **metadata})
-
     numbered = {f"{k:06}": array for k, array in enumerate(arrays)}
-    content = io.BytesIO()
-    np.savez(content, allow_pickle=False, **{HEADER: np.frombuffer(text.encode(), np.uint8)}, **numbered)
-    output.write(path, content.getvalue(), durable=False)
+    content = npz.packed({HEADER: np.frombuffer(text.encode(), np.uint8)} | numbered)
+    output.write(path, sealed.seal(content), durable=False)
 
 
 def header(path: Path) -> JsonObject:
     """Return the text of a state without its arrays.
 
     Raises:
-        RecordError: there is no such file, or it is damaged.
+        RecordError: there is no such file.
+        DamagedFile: it is damaged.
     """
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            metadata = codec.parse(bytes(archive[HEADER]).decode())
-    except (ValueError, KeyError, OSError, EOFError, zipfile.BadZipFile) as error:
-        raise RecordError(f"cannot be read ({type(error).__name__}: {error})", where=str(path)) from None
-    if not isinstance(metadata, dict):
-        raise RecordError("is damaged: its text is not an object", where=str(path))
-    return metadata
+    return _opened(path)[0]
 
 
 def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
     """Return the text and the arrays of a state.
 
     Raises:
-        RecordError: there is no such file, it is damaged, of another kind, or of a newer version.
+        RecordError: there is no such file, or it is of another kind, or of a newer version.
+        DamagedFile: it is damaged.
     """
+    metadata, arrays = _opened(path)
+    if metadata.get("kind") != kind:
+        raise RecordError(f"expected a {kind}, got another file", where=str(path))
+    if metadata.get("version", 0) > VERSION:
+        raise RecordError(
+            f"is a {kind} of version {metadata['version']}; this deodar reads versions up to {VERSION}",
+            where=str(path),
+            fix="Install a newer deodar",
+        )
+    return metadata, arrays
+
+
+def _opened(path: Path) -> tuple[JsonObject, list[np.ndarray]]:
     where = str(path)
     try:
         content = path.read_bytes()
     except OSError as error:
         raise RecordError(f"cannot be read: {error.strerror or error}", where=where) from None
     try:
-        with np.load(io.BytesIO(content), allow_pickle=False) as archive:
-            metadata = codec.parse(bytes(archive[HEADER]).decode())
-            names = sorted(name for name in archive.files if name != HEADER)
-            arrays = [archive[name] for name in names]
-    except (ValueError, KeyError, OSError, EOFError, zipfile.BadZipFile) as error:
-        raise RecordError(
-            f"cannot be read as a {kind}, it may be damaged ({type(error).__name__}: {error})", where=where
-        ) from None
-    if not isinstance(metadata, dict) or metadata.get("kind") != kind:
-        raise RecordError(f"expected a {kind}, got another file", where=where)
-    if metadata.get("version", 0) > VERSION:
-        raise RecordError(
-            f"is a {kind} of version {metadata['version']}; this deodar reads versions up to {VERSION}",
-            where=where,
-            fix="Install a newer deodar",
-        )
-    return metadata, arrays
+        named = dict(npz.arrays(content if content[:2] == ZIP else sealed.unseal(content)))
+        metadata = codec.parse(named.pop(HEADER).tobytes().decode())
+    except DamagedFile as error:
+        raise DamagedFile(error.problems[0].what, where=where) from None
+    except (ValueError, KeyError, MemoryError) as error:
+        raise DamagedFile(f"cannot be read ({type(error).__name__}: {error})", where=where) from None
+    if not isinstance(metadata, dict):
+        raise DamagedFile("its text is not an object", where=where)
+    return metadata, [named[name] for name in sorted(named)]

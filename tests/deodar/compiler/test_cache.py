@@ -70,6 +70,22 @@ def test_damaged_files_are_replaced(place: Path) -> None:
     assert built().compiled == 0
 
 
+def test_a_program_with_one_other_bit_is_not_loaded(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    built()
+    [path] = place.iterdir()
+    content, loaded = path.read_bytes(), []
+    load = cache.serialize_executable.deserialize_and_load
+    monkeypatch.setattr(
+        cache.serialize_executable, "deserialize_and_load", lambda *args: loaded.append(args) or load(*args)
+    )
+    for bit in np.random.default_rng(0).integers(0, 8 * len(content), 4):
+        other = bytearray(content)
+        other[bit // 8] ^= 1 << (bit % 8)
+        path.write_bytes(other)
+        assert built().compiled == 1 and not loaded, bit
+    assert built().compiled == 0 and len(loaded) == 1
+
+
 def test_the_cache_can_be_off_and_an_unusable_folder_is_ignored(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
