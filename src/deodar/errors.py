@@ -207,7 +207,9 @@ class NotFinite(DeodarError):
 
 
 class RunWarning(UserWarning):
-    """Warns that copies or trials of a run diverged, or that a run has at least 10^9 steps."""
+    """Warns that copies or trials of a run diverged, that it has at least 10^9 steps, or that a part of a
+    record is damaged.
+    """
 
 
 class TooLarge(DeodarError):

@@ -1,7 +1,8 @@
-"""Bytes that carry their proof: length and SHA-256 stand in front of the content.
+"""Bytes that carry their proof: a mark, their length and their SHA-256 stand behind the content.
 
-Compiled programs and stored states are checked before anything in them is parsed, unpickled or loaded. A
-seal finds damage, not intent: who can write the file can write another seal.
+Compiled programs and stored states are checked before anything in them is parsed, unpickled or loaded. Behind
+the content, a seal leaves an .npz file one that NumPy reads. It finds damage, not intent: who can write the
+file can write another seal.
 """
 
 from __future__ import annotations
@@ -11,36 +12,31 @@ import struct
 
 from deodar.errors import DamagedFile
 
-MARK = b"deodar sealed 1\n"
+MARK = b"\ndeodar sealed 1\n"
 LENGTH = struct.Struct("<Q")
 SIZE = len(MARK) + LENGTH.size + hashlib.sha256().digest_size
-"""Number of bytes in front of the content."""
+"""Number of bytes of a seal."""
 
 
 def seal(content: bytes) -> bytes:
-    """Return the content behind its mark, its length and the SHA-256 of both."""
-    length = LENGTH.pack(len(content))
-    return MARK + length + hashlib.sha256(length + content).digest() + content
+    """Return the content, and behind it its seal."""
+    return content + MARK + LENGTH.pack(len(content)) + hashlib.sha256(content).digest()
 
 
 def is_sealed(content: bytes) -> bool:
-    """Return whether bytes begin with the mark; bytes of earlier versions do not."""
-    return content.startswith(MARK)
+    """Return whether bytes end in a seal; those of earlier versions do not."""
+    return len(content) >= SIZE and content.startswith(MARK, len(content) - SIZE)
 
 
 def unseal(content: bytes) -> memoryview:
-    """Return the content, without copying it.
+    """Return the content without its seal, and without copying it.
 
     Raises:
         DamagedFile: the bytes are not those that `seal` returned.
     """
-    view = memoryview(content)
-    length = view[len(MARK) : len(MARK) + LENGTH.size]
-    digest, inner = view[len(MARK) + LENGTH.size : SIZE], view[SIZE:]
-    if not is_sealed(content) or len(view) < SIZE or LENGTH.unpack(length)[0] != len(inner):
-        raise DamagedFile("was cut, or does not begin with the mark of a sealed file")
-    proof = hashlib.sha256(length)
-    proof.update(inner)
-    if proof.digest() != digest:
-        raise DamagedFile("is damaged: its SHA-256 is that of another content")
+    inner, proof = memoryview(content)[:-SIZE], memoryview(content)[-SIZE + len(MARK) :]
+    if not is_sealed(content) or LENGTH.unpack(proof[: LENGTH.size])[0] != len(inner):
+        raise DamagedFile("it was cut, or has no seal")
+    if hashlib.sha256(inner).digest() != proof[LENGTH.size :]:
+        raise DamagedFile("its SHA-256 is that of another content")
     return inner

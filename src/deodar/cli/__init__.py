@@ -7,17 +7,20 @@ inside `run`, so that `deodar --help` starts quickly.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import functools
 import importlib
 import pkgutil
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Generator, Sequence
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from deodar import __version__
 from deodar.cli._options import CommandParser
-from deodar.errors import DeodarError, UnknownName, first_line
+from deodar.errors import DeodarError, RunWarning, UnknownName, first_line
 from deodar.extensions import Extensions, requires
 
 
@@ -75,7 +78,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         for name in args.imports:
             _import(name)
-        return int(args.run(args))
+        with _warnings_of(args.command):
+            return int(args.run(args))
     except DeodarError as error:
         print(f"deodar {args.command}: {error.at('shell')}", file=sys.stderr)
     except KeyboardInterrupt:
@@ -94,6 +98,22 @@ def main(argv: Sequence[str] | None = None) -> int:
             file=sys.stderr,
         )
     return 1
+
+
+@contextlib.contextmanager
+def _warnings_of(command: str) -> Generator[None]:
+    """Print warnings of a run as one line, without the place in the code that they come from."""
+    with warnings.catch_warnings():
+        show = warnings.showwarning
+
+        def shown(message: Warning | str, category: type[Warning], *place: Any, **file: Any) -> None:
+            if issubclass(category, RunWarning):
+                print(f"deodar {command}: warning: {message}", file=sys.stderr)
+            else:
+                show(message, category, *place, **file)
+
+        warnings.showwarning = shown
+        yield
 
 
 def _import(name: str) -> None:

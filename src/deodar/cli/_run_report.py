@@ -126,6 +126,7 @@ def _answer(written: WrittenRun, record: xarray.Dataset, run: EndedRun) -> dict[
     if (repetition := run.repetition) is not None:
         answer["repetition"] = {
             "same_bits": repetition.same_bits,
+            **({"damage": repetition.damage} if repetition.damage else {}),
             "differences": [{"what": d.what, "then": d.then, "now": d.now} for d in repetition.differences],
             "largest": {k: v if v < float("inf") else None for k, v in repetition.largest.items()},
             "compared": repetition.compared,

@@ -22,9 +22,9 @@ import xarray
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import RecordError
+from deodar.errors import DamagedFile, RecordError
 from deodar.recording import portable
-from deodar.recording.chunks import ChunkedArray, ChunkError
+from deodar.recording.chunks import ChunkedArray
 
 CHUNK_BYTES = 2**26
 """Bytes of a chunk before compression: most arrays of a trial have one chunk, and are read whole."""
@@ -130,7 +130,7 @@ class Archive:
         except Exception as error:  # libraries that read untrusted bytes may raise any exception
             raise self._damaged(error) from None
         if bad is not None:
-            raise RecordError(f"is damaged: the checksum of {bad} is wrong", where=self.where)
+            raise DamagedFile(f"is damaged: the checksum of {bad} is wrong", where=self.where)
 
     def close(self) -> None:
         """Close the file."""
@@ -144,8 +144,8 @@ class Archive:
             content = self._zip.read("/".join([name, new, "c", *map(str, place)]))
             try:
                 array.decode(np.frombuffer(content, np.uint8), chunk)
-            except ChunkError as error:
-                raise RecordError(f"{new}: {error}") from None
+            except DamagedFile as error:
+                raise DamagedFile(f"{new}: {error}") from None
             outer = (slice(k * c, (k + 1) * c) for k, c in zip(place, array.chunks, strict=True))
             part = values[(*outer, ...)]  # a view, also of an array without axes
             part[...] = chunk[tuple(slice(n) for n in part.shape)]

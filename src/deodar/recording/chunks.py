@@ -19,7 +19,7 @@ import numcodecs
 import numpy as np
 import zarr.codecs
 
-from deodar.errors import RecordError
+from deodar.errors import DamagedFile, RecordError
 from deodar.model import output
 from deodar.recording.slabs import Slab
 
@@ -37,16 +37,13 @@ more.
 SHUFFLES = ("noshuffle", "shuffle", "bitshuffle")
 
 
-class ChunkError(ValueError):
-    """A chunk cannot be read: it was cut, changed, or is of another array."""
-
-
 class ChunkedArray:
     """An array of a record, without its length along the dimension that grows.
 
     Args:
         folder: the folder of the array.
-        about: its metadata, as Zarr (version 3) states them.
+        metadata: its metadata, as Zarr (version 3) states them.
+        whole: whether each chunk has a file, so that a missing one is damage.
 
     Attributes:
         shape: its shape when it was opened.
@@ -58,8 +55,8 @@ class ChunkedArray:
         RecordError: its chunks are encoded in a way that this version does not know.
     """
 
-    def __init__(self, folder: Path, metadata: Mapping[str, Any]) -> None:
-        self.folder, self.name = folder, folder.name
+    def __init__(self, folder: Path, metadata: Mapping[str, Any], whole: bool = False) -> None:
+        self.folder, self.name, self.whole = folder, folder.name, whole
         self.shape = tuple(map(int, metadata["shape"]))
         self.chunks = tuple(map(int, metadata["chunk_grid"]["configuration"]["chunk_shape"]))
         self.dtype = np.dtype(str(metadata["data_type"])).newbyteorder("<")
@@ -100,7 +97,7 @@ class ChunkedArray:
         Values of these chunks beside them stay; beyond the end of the array they are the fill value.
 
         Raises:
-            ChunkError: a chunk that is partly overwritten cannot be read.
+            DamagedFile: a chunk that is partly overwritten cannot be read.
             OSError: the system refused.
         """
         for place, inner, outer in self._parts(start, values.shape):
@@ -116,7 +113,7 @@ class ChunkedArray:
         """Return a block of this shape whose first value is at `start`; what no chunk has is the fill value.
 
         Raises:
-            ChunkError: a chunk is damaged.
+            DamagedFile: a chunk is damaged.
         """
         block = np.empty(shape, self.dtype)
         for place, inner, outer in self._parts(start, shape):
@@ -165,16 +162,28 @@ class ChunkedArray:
             room: an array of the shape of a chunk that is overwritten and returned; None: a new one.
 
         Raises:
-            ChunkError: it is damaged.
+            DamagedFile: it is damaged, or missing in an array that has all chunks.
         """
         chunk = self.empty() if room is None else room
         try:
             content: Any = np.frombuffer(self.path(place).read_bytes(), np.uint8)
         except FileNotFoundError:
+            if self.whole:
+                raise self._damaged(place, "it is missing") from None
             chunk.fill(self.fill)
             return chunk
-        self.decode(content, chunk)
+        try:
+            self.decode(content, chunk)
+        except DamagedFile as error:
+            raise self._damaged(place, error.problems[0].what) from None
         return chunk
+
+    def _damaged(self, place: ChunkIndex, reason: str) -> DamagedFile:
+        number = ", ".join(map(str, place)) or "0"
+        return DamagedFile(
+            f"is damaged: chunk {number} of {self.name} cannot be read: {reason}",
+            where=str(self.folder.parent),
+        )
 
     def encode(self, values: np.ndarray) -> bytes:
         """Return the content of the file of a chunk."""
@@ -189,18 +198,18 @@ class ChunkedArray:
             room: the array.
 
         Raises:
-            ChunkError: it is damaged.
+            DamagedFile: it is damaged.
         """
         if self._checked:
             content, checksum = content[:-4], content[-4:]
             # the checksum is computed from a buffer
             bare: Any = content
             if checksum.tobytes() != struct.pack("<I", google_crc32c.value(bare)):
-                raise ChunkError("its checksum is that of other values")
+                raise DamagedFile("its checksum is that of other values")
         try:
             self._codec.decode(content, room)
         except (ValueError, RuntimeError) as error:
-            raise ChunkError(str(error)) from None
+            raise DamagedFile(str(error)) from None
 
     def empty(self) -> np.ndarray:
         """Return a chunk of fill values."""

@@ -17,9 +17,17 @@ import psutil
 import xarray
 
 from deodar import codec
-from deodar.errors import DeodarError, OutputExists, Problem, RecordError, TooLarge, did_you_mean
+from deodar.errors import (
+    DeodarError,
+    OutputExists,
+    Problem,
+    RecordError,
+    RunWarning,
+    TooLarge,
+    did_you_mean,
+)
 from deodar.model import output
-from deodar.recording import growing, lazy, netcdf, places, portable, sound, table
+from deodar.recording import group_file, growing, lazy, netcdf, places, portable, sound, table
 from deodar.recording.chunks import COMPRESSORS, ChunkedArray
 from deodar.recording.provenance import KEY
 from deodar.recording.record import time_dimension
@@ -100,8 +108,12 @@ def load_record(path: str | Path) -> xarray.Dataset:
     """Read a record: a Zarr folder, a NetCDF file, or a folder that `deodar run` wrote.
 
     Raises:
-        RecordError: the record does not exist, is damaged, or was not written by deodar.
+        RecordError: the record does not exist, or was not written by deodar.
+        DamagedFile: it is damaged, and nothing of it can be read.
         TooLarge: the record does not fit into memory.
+
+    Warns:
+        RunWarning: a part of it is missing or damaged, and left out; the attribute `damaged` says so, too.
     """
     with _reading(path := Path(path)), _opened(*locate(path)) as stored:
         need, free = stored.nbytes, psutil.virtual_memory().available
@@ -119,26 +131,46 @@ def load_record(path: str | Path) -> xarray.Dataset:
             whole = sound.readable(stored).load()
         record = portable.unpack(whole)
         record.encoding["source"] = str(locate(path)[0])
-        return record
+    _warn_of_damage(record, path)
+    return record
 
 
 def open_record(path: str | Path) -> xarray.Dataset:
     """Open a record without reading its values: each variable reads what is selected from it.
 
     `open_record(path)["u.activation"].sel(time=500).values` reads the chunk of that time alone, so a record
-    may be larger than the memory. Values are not compared with their checksums, which need whole arrays.
+    may be larger than the memory. What is read is compared with its checksums: a damaged chunk raises
+    `DamagedFile` when it is read.
 
     Args:
         path: a Zarr folder, a NetCDF file, or a folder that `deodar run` wrote.
 
     Raises:
-        RecordError: the record does not exist, is damaged, or was not written by deodar.
+        RecordError: the record does not exist, or was not written by deodar.
+        DamagedFile: what it states about itself is damaged.
+
+    Warns:
+        RunWarning: a chunk of it is missing; the samples from there on are left out.
+    """
+    record = opened(path)
+    _warn_of_damage(record, Path(path))
+    return record
+
+
+def opened(path: str | Path) -> xarray.Dataset:
+    """Return a record as `open_record` does, without a warning: its attribute `damaged` says what is left
+    out.
     """
     with _reading(path := Path(path)):
         place, kind = locate(path)
         record = ShownDataset.of(portable.unpack_lazily(_require_record(_opened(place, kind))))
         record.encoding["source"] = str(place)
         return record
+
+
+def _warn_of_damage(record: xarray.Dataset, path: Path) -> None:
+    if text := record.attrs.get(sound.DAMAGED):
+        warnings.warn(f"{path}: {text}", RunWarning, stacklevel=3)
 
 
 @contextlib.contextmanager
@@ -245,12 +277,12 @@ def _write_zarr(record: xarray.Dataset, path: Path) -> None:
             for name in stored.variables
             if portable.large(old := record.variables[names.get(str(name), str(name))])
         }
-        for name in large:
+        for name in stored.variables:
             encoding.setdefault(name, {})["compressors"] = COMPRESSORS
         stored.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=encoding)
-    for name, variable in large.items():
-        metadata = codec.parse((path / name / "zarr.json").read_text(encoding="utf-8"))
-        array = ChunkedArray(path / name, metadata)
+    group_file.prove(path)
+    for name, metadata in group_file.read(path)["consolidated_metadata"]["metadata"].items():
+        array, variable = ChunkedArray(path / name, metadata), large.get(name, stored.variables[name])
         for slab in slabs(variable.shape, portable.BLOCK):
             array.store([part.start for part in slab], variable[slab].values)
 
@@ -290,9 +322,12 @@ def _write_netcdf(record: xarray.Dataset, path: Path) -> None:
 
 def _opened(path: Path, kind: str) -> xarray.Dataset:
     if kind == "netcdf":
-        return xarray.open_dataset(path, engine="scipy", decode_cf=False)
+        stored = netcdf.read(path)
+        portable.require_proof(stored.attrs, netcdf.PROOF in stored.attrs)
+        return stored
     # the metadata of the group commit a record that grows; records of earlier versions may lack them
-    group = codec.parse((path / "zarr.json").read_text(encoding="utf-8"))
+    group = group_file.read(path)
     members = group.get("consolidated_metadata", {}).get("metadata")
     stored = xarray.open_zarr(path, zarr_format=3, consolidated=bool(members), decode_cf=False, chunks=None)
-    return sound.present(lazy.lazily(stored, path, members or {}), path)
+    stored = lazy.lazily(stored, path, members or {}, portable.whole_arrays(group["attributes"]))
+    return sound.present(stored, path)

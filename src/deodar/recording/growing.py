@@ -27,10 +27,10 @@ import xarray
 import zarr
 
 from deodar import codec
-from deodar.errors import DeodarError, OutputError, Problem, RecordError
+from deodar.errors import DamagedFile, DeodarError, OutputError, Problem
 from deodar.model import output
-from deodar.recording import places, portable, writer_lock
-from deodar.recording.chunks import COMPRESSORS, ChunkedArray, ChunkError
+from deodar.recording import group_file, places, portable, writer_lock
+from deodar.recording.chunks import COMPRESSORS, ChunkedArray
 from deodar.recording.provenance import KEY
 
 FLUSH_SECONDS = 0.4
@@ -118,7 +118,7 @@ class _Tail:
         start = [*self.lead, chunk, *[0] * (len(self.shape) - self.axis - 1)]
         try:
             self.array.store(start, values)
-        except ChunkError as error:
+        except DamagedFile as error:
             raise self._damaged(chunk, error) from None
 
     def _begin(self, chunk: int) -> None:
@@ -134,13 +134,13 @@ class _Tail:
             shape = [*self.shape[: self.axis], stored, *self.shape[self.axis + 1 :]]
             try:
                 self.values[*lead, :stored] = self.array.load(start, shape)
-            except ChunkError as error:
+            except DamagedFile as error:
                 raise self._damaged(chunk, error) from None
 
-    def _damaged(self, chunk: int, error: ChunkError) -> RecordError:
-        return RecordError(
+    def _damaged(self, chunk: int, error: DamagedFile) -> DamagedFile:
+        return DamagedFile(
             f"is damaged: samples {chunk} to {chunk + self.frames} of {self.array.name} cannot be read"
-            f" ({error})",
+            f" ({error.problems[0].what})",
             fix="Run it again",
         )
 
@@ -227,7 +227,7 @@ class GrowingRecord:
 
     def _read(self, path: Path, lengths: Mapping[str, int]) -> None:
         """Read the layout of the record, and open its arrays."""
-        self._group: Any = codec.parse((path / "zarr.json").read_text(encoding="utf-8"))
+        self._group: Any = group_file.read(path)
         layout = codec.parse(self._group["attributes"][portable.KEY])
         stored = {old: new for new, old in layout["names"].items()}
         self._names = stored
@@ -483,7 +483,7 @@ class GrowingRecord:
         for name, dimension in self._dimension.items():
             members[name]["shape"][self._axis[name]] = self.sample_counts[dimension]
         place = self.path / "zarr.json"
-        output.write(place, codec.line(self._group).encode(), durable=False)
+        output.write(place, group_file.content(self._group), durable=False)
         self._inode = place.stat().st_ino
         if time.monotonic() - self._updated >= METADATA_SECONDS:
             self._update_arrays()
@@ -524,6 +524,7 @@ def _create(path: Path, empty: xarray.Dataset, growing: Sequence[str], piece: Ma
         # other programs open a record at once, and without a warning, if its metadata are in one file
         warnings.filterwarnings("ignore", message="Consolidated metadata")
         stored.to_zarr(path, mode="a", zarr_format=3, consolidated=True, encoding=encoding)
+    group_file.prove(path)
 
 
 def frame_chunks(

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import os
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -90,24 +90,26 @@ def _parts(places: np.ndarray, size: int) -> list[_Part]:
     ]
 
 
-def lazily(data: xarray.Dataset, path: Path, members: Mapping[str, Any]) -> xarray.Dataset:
-    """Return a Dataset of a Zarr folder whose arrays of several chunks are read by threads.
+def lazily(
+    data: xarray.Dataset, path: Path, members: Mapping[str, Any], whole: Container[str]
+) -> xarray.Dataset:
+    """Return a Dataset of a Zarr folder whose arrays are read by threads.
 
     Args:
         data: the Dataset as xarray opened it.
         path: its folder.
         members: metadata of its arrays.
+        whole: names of the arrays that have all of their chunks.
     """
     new: dict[str, xarray.Variable] = {}
-    for name in data.data_vars:
+    for name in data.variables.keys() - data.indexes.keys():
         variable, metadata = data.variables[name], members.get(str(name))
         if metadata is None or not variable.size:
             continue
         try:
-            array = ChunkedArray(path / str(name), metadata)
+            array = ChunkedArray(path / str(name), metadata, str(name) in whole)
         except (RecordError, TypeError, KeyError):
             continue  # an array of texts, or of another program: Zarr reads it
-        if array.chunks != variable.shape:
-            lazy = indexing.LazilyIndexedArray(LazyArray(array, variable.shape))
-            new[str(name)] = xarray.Variable(variable.dims, lazy, variable.attrs, variable.encoding)
+        lazy = indexing.LazilyIndexedArray(LazyArray(array, variable.shape))
+        new[str(name)] = xarray.Variable(variable.dims, lazy, variable.attrs, variable.encoding)
     return data.assign(new)

@@ -17,15 +17,18 @@ import numpy as np
 import xarray
 
 from deodar import codec
-from deodar.errors import RecordError
+from deodar.errors import DamagedFile, RecordError
 from deodar.recording.shown_dataset import ShownDataset
 from deodar.recording.slabs import slabs
 
 KEY = "deodar_layout"
 """Name of the attribute that lists the changes."""
 
-VERSION = 2
+VERSION = 3
 """Version of the layout; version 1, which stated none, had no arrays that grow."""
+
+PROVEN = 3
+"""First version whose files prove what they state: their metadata, and each chunk or block of an array."""
 
 LONGEST = 100
 RESERVED = frozenset(
@@ -111,7 +114,7 @@ def unpack(stored: xarray.Dataset) -> xarray.Dataset:
     layout = _layout(text)
     names: Mapping[str, str] = layout["names"]
     if set(layout["variables"]) != set(map(str, stored.variables)):
-        raise RecordError(
+        raise DamagedFile(
             "is damaged: of its arrays,"
             f" {_listed(set(layout['variables']) ^ set(map(str, stored.variables)))} are missing or too many"
         )
@@ -167,6 +170,27 @@ def unpack_lazily(stored: xarray.Dataset) -> xarray.Dataset:
         k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in layout["attributes"].items()
     }
     return record
+
+
+def require_proof(attributes: Mapping[str, Any], proven: bool) -> None:
+    """Refuse metadata without a proof that a file of their version has.
+
+    Raises:
+        DamagedFile: they have none.
+    """
+    text = attributes.get(KEY)
+    if text is not None and not proven and _layout(str(text)).get("version", 1) >= PROVEN:
+        raise DamagedFile("is damaged: its metadata have no proof")
+
+
+def whole_arrays(attributes: Mapping[str, Any]) -> set[str]:
+    """Return the stored names of the arrays that have all of their chunks: they do not grow, and are not of
+    an earlier version, which left out chunks of zeros.
+    """
+    layout = _layout(str(attributes.get(KEY, "{}")))
+    if layout.get("version", 1) < PROVEN:
+        return set()
+    return {name for name, description in layout["variables"].items() if "grows" not in description}
 
 
 def _layout(text: str) -> dict[str, Any]:
@@ -239,7 +263,7 @@ def _restored(name: str, array: np.ndarray, description: Mapping[str, Any]) -> n
             "sha256" not in description or _digest(out) == description["sha256"]
         )  # of growing arrays each chunk has its own
     if not good:
-        raise RecordError(
+        raise DamagedFile(
             f"is damaged: the values of {name!r} are not those that were written",
             fix="Run it again, or take another copy",
         )

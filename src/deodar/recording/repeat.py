@@ -19,6 +19,7 @@ from deodar.precision import Arithmetic
 from deodar.recording import provenance
 from deodar.recording.opened import again
 from deodar.recording.record import about
+from deodar.recording.sound import DAMAGED
 from deodar.resources import Resources, use_resources
 from deodar.sweep import Points, Sweep
 from deodar.worlds._base import World
@@ -53,7 +54,8 @@ class Repetition:
             cannot be compared.
         same_bits: whether every value is equal to the last bit.
         compared: number of times that were compared; fewer than in the new record if the old record is
-            incomplete.
+            incomplete or damaged.
+        damage: what is missing in a damaged record; "": nothing.
     """
 
     data: xarray.Dataset
@@ -61,6 +63,7 @@ class Repetition:
     largest: Mapping[str, float]
     same_bits: bool
     compared: int
+    damage: str = ""
 
     @property
     def faithful(self) -> bool:
@@ -68,8 +71,12 @@ class Repetition:
         return self.same_bits or bool(self.differences)
 
     def __str__(self) -> str:
+        if self.damage and not self.compared:
+            return f"The record is damaged, so that nothing of it could be compared: {self.damage}"
         if self.same_bits:
             text = "The repetition has the same bits as the record"
+            if self.damage:
+                text = f"The record is damaged: {self.damage}. The repetition has the same bits as the rest"
             return text + (
                 ", although these differ: " + "; ".join(map(str, self.differences))
                 if self.differences
@@ -166,7 +173,8 @@ def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
     """Return the differences between two records of one run; an incomplete one is compared up to its end."""
     before, after = _origin(old), _origin(new)
     times = min(old.sizes.get("time", 0), new.sizes.get("time", 0))
-    whole = before.get("complete", True) and after.get("complete", True)
+    damage = str(old.attrs.get(DAMAGED, ""))
+    whole = before.get("complete", True) and after.get("complete", True) and not damage
     a, b = (old, new) if whole else _common(old, new)
     largest = {str(name): _largest(a.get(name), b.get(name)) for name in {**a.variables, **b.variables}}
     same = all(
@@ -176,7 +184,9 @@ def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
     differing = {
         name: value for name, value in largest.items() if name in a.data_vars or name in b.data_vars or value
     }
-    return Repetition(new, differences(before, after), differing, same, times)
+    return Repetition(
+        new, differences(before, after), differing, same and (times > 0 or not damage), times, damage
+    )
 
 
 def _common(old: xarray.Dataset, new: xarray.Dataset) -> tuple[xarray.Dataset, xarray.Dataset]:

@@ -76,7 +76,7 @@ class RecordReader:
         self._watch = writer_lock.WriterWatch(place)
         self._stamp = writer_lock.stamp(place)
         self._written = writer_lock.is_written(place) is True
-        record = files.open_record(path)
+        record = files.opened(path)
         try:
             origin = about(record)
             if not isinstance(origin.get("document"), dict):

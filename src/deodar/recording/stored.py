@@ -21,10 +21,11 @@ from deodar.errors import DamagedFile, RecordError
 from deodar.model import output
 from deodar.numerics.pytree import PyTree
 
-VERSION = 1
+VERSION = 2
+UNSEALED = 1
+"""Version of the files without a seal."""
+
 HEADER = "header"
-ZIP = b"PK"
-"""How a file of an earlier version begins."""
 
 
 def leaves(tree: PyTree, of: str) -> list[np.ndarray]:
@@ -104,12 +105,15 @@ def _opened(path: Path) -> tuple[JsonObject, list[np.ndarray]]:
     except OSError as error:
         raise RecordError(f"cannot be read: {error.strerror or error}", where=where) from None
     try:
-        named = dict(npz.arrays(content if content[:2] == ZIP else sealed.unseal(content)))
+        proven = sealed.is_sealed(content)
+        named = dict(npz.arrays(sealed.unseal(content) if proven else content))
         metadata = codec.parse(named.pop(HEADER).tobytes().decode())
+        if not isinstance(metadata, dict):
+            raise ValueError("its text is not an object")
+        if not proven and metadata.get("version") != UNSEALED:
+            raise ValueError("it has no seal")
     except DamagedFile as error:
-        raise DamagedFile(error.problems[0].what, where=where) from None
+        raise DamagedFile(f"is damaged: {error.problems[0].what}", where=where) from None
     except (ValueError, KeyError, MemoryError) as error:
-        raise DamagedFile(f"cannot be read ({type(error).__name__}: {error})", where=where) from None
-    if not isinstance(metadata, dict):
-        raise DamagedFile("its text is not an object", where=where)
+        raise DamagedFile(f"cannot be read, it may be damaged ({error})", where=where) from None
     return metadata, [named[name] for name in sorted(named)]

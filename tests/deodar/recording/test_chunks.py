@@ -14,9 +14,9 @@ import zarr
 import zarr.codecs
 
 from deodar import codec
-from deodar.errors import RecordError
+from deodar.errors import DamagedFile, RecordError
 from deodar.recording import files, portable
-from deodar.recording.chunks import COMPRESSORS, ChunkedArray, ChunkError
+from deodar.recording.chunks import COMPRESSORS, ChunkedArray
 from deodar.recording.growing import GrowingRecord
 from tests.deodar.recording.models import record
 
@@ -106,9 +106,9 @@ def test_a_damaged_chunk_is_not_read(damage: str, tmp_path: Path) -> None:
             "empty": b"",
         }[damage]
     )
-    with pytest.raises(ChunkError):
+    with pytest.raises(DamagedFile):
         array.load((0, 0), (4, 50))
-    with pytest.raises(ChunkError):
+    with pytest.raises(DamagedFile):
         array.store((1, 0), np.zeros((1, 50), np.float32))
 
 
@@ -118,7 +118,7 @@ def test_a_chunk_of_another_array_is_not_read(tmp_path: Path) -> None:
     array = created(tmp_path / "a", (4, 50), (4, 50), "float32")
     array.store((0, 0), np.zeros((4, 50), np.float32))
     array.path((0, 0)).write_bytes(other.path((0, 0)).read_bytes())
-    with pytest.raises(ChunkError):
+    with pytest.raises(DamagedFile):
         array.load((0, 0), (4, 50))
 
 

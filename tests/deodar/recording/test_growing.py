@@ -16,7 +16,7 @@ import pytest
 import xarray
 
 import deodar as dd
-from deodar.errors import OutputError, RecordError
+from deodar.errors import DamagedFile, OutputError, RecordError, RunWarning
 from deodar.model import output
 from deodar.recording import diverged, files, growing, sound
 from deodar.recording.growing import GrowingRecord
@@ -235,13 +235,17 @@ def test_a_damaged_chunk_ends_the_record_before_it(
     else:
         content[len(content) // 2] ^= 255
         chunk.write_bytes(content)
-    stored = files.load_record(tmp_path / "r.zarr")
+    with pytest.warns(RunWarning, match=r"r.zarr: 13 of 21 samples of time are left out"):
+        stored = files.load_record(tmp_path / "r.zarr")
     assert stored.sizes["time"] == 8
     assert stored.drop_attrs().identical(whole.isel(time=slice(8)).drop_attrs())
     assert "13 of 21 samples of time are left out" in stored.attrs[sound.DAMAGED]
     assert "u.activation" in stored.attrs[sound.DAMAGED]
-    lazy = dd.open_record(tmp_path / "r.zarr")
+    lazy = files.opened(tmp_path / "r.zarr")
     assert lazy.sizes["time"] == (8 if how == "missing" else 21)
+    if how != "missing":
+        with pytest.raises(DamagedFile, match=r"r.zarr.*chunk 2, 0 of u.activation cannot be read"):
+            lazy["u.activation"].load()
 
 
 def test_the_provenance_of_a_killed_record_is_readable_without_its_arrays(
@@ -383,7 +387,8 @@ def test_a_missing_chunk_of_copies_ends_an_incomplete_record(
     writer.close(False)
     assert files.load_record(tmp_path / "r.zarr").sizes["time"] == 5
     (tmp_path / "r.zarr" / "u.activation" / "c" / "0" / "1" / "0").unlink()
-    found = files.load_record(tmp_path / "r.zarr")
+    with pytest.warns(RunWarning, match="left out"):
+        found = files.load_record(tmp_path / "r.zarr")
     assert found.sizes["time"] == 2 and "u.activation" in found.attrs[sound.DAMAGED]
 
 
