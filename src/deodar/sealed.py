@@ -37,6 +37,6 @@ def unseal(content: bytes) -> memoryview:
     inner, proof = memoryview(content)[:-SIZE], memoryview(content)[-SIZE + len(MARK) :]
     if not is_sealed(content) or LENGTH.unpack(proof[: LENGTH.size])[0] != len(inner):
         raise DamagedFile("it was cut, or has no seal")
-    if hashlib.sha256(inner).digest() != proof[LENGTH.size :]:
+    if hashlib.sha256(inner).digest() != bytes(proof[LENGTH.size :]):
         raise DamagedFile("its SHA-256 is that of another content")
     return inner

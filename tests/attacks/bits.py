@@ -18,7 +18,7 @@ import shutil
 import tempfile
 import unittest.mock
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -128,7 +128,7 @@ def _programs(folder: Path) -> None:
 
 
 @contextlib.contextmanager
-def _cache(folder: Path) -> Iterator[None]:
+def _cache(folder: Path) -> Generator[None]:
     with unittest.mock.patch.dict(os.environ, {"DEODAR_CACHE": str(folder)}):
         yield
 

@@ -172,7 +172,7 @@ def read(path: Path) -> xarray.Dataset:
     Raises:
         DamagedFile: its header is not the one that was written, or the file is too short.
     """
-    content = np.memmap(path, np.uint8, "r")
+    content: Any = np.memmap(path, np.uint8, "r")
     try:
         header = _Header(memoryview(content))
         sizes, attributes, entries = header.read()

@@ -86,6 +86,7 @@ def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
         RecordError: there is no such file, or it is of another kind, or of a newer version.
         DamagedFile: it is damaged.
     """
+    metadata: Any
     metadata, arrays = _opened(path)
     if metadata.get("kind") != kind:
         raise RecordError(f"expected a {kind}, got another file", where=str(path))
