@@ -1,9 +1,9 @@
-"""The registry of kinds: every module of an extension folder registers exactly one kind.
+"""The registry of kinds: every module of an extension folder registers one kind, or a family of siblings.
 
-A *room* is an extension folder (`deodar.elements`, `deodar.couplings`, ...). `scan` imports its modules once,
-when a kind is first looked up, and refuses a module that registers nothing or two things. Kinds of installed
-packages are found by the entry points `deodar.kinds` and `deodar.worlds` (`plugins.py`); looking up one of
-them imports it alone.
+A *room* is an extension folder (`deodar.elements`, `deodar.couplings`, ...), or one module with all kinds of a
+sort. Its modules are imported when a kind is first looked up; one that registers no kind is refused. Kinds of
+installed packages are found by the entry points `deodar.kinds` and `deodar.worlds` (`plugins.py`); looking up
+one of them imports it alone.
 """
 
 from __future__ import annotations
@@ -47,9 +47,11 @@ def modules(package: str) -> list[str]:
 
     They are its files and, for each folder in it, the file with the folder's name
     (`worlds/arena/arena.py`), or the folder itself without such a file. Names that begin with an underscore
-    are left out.
+    are left out. A module that is no folder is its own only module.
     """
-    paths = importlib.import_module(package).__path__
+    paths = getattr(importlib.import_module(package), "__path__", None)
+    if paths is None:
+        return [package]
     found = sorted(pkgutil.iter_modules(paths), key=lambda module: module.name)
     return [
         f"{package}.{module.name}{_within(paths, module.name) if module.ispkg else ''}"
@@ -79,7 +81,7 @@ def kinds(room: str | None = None) -> dict[str, type[Any]]:
     return {
         name: cls
         for name, cls in sorted(_kinds.items())
-        if room is None or cls.__module__.startswith(f"deodar.{room}.") or name in taken
+        if room is None or f"{cls.__module__}.".startswith(f"deodar.{room}.") or name in taken
     }
 
 
@@ -143,9 +145,5 @@ def package(name: str) -> str:
 def _scan(room: str) -> None:
     for module in modules(f"deodar.{room}"):
         importlib.import_module(module)
-        found = [name for name, cls in _kinds.items() if cls.__module__ == module]
-        if len(found) != 1:
-            raise ModelError(
-                f"{module} registers {len(found)} kinds ({', '.join(found) or 'none'}); a file of an"
-                " extension folder registers one"
-            )
+        if all(cls.__module__ != module for cls in _kinds.values()):
+            raise ModelError(f"{module} registers no kind; a file of an extension folder registers its kinds")
