@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import deodar as dd
-from deodar.elements.boost import Boost
-from deodar.elements.motor import Motor
+from deodar.elements.stimuli import Boost
+from deodar.elements.world_ports import Motor
 from deodar.worlds.arena.arena import Arena
 
 ROOM = {

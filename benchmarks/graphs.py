@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 
 import deodar as dd
-from deodar.couplings.convolve import Convolve
+from deodar.couplings.convolutions import Convolve
 
 
 def _field(name: str, axes: list[dd.Axis], number: random.Random) -> dd.Field:

@@ -27,10 +27,9 @@ os.environ.setdefault("NPROC", "1")
 import numpy as np
 
 import deodar as dd
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.model.checks.resolution import steepness
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import SigmoidFunction, Step
 
 MADE, HELD = 400, 3000
 """Times in ms: how long the input is there, and how long a memory is then held."""

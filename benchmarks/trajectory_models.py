@@ -23,7 +23,7 @@ from deodar.experiments.events import Appears, Crosses, Vanishes
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
 from deodar.importers import examples
-from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.numerics.kernels.separable import MexicanHat
 from deodar.worlds._base import World
 from deodar.worlds.arena.arena import Arena
 from deodar_papers.saliency.scenes import photographs

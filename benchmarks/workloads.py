@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 import deodar as dd
 from deodar.architectures.saliency import saliency
 from deodar.architectures.spa import maze, spa
-from deodar.couplings.convolve import Convolve
+from deodar.couplings.convolutions import Convolve
 from deodar_papers.saliency.scenes import photographs
 
 NAMES = "xyz"

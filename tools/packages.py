@@ -40,7 +40,6 @@ WORDS: Mapping[str, str] = {
 ROLES: Mapping[str, tuple[str, ...]] = {
     "what the kinds of a folder share": (
         "deodar/numerics/kernels/_base",
-        "deodar/numerics/sigmoids/_base",
         "deodar/worlds/_base",
     ),
     "a part of a measurement of a field in stages": ("deodar/analysis/maps/*", "deodar/analysis/tuning/*"),

@@ -1,9 +1,9 @@
 """The registry of kinds: every module of an extension folder registers one kind, or a family of siblings.
 
-A *room* is an extension folder (`deodar.elements`, `deodar.couplings`, ...), or one module with all kinds of a
-sort. Its modules are imported when a kind is first looked up; one that registers no kind is refused. Kinds of
-installed packages are found by the entry points `deodar.kinds` and `deodar.worlds` (`plugins.py`); looking up
-one of them imports it alone.
+A *room* is an extension folder (`deodar.elements`, `deodar.couplings`, ...), or one module with all kinds of
+a sort. Its modules are imported when a kind is first looked up; one that registers no kind is refused. Kinds
+of installed packages are found by the entry points `deodar.kinds` and `deodar.worlds` (`plugins.py`); looking
+up one of them imports it alone.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def modules(package: str) -> list[str]:
 
     They are its files and, for each folder in it, the file with the folder's name
     (`worlds/arena/arena.py`), or the folder itself without such a file. Names that begin with an underscore
-    are left out. A module that is no folder is its own only module.
+    are left out. A file in place of a folder is the only module.
     """
     paths = getattr(importlib.import_module(package), "__path__", None)
     if paths is None:

@@ -11,15 +11,14 @@ import numpy as np
 
 from deodar.element import Element
 from deodar.elements.field import Field
-from deodar.elements.soft_winner_take_all import SoftWinnerTakeAll
+from deodar.elements.populations import SoftWinnerTakeAll
 from deodar.errors import TimeError, option
 from deodar.importers.report import Verdict
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, cell, shape
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.sigmoids import Linear, SigmoidFunction
 from deodar_spikes.linear_maps import kernel_matrix
 from deodar_spikes.network import Population, Projection, WeightMatrix
 from deodar_spikes.spike_code import SpikeCode, spike_code

@@ -17,9 +17,7 @@ import jax
 import numpy as np
 from numpy.typing import NDArray
 
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.semilinear import SemiLinear
+from deodar.numerics.sigmoids import Linear, SemiLinear, SigmoidFunction
 
 Levels = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from deodar.couplings.delay import Delay
+from deodar.couplings.delays import Delay
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, TimeError, option
 from deodar.importers.report import ImportReport, Line, Verdict

@@ -20,7 +20,7 @@ import msgspec
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.errors import DeodarError
 from deodar.importers import presets
 from deodar.leaves import get

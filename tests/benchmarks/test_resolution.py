@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Step
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import resolution

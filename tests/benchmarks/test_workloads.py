@@ -15,7 +15,7 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.plan import plan
-from deodar.couplings.convolve import Convolve
+from deodar.couplings.convolutions import Convolve
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import steps

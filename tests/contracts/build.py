@@ -15,8 +15,8 @@ import numpy as np
 import deodar as dd
 from deodar import registry
 from deodar.element import Element
-from deodar.elements.boost import Boost
-from deodar.elements.noise import Noise
+from deodar.elements.changing_stimuli import Noise
+from deodar.elements.stimuli import Boost
 from deodar.leaves import leaves
 from deodar.model.check import problems as structural
 from deodar.model.resolve import Node, resolve

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import deodar as dd
 from deodar import registry
-from deodar.elements.boost import Boost
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.stimuli import Boost
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.numerics.axes import Axis
 
 WORLDS = registry.kinds("worlds")

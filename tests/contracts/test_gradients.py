@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import DerivativeError, ParameterError
 from deodar.leaves import leaves
 from tests.contracts.build import KINDS, PARTS, any_example, around

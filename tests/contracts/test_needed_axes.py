@@ -9,8 +9,8 @@ import pytest
 
 import deodar as dd
 from deodar.declarations import Needed
-from deodar.elements.history import History
-from deodar.elements.pattern import Pattern
+from deodar.elements.memories import History
+from deodar.elements.stimuli import Pattern
 from deodar.errors import DocumentError, ParameterError
 from deodar.model import document_files
 from deodar.model.migrations import DEFAULTS_OF_1

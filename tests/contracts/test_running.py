@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from deodar.compiler.functions import Functions, StepArguments
-from deodar.couplings.reward_gate import RewardGate
+from deodar.couplings.learning import RewardGate
 from deodar.element import Setting, Time
 from deodar.leaves import leaves
 from deodar.model import find

@@ -12,12 +12,11 @@ from typing import Annotated
 import pytest
 
 import deodar as dd
-from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.hebbian import Hebbian
+from deodar.couplings.learning import AdaptiveWeights
 from deodar.declarations import LIMITING, TIME_ROLES
-from deodar.elements.attractor import Attractor
-from deodar.elements.integrator import Integrator
-from deodar.elements.memory_trace import MemoryTrace
+from deodar.elements.memories import MemoryTrace
+from deodar.elements.variables import Attractor, Integrator
 from deodar.errors import TimeError
 from deodar.leaves import replace, step_limits
 from deodar.model.check import check

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axis, shape
 from deodar.session.port_reader import port_reader

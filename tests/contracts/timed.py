@@ -8,7 +8,7 @@ import numpy as np
 
 import deodar as dd
 from deodar.element import Element
-from deodar.elements.time_series import TimeSeries
+from deodar.elements.changing_stimuli import TimeSeries
 
 RISING = np.arange(15.0)
 

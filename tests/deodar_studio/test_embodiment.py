@@ -10,8 +10,7 @@ import pytest
 
 import deodar as dd
 from deodar.architectures.saliency import saliency
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import WorldError
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture

@@ -17,7 +17,7 @@ import websockets
 
 import deodar as dd
 from deodar.numerics.kernel_shape import kernel_shape
-from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.sigmoids import Linear
 from deodar_studio.files.state_store import StateStore
 from deodar_studio.live import engine
 from deodar_studio.pages import hub

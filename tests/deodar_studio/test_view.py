@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.errors import Problem
 from deodar.kinds.description import descriptions
 from deodar.model import plain_values

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
-from deodar.elements.motor import Motor
+from deodar.elements.stimuli import Boost
+from deodar.elements.world_ports import Motor
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.zenoh.served_world import ServedWorld
 from tests.deodar_studio.page import Page, page, play, studio

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.importers import examples
 from deodar.worlds._base import World
 from deodar.worlds.arena.arena import Arena

@@ -161,7 +161,7 @@ def test_only_the_command_line_asks_and_imports_are_written() -> None:
 
 def test_no_module_is_named_after_no_particular_content() -> None:
     drawers = [p.name for p in MODULES if re.search("util|helper|misc|common|manager", p.stem)]
-    assert not drawers, "one noun is one file"
+    assert not drawers, "a file is a noun or a family of siblings"
 
 
 def test_lines_of_the_page_have_at_most_110_columns() -> None:

@@ -25,11 +25,11 @@ import warnings
 from pathlib import Path
 
 import deodar as dd
-from deodar.couplings.peak_position import PeakPosition
+from deodar.couplings.positions import PeakPosition
 from deodar.couplings.weights import Weights
-from deodar.elements.boost import Boost
-from deodar.elements.motor import Motor
-from deodar.elements.moving_gaussian import MovingGaussian
+from deodar.elements.changing_stimuli import MovingGaussian
+from deodar.elements.stimuli import Boost
+from deodar.elements.world_ports import Motor
 from deodar.experiments.actions import Move, Place, Remove
 from deodar.experiments.events import Appears, Crosses
 from deodar.experiments.experiment import Experiment

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.numerics.kernels.box import Box
+from deodar.numerics.kernels.separable import Box
 from tests.oracle import couplings, fields, kernels, noise
 
 RING = dd.Axis("x", 0, 20, 40, periodic=True)

@@ -14,11 +14,9 @@ import numpy as np
 from deodar.analysis.peaks import Peaks, peaks
 from deodar.analysis.settle import LIMIT, Settled, settle
 from deodar.element import Element
-from deodar.elements._stimulus import Stimulus
-from deodar.elements.boost import Boost
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.sensor import Sensor
+from deodar.elements.stimuli import Boost, GaussianStimulus, Stimulus
+from deodar.elements.world_ports import Sensor
 from deodar.errors import AnalysisError, ParameterError, did_you_mean
 from deodar.model import find
 from deodar.model.document import Document, Entry

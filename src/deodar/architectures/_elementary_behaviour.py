@@ -17,14 +17,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.gain import Gain
-from deodar.couplings.shift import Shift
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.convolutions import Convolve, Shift
 from deodar.elements.field import Field
 from deodar.model.model import Handle, Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic
 
 NARROW, WIDE = 2.0, 4.0
 """Widths of excitation and inhibition, cm (table 2)."""

@@ -16,15 +16,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from deodar.couplings.gain import Gain
-from deodar.couplings.project import Project
-from deodar.elements.boost import Boost
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.projections import Project
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.stimuli import Boost, GaussianStimulus
 from deodar.model.model import Handle, Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic
 from deodar.numerics.windows import Window
 
 TAU, STEEP = 20.0, 8.0

@@ -24,30 +24,23 @@ import math
 import numpy as np
 
 from deodar.architectures.serial_order import CLEAR, QUADRATURE, START, STEEP, TAU, serial_order
-from deodar.couplings.color_histogram import ColorHistogram
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.delay_line import DelayLine
-from deodar.couplings.gain import Gain
-from deodar.couplings.obstacle_repulsion import ObstacleRepulsion
-from deodar.couplings.product import Product
-from deodar.couplings.project import Project
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.couplings.space_code import SpaceCode
-from deodar.couplings.sum import Sum
-from deodar.couplings.weighting import Weighting
-from deodar.elements.boost import Boost
+from deodar.couplings.arithmetic import Gain, Product, Sigmoid, Sum
+from deodar.couplings.convolutions import Convolve
+from deodar.couplings.delays import DelayLine
+from deodar.couplings.pictures import ColorHistogram
+from deodar.couplings.positions import SpaceCode
+from deodar.couplings.projections import Project
+from deodar.couplings.steering import ObstacleRepulsion
+from deodar.couplings.weights import Weighting
 from deodar.elements.field import Field
-from deodar.elements.memory_trace import MemoryTrace
-from deodar.elements.motor import Motor
-from deodar.elements.rate_node import RateNode
-from deodar.elements.sensor import Sensor
+from deodar.elements.memories import MemoryTrace
+from deodar.elements.populations import RateNode
+from deodar.elements.stimuli import Boost
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.model.model import Handle, Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.semilinear import SemiLinear
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Linear, Logistic, SemiLinear, Step
 
 HUES = 180
 COLUMNS, ROWS = 160, 120

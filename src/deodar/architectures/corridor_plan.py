@@ -17,16 +17,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from deodar.architectures._elementary_behaviour import elementary_behaviour
-from deodar.couplings.gain import Gain
-from deodar.couplings.project import Project
-from deodar.couplings.space_code import SpaceCode
-from deodar.elements.box_stimulus import BoxStimulus
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.positions import SpaceCode
+from deodar.couplings.projections import Project
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.stimuli import BoxStimulus, GaussianStimulus
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Linear
 from deodar.numerics.windows import Window
 
 LENGTH, WALL = 200.0, 8.0

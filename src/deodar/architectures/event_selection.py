@@ -14,13 +14,13 @@ Reference:
 from __future__ import annotations
 
 from deodar.architectures.looking import retina
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.resample import Resample
+from deodar.couplings.convolutions import Convolve
+from deodar.couplings.projections import Resample
 from deodar.elements.field import Field
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.model.model import Model
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic
 
 COUNTED, SAMPLES = 32, 16
 """Cells in which events are counted, and samples of the field, along each axis. A field of 16 x 16 samples

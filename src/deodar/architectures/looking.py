@@ -28,31 +28,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from deodar.architectures._noise import strength as strength_of_noise
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.envelope import Envelope
-from deodar.couplings.gain import Gain
+from deodar.couplings.arithmetic import Envelope, Gain, Pointwise, Product, Sigmoid, Sum
+from deodar.couplings.convolutions import Convolve, SteeredShift
 from deodar.couplings.hebbian import Hebbian
-from deodar.couplings.pointwise import Pointwise
-from deodar.couplings.product import Product
-from deodar.couplings.project import Project
-from deodar.couplings.rate_code import RateCode
-from deodar.couplings.reward_gate import RewardGate
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.couplings.steered_shift import SteeredShift
-from deodar.couplings.sum import Sum
+from deodar.couplings.learning import RewardGate
+from deodar.couplings.positions import RateCode
+from deodar.couplings.projections import Project
 from deodar.couplings.weights import Weights
-from deodar.elements.boost import Boost
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.integrator import Integrator
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.stimuli import Boost, GaussianStimulus
+from deodar.elements.variables import Integrator
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import ParameterError, did_you_mean
 from deodar.model.model import Handle, Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Absolute, Logistic
 from deodar.parameters import ArrayLike
 
 

@@ -19,22 +19,20 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.architectures._noise import strength as strength_of_noise
-from deodar.couplings.attractor_velocity import AttractorVelocity
-from deodar.couplings.color_space import ColorSpace
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.gain import Gain
-from deodar.couplings.homography import Homography
-from deodar.couplings.project import Project
-from deodar.couplings.space_code import SpaceCode
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.convolutions import Convolve
+from deodar.couplings.pictures import ColorSpace, Homography
+from deodar.couplings.positions import SpaceCode
+from deodar.couplings.projections import Project
+from deodar.couplings.steering import AttractorVelocity
 from deodar.couplings.weights import Weights
-from deodar.elements.boost import Boost
 from deodar.elements.field import Field
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.stimuli import Boost
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.model.model import Handle, Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic
 
 COLOURS = {"red": 0.0, "green": 120.0}
 """Hue of each colour that can be named, degrees."""

@@ -13,20 +13,17 @@ Reference:
 
 from __future__ import annotations
 
-from deodar.couplings.diagonal_sum import DiagonalSum
-from deodar.couplings.gain import Gain
-from deodar.couplings.project import Project
-from deodar.couplings.resample import Resample
-from deodar.couplings.space_code import SpaceCode
-from deodar.couplings.steered_shift import SteeredShift
-from deodar.elements.boost import Boost
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.convolutions import SteeredShift
+from deodar.couplings.positions import SpaceCode
+from deodar.couplings.projections import DiagonalSum, Project, Resample
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.stimuli import Boost, GaussianStimulus
 from deodar.errors import ParameterError, did_you_mean
 from deodar.model.model import Handle, Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic
 from deodar.numerics.windows import Window
 from deodar.parameters import show
 

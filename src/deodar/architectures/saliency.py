@@ -13,18 +13,18 @@ References:
 from __future__ import annotations
 
 from deodar.architectures._noise import strength as strength_of_noise
-from deodar.couplings.color_space import ColorSpace
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.gain import Gain
-from deodar.couplings.project import Project
-from deodar.elements.attractor import Attractor
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.convolutions import Convolve
+from deodar.couplings.pictures import ColorSpace
+from deodar.couplings.projections import Project
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.sensor import Sensor
+from deodar.elements.stimuli import GaussianStimulus
+from deodar.elements.variables import Attractor
+from deodar.elements.world_ports import Sensor
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic
 from deodar.numerics.windows import Window
 
 SIDE = 80.0

@@ -21,19 +21,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from deodar.couplings.adaptive_weights import AdaptiveWeights
-from deodar.couplings.gain import Gain
-from deodar.couplings.product import Product
-from deodar.couplings.project import Project
-from deodar.couplings.sum import Sum
-from deodar.elements.boost import Boost
+from deodar.couplings.arithmetic import Gain, Product, Sum
+from deodar.couplings.learning import AdaptiveWeights
+from deodar.couplings.projections import Project
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.stimuli import Boost, GaussianStimulus
 from deodar.errors import ParameterError
 from deodar.model.model import Handle, Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic
 from deodar.numerics.windows import Window
 from deodar.parameters import show
 

@@ -27,25 +27,20 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.architectures._elementary_behaviour import QUADRATURE, RESTING, elementary_behaviour
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.gain import Gain
-from deodar.couplings.logarithm import Logarithm
-from deodar.couplings.project import Project
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.couplings.space_code import SpaceCode
-from deodar.couplings.turn_limit import TurnLimit
-from deodar.couplings.weighting import Weighting
-from deodar.couplings.weights import Weights
+from deodar.couplings.arithmetic import Gain, Logarithm, Sigmoid
+from deodar.couplings.convolutions import Convolve
+from deodar.couplings.positions import SpaceCode
+from deodar.couplings.projections import Project
+from deodar.couplings.steering import TurnLimit
+from deodar.couplings.weights import Weighting, Weights
+from deodar.elements.changing_stimuli import Noise
 from deodar.elements.field import Field
-from deodar.elements.motor import Motor
-from deodar.elements.noise import Noise
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import ParameterError, did_you_mean
 from deodar.model.model import Handle, Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic, Step
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.arena_settings import ArenaNoise, ArenaPhysics
 

@@ -24,14 +24,12 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Sequence
 
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.interaction import Interaction
+from deodar.couplings.convolutions import Convolve, Interaction
 from deodar.elements.field import Field
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids import Logistic, SigmoidFunction
 
 
 @dc.dataclass(frozen=True)

@@ -13,8 +13,7 @@ from jax import Array, lax
 
 from deodar.compiler.arguments import BodyState
 from deodar.element import Arrays
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.numerics.pytree import PyTree
 from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld

@@ -17,7 +17,7 @@ from deodar.compiler import cache, device
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.choice import Choice, candidates
-from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.numerics.kernels.separable import Gaussian
 
 SECONDS = 0.02
 """CPU time of one measurement; the least of `ROUNDS` counts."""

@@ -32,7 +32,7 @@ from deodar.numerics.derivatives import without_derivative
 from deodar.numerics.exact import LOW, Exact
 from deodar.numerics.native import LEAST_NOISE
 from deodar.numerics.noise import Cells, block, element_keys, no_block, normal, of_block
-from deodar.numerics.sigmoids._base import SigmoidFunction
+from deodar.numerics.sigmoids import SigmoidFunction
 
 T = TypeVar("T")
 

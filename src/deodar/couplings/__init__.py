@@ -1,1 +1,1 @@
-"""Elements that transform signals between elements, one per file; every module is registered."""
+"""Elements that transform signals between elements; every one that a module declares is registered."""

@@ -1,24 +1,26 @@
-"""Dense weights between all samples of two elements."""
+"""Couplings by stated weights."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
+import numpy.typing as npt
 from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
+from deodar.numerics.convolution import along
 from deodar.numerics.intervals import Interval, times, total
 from deodar.numerics.positions import PositionUnit, PositionUnits
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
 
@@ -117,3 +119,207 @@ def _weighted(row: Sequence[float], arriving: PositionUnits) -> PositionUnit | N
     if first is None or any(p is None or not p.fits(first) for p in used):
         return None
     return first if len(used) == 1 else first.unbounded()
+
+
+@register
+@dataclass(frozen=True)
+class AxisWeights(Coupling):
+    r"""Fixed weights between the samples of one axis of the input and a new axis, the same everywhere else.
+
+    It resamples, crops, pads, mirrors or permutes an array along one axis; one after another, several of them
+    do so along several axes. `Weights` has weights between all samples.
+
+    Equation:
+        y(x, z) = \sum_{x'} W(x, x')\, \mathrm{input}(x', z)
+
+    Parameters:
+        weights: W, samples of the new axis first.
+        axis: the new axis, x.
+        along: name of the axis of the input that it takes the place of; empty: the axis of the same name.
+
+    Ports:
+        input: any axes, one of them `along`.
+        output: the axes of the input, with `axis` in the place of the one that is summed.
+
+    Shapes:
+        weights: samples of `axis`, then samples of the axis `along` of the input.
+
+    Reference:
+        no reference
+    """
+
+    weights: Annotated[ArrayLike, Rebuild(meaning="W, samples of the new axis first")] = FrozenArray(
+        np.eye(21)
+    )
+    axis: Annotated[Axis, Recompile(meaning="the new axis")] = needed("x")
+    along: Annotated[str, Recompile(meaning="name of the axis of the input; empty: the same name")] = ""
+
+    linear: ClassVar[bool] = True
+
+    def polarity(self) -> Sign:
+        return sign_of(self.weights)
+
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
+        return arriving
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axis if a.name == self._name else a for a in ins["input"])}
+
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+        found = next((a for a in ins["input"] if a.name == self._name), None)
+        if found is None:
+            given = ", ".join(repr(a.name) for a in ins["input"]) or "none"
+            yield (
+                f"acts along the axis {self._name!r}, which the input does not have; it has {given}",
+                "Write along='NAME'",
+            )
+            return
+        if self.axis.name != self._name and any(a.name == self.axis.name for a in ins["input"]):
+            yield f"gives an axis {self.axis.name!r}, which the input has already"
+        yield from wrong_shape(
+            "weights", self.weights, (self.axis.samples, found.samples), "the new axis and the old one have"
+        )
+
+    def bounds(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
+    ) -> Mapping[str, Interval]:
+        if not isinstance(self.weights, FrozenArray):
+            return {}
+        w, x = self.weights.data, inputs["input"]
+        up, down = float(np.maximum(w, 0).sum(axis=1).max()), float(np.minimum(w, 0).sum(axis=1).min())
+        return {"output": total(times((0.0, up), x), times((down, 0.0), x))}
+
+    def prepare(self, at: Setting) -> Arrays:
+        return {"weights": at.array(self.weights)}
+
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
+    ) -> Arrays:
+        d = next(k for k, a in enumerate(at.ins["input"]) if a.name == self._name)
+        return {"output": along(constants["weights"], inputs["input"], d)}
+
+    @property
+    def _name(self) -> str:
+        return self.along or self.axis.name
+
+    @classmethod
+    def example(cls) -> AxisWeights:
+        return cls(np.eye(21), Axis("x", 0, 20, samples=21), name="example")
+
+
+@register
+@dataclass(frozen=True)
+class Weighting(Coupling):
+    r"""A coupling strength that depends on position, such as a ramp or a mask.
+
+    Equation:
+        y(x) = c(x) \cdot \mathrm{input}(x)
+
+    Parameters:
+        weights: c, one value for each sample of the axes (`Weighting.of(function, axes)` samples a function).
+        axes: axes of the weights; the input expands to them.
+
+    Ports:
+        input: over `axes`; missing axes expand.
+        output: over `axes`.
+
+    Shapes:
+        weights: the samples of `axes`, in their order.
+
+    Reference:
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 9.
+    """
+
+    weights: Annotated[ArrayLike, Rebuild(meaning="c at every sample")] = FrozenArray(np.ones(21))
+    axes: Annotated[tuple[Axis, ...], Recompile(meaning="axes of the weights")] = needed("[x]")
+
+    linear: ClassVar[bool] = True
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        return {"weights": FrozenArray(np.ones(shape(axes)))}
+
+    def polarity(self) -> Sign:
+        return sign_of(self.weights)
+
+    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
+        return tuple(self.axes)
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": tuple(self.axes)}
+
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        yield from wrong_shape("weights", self.weights, shape(self.axes))
+
+    def prepare(self, at: Setting) -> Arrays:
+        return {"weights": at.array(self.weights)}
+
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
+    ) -> Arrays:
+        return {"output": constants["weights"] * inputs["input"]}
+
+    @classmethod
+    def of(cls, function: Callable[..., npt.ArrayLike], axes: Sequence[Axis]) -> Weighting:
+        """Sample the weights from a function of the axes' values: `Weighting.of(lambda x: x / 100, [x])`."""
+        grids = np.meshgrid(*(a.points for a in axes), indexing="ij")
+        return cls(np.broadcast_to(np.asarray(function(*grids), float), shape(axes)), tuple(axes))
+
+    @classmethod
+    def example(cls) -> Weighting:
+        return cls(np.ones(21), (Axis("x", 0, 20, samples=21),), name="example")
+
+
+@register
+@dataclass(frozen=True)
+class PseudoInverse(Coupling):
+    r"""The pseudo-inverse of a matrix, for example of a Jacobian: a change of the tool becomes one of the
+    joints.
+
+    Without damping it is the inverse of Moore and Penrose: of all solutions the one with the smallest norm.
+    Damping bounds it near matrices of lower rank, where it is discontinuous. It is computed from the singular
+    values, by sums over samples without the grid step.
+
+    Equation:
+        Y = \begin{cases} X^+ & \mathrm{damping} = 0 \\ X^T (X X^T + \mathrm{damping}^2 I)^{-1} &
+            \text{else} \end{cases}
+
+    Parameters:
+        damping: bound of the inverse, in units of the input; a singular value s becomes s / (s^2 +
+            damping^2).
+        least: part of the largest singular value below which one counts as 0; 0 to 1.
+
+    Ports:
+        input: X, over two axes, or over one axis as a single column.
+        output: Y, over the axes of `input` in reverse order.
+
+    Reference:
+        Penrose (1955), A generalized inverse for matrices, Math. Proc. Camb. Phil. Soc. 51, 406-413. Nakamura
+        & Hanafusa (1986), Inverse kinematic solutions with singularity robustness for robot manipulator
+        control, J. Dyn. Sys. Meas. Control 108, 163-171 (damping).
+    """
+
+    damping: Annotated[float, Live(lower=0, meaning="bound of the inverse, in units of the input")] = 0.0
+    least: Annotated[
+        float, Live(lower=0, upper=1, meaning="part of the largest singular value that counts as 0")
+    ] = 1e-6
+
+    def polarity(self) -> Sign:
+        return "±"
+
+    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+        return {"output": ins["input"][::-1]}
+
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+        if len(ins["input"]) not in (1, 2):
+            yield f"needs an input of one or two axes, not of {len(ins['input'])}", "Put a Project before it"
+
+    def output(
+        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
+    ) -> Arrays:
+        x = inputs["input"]
+        left, sizes, right = jnp.linalg.svd(x.reshape(x.shape[0], -1), full_matrices=False)
+        counts = (sizes > self.least * sizes[0]) & (sizes > 0)
+        strength = jnp.where(counts, sizes, 0.0) / jnp.where(counts, sizes**2 + self.damping**2, 1.0)
+        y = jnp.matmul(right.T * strength, left.T, precision="highest")
+        return {"output": y.reshape(x.shape[::-1])}

@@ -1,1 +1,1 @@
-"""Elements with a state, and sources, one per file; every module in this folder is registered."""
+"""Elements with a state, and sources; every element that a module declares is registered."""

@@ -19,9 +19,8 @@ from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
 from deodar.numerics.intervals import Interval, hull, signed, times, total
 from deodar.numerics.kernels._base import Kernel, validate_kernels
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.sigmoids import Logistic, SigmoidFunction
 from deodar.numerics.signs import Sign, sign_of, together
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.errors import ParameterError, RunWarning, UnknownName, WorldError, did_you_mean
 from deodar.experiments.running_trial import RunningTrial
 from deodar.family import Family

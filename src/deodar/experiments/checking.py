@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import DeodarError, ParameterError, Problem, did_you_mean
 from deodar.experiments.actions import Record, changed, targets
 from deodar.experiments.design import Design
@@ -19,7 +19,7 @@ from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
-from deodar.numerics.sigmoids._base import SigmoidFunction
+from deodar.numerics.sigmoids import SigmoidFunction
 from deodar.session.exchange import used
 from deodar.session.run import require_step, whole
 from deodar.worlds._base import World

@@ -14,7 +14,7 @@ from deodar.kinds.typed import typed
 from deodar.model.parts import to_json
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.sigmoids._base import SigmoidFunction
+from deodar.numerics.sigmoids import SigmoidFunction
 from deodar.numerics.windows import Window
 from deodar.parameters import FrozenArray, Parameter, Part, ValueForm
 

@@ -11,8 +11,8 @@ import math
 from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any, Literal, TypeVar
 
-from deodar.couplings.delay import Delay
-from deodar.couplings.project import Project
+from deodar.couplings.delays import Delay
+from deodar.couplings.projections import Project
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.leaves import leaves

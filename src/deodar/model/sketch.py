@@ -13,9 +13,8 @@ from collections.abc import Mapping, Sequence
 from deodar.diagrams.boxes import number
 from deodar.diagrams.graph import Graph, GroupPath, Item, ItemForm, Wire
 from deodar.element import Coupling, Element
-from deodar.elements.motor import Motor
 from deodar.elements.placeholder import Placeholder
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.model import find
 from deodar.model.building import positions
 from deodar.model.document import Connection, Document, Entry

@@ -24,7 +24,7 @@ from jax.typing import DTypeLike
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis, cell
-from deodar.numerics.kernels.gaussian import profile
+from deodar.numerics.kernels.separable import profile
 from deodar.numerics.native import Kernels
 from deodar.numerics.scalar import Scalar
 from deodar.parameters import PerAxis

@@ -40,7 +40,7 @@ from jax.lax import optimization_barrier, slice_in_dim
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.scalar import Scalar
-from deodar.numerics.sigmoids._base import SigmoidFunction
+from deodar.numerics.sigmoids import SigmoidFunction
 
 AT_SAMPLES = tuple(c / 64 for c in (3, -12, 13, 56, 13, -12, 3))
 """v(i) from u(i - 3) to u(i + 3)."""

@@ -14,8 +14,7 @@ from jax.typing import DTypeLike
 from deodar.compiler.body import Body
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import TrialNumbers
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import NotFinite, WorldError, option
 from deodar.model.document import Document
 from deodar.model.unit import unit_seconds

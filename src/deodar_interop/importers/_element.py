@@ -6,7 +6,7 @@ import dataclasses as dc
 from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
 
-from deodar.couplings.project import Project
+from deodar.couplings.projections import Project
 from deodar.element import Element
 from deodar.importers.report import Verdict
 from deodar.numerics.axes import Axis

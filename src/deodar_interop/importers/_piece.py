@@ -7,7 +7,7 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Sequence
 
-from deodar.couplings.project import Project
+from deodar.couplings.projections import Project
 from deodar.element import Element
 from deodar.importers.report import Verdict
 from deodar.numerics.axes import Axis

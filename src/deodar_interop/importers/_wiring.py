@@ -20,10 +20,10 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from deodar.couplings.delay import Delay
-from deodar.couplings.gain import Gain
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.delays import Delay
 from deodar.element import Element
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.importers.report import Line, Verdict
 from deodar.numerics.axes import Axis, shape
 from deodar_interop.importers._foreign import Foreign, Source

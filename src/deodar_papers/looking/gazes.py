@@ -16,7 +16,7 @@ from deodar.architectures.looking import looking
 from deodar.batch.simulate import simulate
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.dynamics import Dynamics
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis
 from deodar.resources import Resources

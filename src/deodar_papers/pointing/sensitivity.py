@@ -8,9 +8,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from deodar.architectures.pointing import COLOURS, CUES, SIDES, pointing
-from deodar.couplings.homography import Homography
+from deodar.couplings.pictures import Homography
 from deodar.declarations import LIMITING
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.leaves import leaves
 from deodar_papers.pointing.scenes import TUNING
 

@@ -14,7 +14,7 @@ from deodar import codec
 from deodar.analysis.peaks import Peaks, peaks
 from deodar.architectures.saliency import CUE_AT, SIDE, retina, saliency, scene
 from deodar.batch.simulate import simulate
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import DocumentError
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes

@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from deodar.architectures.color_search import HUES, color_search
-from deodar.couplings.peak_position import PeakPosition
-from deodar.couplings.product import Product
-from deodar.couplings.project import Project
-from deodar.elements.boost import Boost
+from deodar.couplings.arithmetic import Product
+from deodar.couplings.positions import PeakPosition
+from deodar.couplings.projections import Project
+from deodar.elements.stimuli import Boost
 from deodar.experiments.actions import Action
 from deodar.experiments.events import All, AnyOf, Crosses, Event
 from deodar.experiments.rows import Row

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from deodar.batch.simulate import simulate
+from deodar.elements.changing_stimuli import TimeSeries
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.time_series import TimeSeries
+from deodar.elements.stimuli import GaussianStimulus
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.gaussian import Gaussian
+from deodar.numerics.kernels.separable import Gaussian
 from deodar.resources import Resources
 
 AXIS = Axis("x", 0, 100, samples=101, unit="deg")

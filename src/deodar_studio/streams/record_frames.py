@@ -14,7 +14,7 @@ import numpy as np
 
 from deodar import registry
 from deodar.element import Element
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import DeodarError, Problem
 from deodar.numerics.axes import Axes
 from deodar.recording.record import about

@@ -15,8 +15,7 @@ import numpy as np
 
 from deodar import registry
 from deodar.credentials import masked
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import MissingExtra, Problem, WorldError, did_you_mean
 from deodar.kinds.world_settings import require_settings
 from deodar.model.document import Document

@@ -16,7 +16,7 @@ import deodar as dd
 from deodar.analysis.isolated import isolate
 from deodar.analysis.thresholds import thresholds
 from deodar.analysis.working_memory import forgetting, outlives
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Step
 
 LENGTH, TAU = 80.0, 10.0
 SETS = [  # amplitude, sigma, inhibition, resting level

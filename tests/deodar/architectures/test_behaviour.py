@@ -9,7 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.architectures.behaviour import ON, SIGNAL, behaviour, competition, precondition, suppression
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.numerics.windows import Window
 
 X = dd.Axis("x", 0, 100, samples=51)

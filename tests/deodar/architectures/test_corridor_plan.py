@@ -7,7 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.architectures.corridor_plan import START, corridor, plan
-from deodar.elements.box_stimulus import BoxStimulus
+from deodar.elements.stimuli import BoxStimulus
 
 X = corridor().points
 

@@ -6,7 +6,7 @@ import numpy as np
 
 import deodar as dd
 from deodar.architectures._elementary_behaviour import STRENGTHS, elementary_behaviour
-from deodar.elements.pattern import Pattern
+from deodar.elements.stimuli import Pattern
 
 X, Y = dd.Axis("x", 0, 29, 30, unit="cm"), dd.Axis("y", 0, 24, 25, unit="cm")
 STEPS = 60

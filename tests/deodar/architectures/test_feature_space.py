@@ -9,7 +9,7 @@ import xarray
 import deodar as dd
 from deodar.analysis.peaks import peaks
 from deodar.architectures.feature_space import OBJECT, axes, feature_space
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 
 SPACE, FEATURE = axes()
 SCENE = ((20.0, 0.0), (50.0, 120.0), (80.0, 240.0))

@@ -10,13 +10,10 @@ import pytest
 import deodar as dd
 from deodar.analysis.peaks import peaks
 from deodar.architectures.reference_frame import BODY, GAZE, RETINA, reference_frame
-from deodar.couplings.diagonal_sum import DiagonalSum
-from deodar.couplings.product import Product
-from deodar.couplings.project import Project
-from deodar.couplings.resample import Resample
-from deodar.couplings.steered_shift import SteeredShift
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
+from deodar.couplings.arithmetic import Product
+from deodar.couplings.convolutions import SteeredShift
+from deodar.couplings.projections import DiagonalSum, Project, Resample
+from deodar.elements.stimuli import Boost, Pattern
 from deodar.errors import ParameterError
 
 

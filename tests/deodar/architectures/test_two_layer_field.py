@@ -9,8 +9,8 @@ import pytest
 
 import deodar as dd
 from deodar.architectures.two_layer_field import Layer, two_layer_field
-from deodar.elements.soft_winner_take_all import SoftWinnerTakeAll
-from deodar.numerics.sigmoids.linear import Linear
+from deodar.elements.populations import SoftWinnerTakeAll
+from deodar.numerics.sigmoids import Linear
 
 X, RING = dd.Axis("x", 0, 100, 51), dd.Axis("x", 0, 100, 50, periodic=True)
 TAU, H = 20.0, -5.0

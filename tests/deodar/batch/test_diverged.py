@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.errors import NotFinite, RunWarning
 from deodar.model.model import Model
 from deodar.recording import files

@@ -20,7 +20,7 @@ import pytest
 
 import deodar as dd
 from deodar.batch import pool
-from deodar.elements.noise import Noise
+from deodar.elements.changing_stimuli import Noise
 from deodar.recording.record import about
 from deodar.recording.repeat import repeat
 from deodar.worlds._base import World
@@ -320,7 +320,7 @@ def test_workers_import_the_modules_of_custom_kinds(tmp_path: Path) -> None:
     """
     element = """
 import dataclasses
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.registry import register
 
 @register

@@ -11,7 +11,7 @@ from PIL import Image
 
 import deodar as dd
 from deodar.cli import main
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.recording import files
 from tests.deodar.experiments.robots import room, straight
 from tests.deodar.recording.models import record

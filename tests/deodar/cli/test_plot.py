@@ -12,7 +12,7 @@ from PIL import Image
 import deodar as dd
 from deodar.batch.run_file import CHECKPOINT
 from deodar.cli import main, plot
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.recording import files, writer_lock
 from deodar.recording.growing import GrowingRecord
 from tests.deodar.experiments.robots import room, straight

@@ -12,7 +12,7 @@ import pytest
 import deodar as dd
 from deodar.compiler.plan import COLUMNS, Plan, plan
 from deodar.compiler.program import gather
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 
 
 def inputs(*counts: int) -> dd.Model:

@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 import deodar as dd
-from deodar.elements.noise import Noise
+from deodar.elements.changing_stimuli import Noise
 
 N = 400
 LINE = dd.Axis("x", 0, 199.5, N)

@@ -11,9 +11,9 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.plan import Call, plan
-from deodar.couplings.sum import Sum
+from deodar.couplings.arithmetic import Sum
 from deodar.couplings.weights import Weights
-from deodar.elements.noise import Noise
+from deodar.elements.changing_stimuli import Noise
 
 x = dd.Axis("x", 0, 10, samples=11)
 

@@ -20,12 +20,11 @@ from hypothesis import strategies as st
 import deodar as dd
 from deodar.compiler.executable import executable
 from deodar.compiler.plan import plan
-from deodar.couplings.convolve import Convolve
+from deodar.couplings.convolutions import Convolve
 from deodar.model.document_files import dumps
 from deodar.numerics import choice, interaction
 from deodar.numerics.choice import Choice
-from deodar.numerics.kernels.box import Box
-from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.numerics.kernels.separable import Box, MexicanHat
 from tests.oracle import fields
 from tests.oracle.kernels import dense
 

@@ -16,8 +16,7 @@ from deodar.compiler import executable as module
 from deodar.compiler.executable import executable
 from deodar.couplings.weights import Weights
 from deodar.leaves import structure
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids import Logistic, SigmoidFunction
 
 x = dd.Axis("x", 0, 10, samples=11)
 

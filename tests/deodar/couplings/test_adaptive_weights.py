@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.adaptive_weights import AdaptiveWeights
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
+from deodar.couplings.learning import AdaptiveWeights
+from deodar.elements.stimuli import Boost, Pattern
 
 X, Z = dd.Axis("x", 0, 6, 4), dd.Axis("z", 0, 1, 3)
 PRE, POST, OTHER = np.array([0.0, 1.0, 0.5, 0.0]), np.array([1.0, -0.5, 0.25]), np.array([1.0, 0.0, 0.0, 0.2])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.axis_weights import AxisWeights
-from deodar.elements.pattern import Pattern
+from deodar.couplings.weights import AxisWeights
+from deodar.elements.stimuli import Pattern
 from deodar.errors import ModelError
 
 X, Y, Z = dd.Axis("x", 0, 4, 5), dd.Axis("y", 0, 2, 3), dd.Axis("z", 0, 6, 7)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.color_histogram import ColorHistogram
-from deodar.couplings.project import Project
-from deodar.elements.pattern import Pattern
+from deodar.couplings.pictures import ColorHistogram
+from deodar.couplings.projections import Project
+from deodar.elements.stimuli import Pattern
 from deodar.errors import ModelError
 
 COLUMNS, ROWS, CHANNEL = dd.Axis("column", 0, 11, 12), dd.Axis("row", 0, 7, 8), dd.Axis("channel", 0, 2, 3)

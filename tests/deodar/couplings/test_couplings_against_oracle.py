@@ -10,20 +10,15 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.color_space import ColorSpace
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.delay import Delay
-from deodar.couplings.peak_position import PeakPosition
-from deodar.couplings.product import Product
-from deodar.couplings.resample import Resample
-from deodar.couplings.shift import Shift
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.couplings.sum import Sum
-from deodar.couplings.threshold import Threshold
-from deodar.couplings.weighting import Weighting
-from deodar.couplings.weights import Weights
-from deodar.numerics.kernels.box import Box
-from deodar.numerics.sigmoids.absolute import Absolute
+from deodar.couplings.arithmetic import Product, Sigmoid, Sum, Threshold
+from deodar.couplings.convolutions import Convolve, Shift
+from deodar.couplings.delays import Delay
+from deodar.couplings.pictures import ColorSpace
+from deodar.couplings.positions import PeakPosition
+from deodar.couplings.projections import Resample
+from deodar.couplings.weights import Weighting, Weights
+from deodar.numerics.kernels.separable import Box
+from deodar.numerics.sigmoids import Absolute
 from tests.oracle import couplings as plain
 from tests.oracle import fields
 from tests.oracle.kernels import dense
@@ -206,7 +201,7 @@ def test_peak_position_agrees_with_the_oracle_on_a_line_and_a_ring():
 
 
 def test_the_color_space_of_a_picture_agrees_with_the_oracle():
-    from deodar.elements.sensor import Sensor
+    from deodar.elements.world_ports import Sensor
     from deodar.worlds._base import Signal, World
 
     pixels = np.random.default_rng(5).random((12, 10, 3))
@@ -244,7 +239,7 @@ def test_the_color_space_of_a_picture_agrees_with_the_oracle():
 
 @pytest.mark.parametrize("sigma", [0, 31])
 def test_the_integral_of_a_color_space_is_independent_of_the_sampling_of_hue(sigma):
-    from deodar.elements.pattern import Pattern
+    from deodar.elements.stimuli import Pattern
 
     pixels = np.random.default_rng(5).random((6, 5, 3))
     x, y, channel = dd.Axis("x", 0, 5, 6), dd.Axis("y", 0, 4, 5), dd.Axis("channel", 0, 2, 3)

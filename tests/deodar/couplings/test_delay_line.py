@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.delay import Delay
-from deodar.couplings.delay_line import DelayLine
-from deodar.elements.time_series import TimeSeries
+from deodar.couplings.delays import Delay, DelayLine
+from deodar.elements.changing_stimuli import TimeSeries
 from tests.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 2, 3)

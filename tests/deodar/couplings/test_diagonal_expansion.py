@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 import deodar as dd
-from deodar.couplings.diagonal_expansion import DiagonalExpansion
-from deodar.elements.pattern import Pattern
+from deodar.couplings.projections import DiagonalExpansion
+from deodar.elements.stimuli import Pattern
 
 X, Y, Z = dd.Axis("x", 0, 6, 4), dd.Axis("y", 10, 14, 3), dd.Axis("z", 10, 20, 6)
 

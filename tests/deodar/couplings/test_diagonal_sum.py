@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 import deodar as dd
-from deodar.couplings.diagonal_sum import DiagonalSum
-from deodar.elements.pattern import Pattern
+from deodar.couplings.projections import DiagonalSum
+from deodar.elements.stimuli import Pattern
 
 X, Y = dd.Axis("x", 0, 6, 4), dd.Axis("y", 10, 14, 3)
 VALUES = np.arange(12.0).reshape(4, 3) ** 2

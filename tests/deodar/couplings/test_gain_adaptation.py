@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.gain import Gain
-from deodar.couplings.gain_adaptation import GainAdaptation
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.learning import GainAdaptation
+from deodar.elements.stimuli import Boost, Pattern
 from deodar.errors import ModelError
 
 

@@ -7,8 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.couplings.hebbian import Hebbian
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
+from deodar.elements.stimuli import Boost, Pattern
 from deodar.errors import ModelError, ParameterError
 from deodar.numerics.plasticity import RULES, SOURCE_RULES
 

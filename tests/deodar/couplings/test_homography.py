@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.homography import Homography
-from deodar.elements.pattern import Pattern
+from deodar.couplings.pictures import Homography
+from deodar.elements.stimuli import Pattern
 from deodar.errors import DeodarError
 
 COLUMN, ROW = dd.Axis("column", 0, 159, 160), dd.Axis("row", 0, 119, 120)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.hue_saturation_value import HueSaturationValue
-from deodar.elements.pattern import Pattern
+from deodar.couplings.pictures import HueSaturationValue
+from deodar.elements.stimuli import Pattern
 from deodar.errors import ModelError
 
 X, Y, CHANNEL = dd.Axis("x", 0, 6, 7), dd.Axis("y", 0, 4, 5), dd.Axis("channel", 0, 2, 3)

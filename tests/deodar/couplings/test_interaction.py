@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import deodar as dd
-from deodar.couplings.interaction import Interaction
+from deodar.couplings.convolutions import Interaction
 
 X, PHI = dd.Axis("x", 0, 30, 11), dd.Axis("phi", 0, 360, 8, periodic=True)
 KERNELS = [dd.Gaussian(0.01, [4.0, 60.0]), dd.Gaussian(-0.004, [8.0, 90.0])]

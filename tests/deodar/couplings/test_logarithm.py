@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 import deodar as dd
-from deodar.couplings.logarithm import Logarithm
-from deodar.elements.pattern import Pattern
+from deodar.couplings.arithmetic import Logarithm
+from deodar.elements.stimuli import Pattern
 
 
 def test_the_logarithm_compresses_and_is_zero_for_negative_input() -> None:

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.maximum_position import MaximumPosition
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
+from deodar.couplings.positions import MaximumPosition
+from deodar.elements.stimuli import Boost, Pattern
 from deodar.errors import ModelError
 
 

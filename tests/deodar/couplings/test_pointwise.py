@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.envelope import Envelope
-from deodar.couplings.pointwise import Pointwise
-from deodar.couplings.quotient import Quotient
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
+from deodar.couplings.arithmetic import Envelope, Pointwise, Quotient
+from deodar.elements.stimuli import Boost, Pattern
 
 X = dd.Axis("x", 0, 5, 6)
 VALUES = np.array([-2.0, -0.5, 0.0, 0.3, 1.0, 3.0])

@@ -9,8 +9,8 @@ import pytest
 
 import deodar as dd
 from deodar.couplings.population_activity import PopulationActivity
-from deodar.couplings.rate_code import RateCode
-from deodar.elements.pattern import Pattern
+from deodar.couplings.positions import RateCode
+from deodar.elements.stimuli import Pattern
 from deodar.errors import ModelError, ParameterError
 
 X, Y = dd.Axis("x", 0, 90, 181, unit="deg"), dd.Axis("y", 0, 10, 11)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.product import Product
+from deodar.couplings.arithmetic import Product
 from deodar.model.check import problems
 
 X, Y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 4, samples=5)

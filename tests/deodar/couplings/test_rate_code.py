@@ -8,12 +8,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.peak_position import PeakPosition
-from deodar.couplings.rate_code import RateCode
-from deodar.couplings.space_code import SpaceCode
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
-from deodar.elements.time_series import TimeSeries
+from deodar.couplings.positions import PeakPosition, RateCode, SpaceCode
+from deodar.elements.changing_stimuli import TimeSeries
+from deodar.elements.stimuli import Boost, Pattern
 from deodar.errors import ParameterError
 
 X, Y = dd.Axis("x", -20, 100, 121, unit="cm"), dd.Axis("y", 0, 50, 126, unit="cm")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.reward_gate import RewardGate
-from deodar.elements.boost import Boost
+from deodar.couplings.learning import RewardGate
+from deodar.elements.stimuli import Boost
 from tests.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 10, 10, periodic=True)

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import deodar as dd
-from deodar.couplings.shift import Shift
-from deodar.elements.pattern import Pattern
+from deodar.couplings.convolutions import Shift
+from deodar.elements.stimuli import Pattern
 from deodar.numerics import resampling
 
 

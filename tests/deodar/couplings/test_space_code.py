@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.space_code import SpaceCode
+from deodar.couplings.positions import SpaceCode
 from deodar.element import Element
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
+from deodar.elements.stimuli import Boost, Pattern
 from tests.deodar.errors.refused import refused
 
 X, Y = dd.Axis("x", 0, 10, 21, unit="cm"), dd.Axis("y", -4, 4, 9, unit="cm")

@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.shift import Shift
-from deodar.couplings.steered_shift import SteeredShift
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
+from deodar.couplings.convolutions import Shift, SteeredShift
+from deodar.elements.stimuli import Boost, Pattern
 from deodar.errors import ModelError, ParameterError
 
 X, RING = dd.Axis("x", -2, 7, 10), dd.Axis("phi", 0, 360, 12, periodic=True, unit="deg")

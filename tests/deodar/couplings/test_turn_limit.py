@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import deodar as dd
-from deodar.couplings.turn_limit import TurnLimit
-from deodar.elements.boost import Boost
+from deodar.couplings.steering import TurnLimit
+from deodar.elements.stimuli import Boost
 
 
 @pytest.mark.parametrize(

@@ -10,15 +10,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
-from deodar.numerics.kernels.box import Box
+from deodar.elements.stimuli import Boost
 from deodar.numerics.kernels.custom import Custom
-from deodar.numerics.kernels.mexican_hat import MexicanHat
-from deodar.numerics.kernels.shifted import Shifted
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.semilinear import SemiLinear
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.kernels.separable import Box, MexicanHat, Shifted
+from deodar.numerics.sigmoids import Absolute, Linear, SemiLinear, Step
 from tests.oracle import fields
 
 STEPS, EVERY, DT = 200, 20, 1.0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.history import History
+from deodar.elements.memories import History
 from deodar.errors import NotFinite
 from tests.contracts.timed import RISING, alone
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.integrator import Integrator
+from deodar.elements.variables import Integrator
 
 X = dd.Axis("x", 0, 3, 4)
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
-from deodar.elements.memory_trace import MemoryTrace
-from deodar.elements.pattern import Pattern
+from deodar.elements.memories import MemoryTrace
+from deodar.elements.stimuli import Boost, Pattern
 from deodar.errors import ModelError, ParameterError
 
 X = dd.Axis("x", 0, 30, 31)

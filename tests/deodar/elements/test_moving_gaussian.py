@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.moving_gaussian import MovingGaussian
+from deodar.elements.changing_stimuli import MovingGaussian
 from deodar.errors import ParameterError
 from deodar.model import document_files
 from tests.contracts.timed import alone

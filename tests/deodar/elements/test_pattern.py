@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import deodar as dd
-from deodar.elements.pattern import Pattern
+from deodar.elements.stimuli import Pattern
 
 X, Y = dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 1, 2)
 VALUES = np.arange(8.0).reshape(4, 2)

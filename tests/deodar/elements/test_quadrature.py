@@ -9,10 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.numerics.quadrature import cell_means
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.semilinear import SemiLinear
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Absolute, Linear, SemiLinear, Step
 from tests.oracle import fields
 
 SIGMOIDS = [dd.Logistic(3.0, 0.4), Absolute(20.0, -0.3), Step(0.2), Linear(0.6, 0.1), SemiLinear(0.5, 0.3)]

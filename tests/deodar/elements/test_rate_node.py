@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 import deodar as dd
-from deodar.elements.boost import Boost
-from deodar.elements.rate_node import RateNode
+from deodar.elements.populations import RateNode
+from deodar.elements.stimuli import Boost
 
 
 def test_a_step_follows_the_rate():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from tests.oracle import fields
 
 STEPS = 200

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.sampled_history import SampledHistory
+from deodar.elements.memories import SampledHistory
 from tests.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 3, 4)

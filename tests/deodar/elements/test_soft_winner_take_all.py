@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.noise import Noise
-from deodar.elements.pattern import Pattern
-from deodar.elements.soft_winner_take_all import SoftWinnerTakeAll
-from deodar.numerics.sigmoids.linear import Linear
+from deodar.elements.changing_stimuli import Noise
+from deodar.elements.populations import SoftWinnerTakeAll
+from deodar.elements.stimuli import Pattern
+from deodar.numerics.sigmoids import Linear
 
 ITEMS = dd.Axis("item", 1, 6, 6)
 EVIDENCE = np.array([1.0, 1.4, 0.2, 1.9, 1.7, 0.5])

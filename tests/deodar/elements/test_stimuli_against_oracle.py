@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.attractor import Attractor
-from deodar.elements.boost import Boost
-from deodar.elements.box_stimulus import BoxStimulus
+from deodar.elements.stimuli import Boost, BoxStimulus
+from deodar.elements.variables import Attractor
 from tests.oracle import fields
 
 LINE = dd.Axis("x", -3, 12, 16)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.time_series import TimeSeries
+from deodar.elements.changing_stimuli import TimeSeries
 from deodar.errors import ModelError, ParameterError
 from tests.contracts.timed import alone
 from tests.deodar.elements.chunks import require_the_same_in_any_chunks

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.time_series import TimeSeries
-from deodar.elements.transient_detector import TransientDetector
+from deodar.elements.changing_stimuli import TimeSeries
+from deodar.elements.populations import TransientDetector
 
 X = dd.Axis("x", 0, 2, 3)
 DT, TAU = 0.5, 20.0

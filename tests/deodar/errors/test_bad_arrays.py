@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.weighting import Weighting
+from deodar.couplings.weights import Weighting
 from deodar.errors import DocumentError, OutputExists
 from deodar.model import document_files
 from tests.deodar.errors.refused import refused

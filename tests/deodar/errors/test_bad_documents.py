@@ -12,15 +12,15 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.product import Product
-from deodar.couplings.weighting import Weighting
-from deodar.elements.boost import Boost
+from deodar.couplings.arithmetic import Product
+from deodar.couplings.weights import Weighting
 from deodar.elements.function import Function
+from deodar.elements.stimuli import Boost
 from deodar.errors import DeodarError, DocumentError
 from deodar.model import document_files
 from deodar.model.check import check
 from deodar.model.document import Document
-from deodar.numerics.kernels.shifted import Shifted
+from deodar.numerics.kernels.separable import Shifted
 from tests.deodar.errors.refused import paragraph, refused
 
 X = dd.Axis("x", 0, 10, samples=11)

@@ -12,15 +12,14 @@ import pytest
 
 import deodar as dd
 from deodar import registry
-from deodar.couplings.project import Project
-from deodar.couplings.weighting import Weighting
-from deodar.elements.boost import Boost
+from deodar.couplings.projections import Project
+from deodar.couplings.weights import Weighting
+from deodar.elements.changing_stimuli import Noise
 from deodar.elements.function import Function
-from deodar.elements.noise import Noise
+from deodar.elements.stimuli import Boost
 from deodar.errors import AxesError, DeodarError, ParameterError, UnknownName
-from deodar.numerics.kernels.box import Box
 from deodar.numerics.kernels.custom import Custom
-from deodar.numerics.kernels.shifted import Shifted
+from deodar.numerics.kernels.separable import Box, Shifted
 from deodar.parameters import Part, parameters
 from tests.deodar.errors.refused import paragraph, refused
 

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 import deodar as dd
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import UnknownName, WorldError
 from deodar.worlds.picture import Picture
 from tests.deodar.errors.refused import refused

@@ -9,17 +9,15 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.product import Product
-from deodar.couplings.resample import Resample
-from deodar.couplings.shift import Shift
+from deodar.couplings.arithmetic import Product
+from deodar.couplings.convolutions import Convolve, Shift
+from deodar.couplings.projections import Resample
 from deodar.couplings.weights import Weights
-from deodar.elements.boost import Boost
+from deodar.elements.changing_stimuli import Noise
 from deodar.elements.field import Field
-from deodar.elements.noise import Noise
+from deodar.elements.stimuli import Boost
 from deodar.errors import DeodarError, ModelError, NotFinite, ParameterError, TimeError, TooLarge, UnknownName
-from deodar.numerics.kernels.box import Box
-from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.numerics.kernels.separable import Box, MexicanHat
 from tests.deodar.errors.refused import refused
 
 X = dd.Axis("x", 0, 10, samples=11)
@@ -480,7 +478,7 @@ def test_a_diverging_run_names_the_element_and_the_step() -> None:
 
 
 def _linear() -> Any:
-    from deodar.numerics.sigmoids.linear import Linear
+    from deodar.numerics.sigmoids import Linear
 
     return Linear()
 

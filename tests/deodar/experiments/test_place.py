@@ -19,7 +19,7 @@ from deodar.experiments.measures import Measure
 from deodar.experiments.observable import Observable, mask
 from deodar.experiments.trial import TrialPlan
 from deodar.numerics.peak import position
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Step
 from tests.deodar.experiments.calls import changed
 
 LINE, RING, TURN = (

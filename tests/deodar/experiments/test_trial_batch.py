@@ -7,7 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.copy_batch import Batch
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import ParameterError, WorldError
 from deodar.experiments import trial_copies
 from deodar.experiments.events import Crosses, Within

@@ -11,13 +11,8 @@ from deodar.element import Element
 from deodar.model.resolve import resolve
 from deodar.model.wiring import Wiring
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.kernels.mexican_hat import MexicanHat
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.semilinear import SemiLinear
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.kernels.separable import MexicanHat, TruncatedGaussian
+from deodar.numerics.sigmoids import Absolute, Linear, SemiLinear, SigmoidFunction, Step
 from tests.contracts.build import KINDS, around, example
 
 X = dd.Axis("x", 0, 20, samples=21)

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import deodar as dd
-from deodar.couplings.product import Product
+from deodar.couplings.arithmetic import Product
 from deodar.errors import ModelError, UnknownName
 from deodar.model.check import problems
 

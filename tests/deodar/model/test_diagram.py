@@ -9,21 +9,18 @@ import pytest
 from PIL import Image
 
 import deodar as dd
-from deodar.couplings.convolve import Convolve
+from deodar.couplings.arithmetic import Product
+from deodar.couplings.convolutions import Convolve, Interaction
 from deodar.couplings.hebbian import Hebbian
-from deodar.couplings.interaction import Interaction
-from deodar.couplings.product import Product
 from deodar.couplings.weights import Weights
-from deodar.elements.boost import Boost
-from deodar.elements.motor import Motor
-from deodar.elements.pattern import Pattern
-from deodar.elements.rate_node import RateNode
-from deodar.elements.sensor import Sensor
+from deodar.elements.populations import RateNode
+from deodar.elements.stimuli import Boost, Pattern
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import DeodarError, ModelError, OutputExists
 from deodar.model import edit
 from deodar.model.sketch import caption, sketch
 from deodar.numerics.kernels.custom import Custom
-from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.numerics.kernels.separable import MexicanHat
 
 X = dd.Axis("x", 0, 20, samples=21, unit="deg")
 SVG = "{http://www.w3.org/2000/svg}"
@@ -242,6 +239,6 @@ def test_pictures_are_saved_as_svg_pdf_and_png(tmp_path):
 
 
 def test_captions_are_short():
-    from deodar.couplings.shift import Shift
+    from deodar.couplings.convolutions import Shift
 
     assert caption(Shift((2.0, -1.5))) == "shift 2, −1.5" and caption(dd.Project([X])) == "project integral"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName
 from deodar.model import edit
 from deodar.model.document import Document

@@ -13,7 +13,7 @@ import pytest
 import deodar as dd
 from deodar.couplings.weights import Weights
 from deodar.element import Coupling, Element
-from deodar.elements.noise import Noise
+from deodar.elements.changing_stimuli import Noise
 from deodar.errors import DeodarError, ParameterError, UnknownName
 from deodar.model.handle import Handle
 from deodar.model.part_handle import PartHandle, PartsHandle

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.pattern import Pattern
+from deodar.elements.stimuli import Pattern
 from deodar.errors import DocumentError, OutputExists
 from deodar.model import document_files, package
 

@@ -9,18 +9,14 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.diagonal_expansion import DiagonalExpansion
-from deodar.couplings.diagonal_sum import DiagonalSum
-from deodar.couplings.product import Product
-from deodar.couplings.resample import Resample
-from deodar.couplings.sum import Sum
+from deodar.couplings.arithmetic import Product, Sum
+from deodar.couplings.projections import DiagonalExpansion, DiagonalSum, Resample
 from deodar.couplings.weights import Weights
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.errors import ModelError
 from deodar.model.check import problems
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.kernels.box import Box
-from deodar.numerics.kernels.shifted import Shifted
+from deodar.numerics.kernels.separable import Box, Shifted
 
 X = dd.Axis("x", 0, 10, samples=11)
 Y = dd.Axis("y", 0, 10, samples=11)

@@ -6,9 +6,7 @@ import pytest
 
 import deodar as dd
 from deodar.model.checks.resolution import STEEP, steepness
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Absolute, Linear, Step
 
 
 def memory(

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.model.check import check, problems
 from deodar.numerics.axes import Axes
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.semilinear import SemiLinear
+from deodar.numerics.sigmoids import Linear, SemiLinear
 
 X = dd.Axis("x", 0, 10, samples=11)
 

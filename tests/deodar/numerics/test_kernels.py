@@ -10,10 +10,8 @@ import pytest
 
 from deodar import Axis, Gaussian
 from deodar.numerics import interaction
-from deodar.numerics.kernels.box import Box
 from deodar.numerics.kernels.custom import Custom
-from deodar.numerics.kernels.mexican_hat import MexicanHat
-from deodar.numerics.kernels.shifted import Shifted
+from deodar.numerics.kernels.separable import Box, MexicanHat, Shifted
 
 RING = Axis("phi", 0, 12, 24, periodic=True)
 LINE = Axis("x", -20, 20, 161)

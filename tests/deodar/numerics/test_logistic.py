@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from deodar.numerics.sigmoids import logistic
+from deodar.numerics import sigmoids
 
 
 def test_the_series_has_the_relative_error_that_is_stated() -> None:
     y = np.linspace(1e-6, 1, 10_000)
     exact = np.log1p(y) / y
-    assert np.abs(np.polyval(logistic._SERIES, y) / exact - 1).max() < 2e-7
+    assert np.abs(np.polyval(sigmoids._SERIES, y) / exact - 1).max() < 2e-7

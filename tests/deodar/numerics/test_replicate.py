@@ -6,12 +6,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.pattern import Pattern
-from deodar.numerics.kernels.box import Box
+from deodar.elements.stimuli import Pattern
 from deodar.numerics.kernels.custom import Custom
-from deodar.numerics.kernels.mexican_hat import MexicanHat
-from deodar.numerics.kernels.shifted import Shifted
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import Box, MexicanHat, Shifted, TruncatedGaussian
 
 ENDS = ["replicate"]
 

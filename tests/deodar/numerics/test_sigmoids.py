@@ -11,11 +11,7 @@ import pytest
 from scipy.integrate import quad
 
 import deodar as dd
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.semilinear import SemiLinear
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Absolute, Linear, SemiLinear, SigmoidFunction, Step
 
 ALL = [
     dd.Logistic(4.0, 0.3),

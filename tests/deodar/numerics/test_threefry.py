@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.noise import Noise
+from deodar.elements.changing_stimuli import Noise
 from deodar.numerics import noise
 from tests.oracle import noise as plain
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.convolve import Convolve
-from deodar.elements.pattern import Pattern
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.couplings.convolutions import Convolve
+from deodar.elements.stimuli import Pattern
+from deodar.numerics.kernels.separable import TruncatedGaussian
 
 LINE, RING, EVEN = (
     dd.Axis("x", 0, 30, 11),

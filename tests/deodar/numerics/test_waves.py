@@ -21,7 +21,7 @@ from deodar.errors import ParameterError
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axis
 from deodar.numerics.choice import Choice, bounds, bucket, candidates, choose
-from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.numerics.kernels.separable import MexicanHat
 from deodar.numerics.waves import Waves
 
 BOUNDARIES = ("periodic", "zero", "reflect")

@@ -11,7 +11,7 @@ import pytest
 import deodar as dd
 from deodar.elements.field import Field
 from deodar.errors import ParameterError, TimeError
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids import Logistic
 from deodar.recording import files, probe
 from deodar.recording.probe import Selector, series
 

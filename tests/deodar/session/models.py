@@ -6,9 +6,9 @@ import jax
 import numpy as np
 
 import deodar as dd
-from deodar.couplings.convolve import Convolve
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.noise import Noise
+from deodar.couplings.convolutions import Convolve
+from deodar.elements.changing_stimuli import Noise
+from deodar.elements.stimuli import GaussianStimulus
 
 x = dd.Axis("x", 0, 60, samples=31, periodic=True)
 y = dd.Axis("y", 0, 20, samples=11)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import TimeError
 from deodar.session.meter import Meter
 from deodar.session.pace import EXCHANGE, MOST_LAG, Pace

@@ -15,7 +15,7 @@ from jax.stages import Compiled
 import deodar as dd
 from deodar.compiler.executable import Executable
 from deodar.compiler.moment import WHOLE
-from deodar.couplings.convolve import Convolve
+from deodar.couplings.convolutions import Convolve
 from deodar.elements.function import Function
 from deodar.errors import TimeError
 from deodar.session import cost

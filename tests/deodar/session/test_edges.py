@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.attractor import Attractor
-from deodar.elements.boost import Boost
 from deodar.elements.function import Function
-from deodar.elements.sensor import Sensor
+from deodar.elements.stimuli import Boost
+from deodar.elements.variables import Attractor
+from deodar.elements.world_ports import Sensor
 from deodar.model.check import problems
 
 x = dd.Axis("x", 0, 20, samples=21)

@@ -12,8 +12,7 @@ import pytest
 
 import deodar as dd
 from deodar.elements.function import Function
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes
 from deodar.worlds._base import Signal, World

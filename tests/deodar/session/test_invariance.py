@@ -8,7 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.compiler import executable, program
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.session.run import Run
 from tests.deodar.session.models import RECORD, mixed
 

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.couplings.adaptive_weights import AdaptiveWeights
-from deodar.couplings.gain_adaptation import GainAdaptation
 from deodar.couplings.hebbian import Hebbian
-from deodar.elements.memory_trace import MemoryTrace
+from deodar.couplings.learning import AdaptiveWeights, GainAdaptation
+from deodar.elements.memories import MemoryTrace
 from deodar.errors import ParameterError
 
 X, Z = dd.Axis("x", 0, 20, 21), dd.Axis("z", 0, 10, 11)

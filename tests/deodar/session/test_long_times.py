@@ -15,10 +15,9 @@ import pytest
 import deodar as dd
 from deodar.compiler.functions import Functions, StepArguments
 from deodar.element import Setting, Time
-from deodar.elements.boost import Boost
-from deodar.elements.history import History
-from deodar.elements.moving_gaussian import MovingGaussian
-from deodar.elements.time_series import TimeSeries
+from deodar.elements.changing_stimuli import MovingGaussian, TimeSeries
+from deodar.elements.memories import History
+from deodar.elements.stimuli import Boost
 from deodar.errors import TimeError
 from deodar.leaves import leaves
 from deodar.model.model import Model

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.numerics.axes import Axes
-from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.sigmoids import Linear
 from deodar.session.run import Run
 from deodar.worlds._base import Signal, World
 from deodar.worlds.picture import Picture

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.boost import Boost
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.stimuli import Boost
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import WorldError
 from deodar.recording import files
 from deodar.recording.opened import opened

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import MissingExtra, WorldError
 from deodar.worlds import _capture
 from deodar.worlds.camera import Camera

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import deodar as dd
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.numerics.axes import Axis
 from deodar.worlds._solids import POSE
 from deodar_robots.mujoco.mujoco import MuJoCo

@@ -20,7 +20,7 @@ from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.plan import Leaf
 from deodar.compiler.program import precision_context
 from deodar.element import Element
-from deodar.elements.sensor import Sensor
+from deodar.elements.world_ports import Sensor
 from deodar.errors import AnalysisError, ParameterError, did_you_mean
 from deodar.leaves import leaves
 from deodar.model import edit, find

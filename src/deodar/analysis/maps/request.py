@@ -13,7 +13,7 @@ from deodar.analysis.selection import DISTANCE, places
 from deodar.compiler.driven import driven
 from deodar.compiler.plan import Leaf
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.stimuli import GaussianStimulus
 from deodar.errors import AnalysisError, ParameterError
 from deodar.model import edit, find
 from deodar.model.document import Document

@@ -16,7 +16,7 @@ from deodar.analysis.tuning.candidates import CandidateSpace, candidate_space
 from deodar.analysis.tuning.instabilities import DetectionRequirement
 from deodar.analysis.tuning.requirement import Requirement
 from deodar.compiler.plan import Leaf
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.errors import AnalysisError, ParameterError
 from deodar.model import find
 from deodar.model.model import Model

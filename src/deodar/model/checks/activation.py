@@ -6,19 +6,17 @@ import dataclasses as dc
 import math
 from collections.abc import Iterator
 
+from deodar.couplings.arithmetic import Threshold
 from deodar.couplings.hebbian import Hebbian
-from deodar.couplings.peak_position import PeakPosition
-from deodar.couplings.rate_code import RateCode
-from deodar.couplings.threshold import Threshold
+from deodar.couplings.positions import PeakPosition, RateCode
 from deodar.elements.field import Field
-from deodar.elements.memory_trace import MemoryTrace
-from deodar.elements.rate_node import RateNode
+from deodar.elements.memories import MemoryTrace
+from deodar.elements.populations import RateNode
 from deodar.errors import Problem
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import cell
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids import Linear, Logistic
 
 SILENT = 0.25
 """Output below which a field counts as silent (a guess: half of the output at its threshold)."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from deodar.couplings.gain import Gain
-from deodar.elements.motor import Motor
+from deodar.couplings.arithmetic import Gain
 from deodar.elements.placeholder import Placeholder
+from deodar.elements.world_ports import Motor
 from deodar.errors import Problem
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning

@@ -11,9 +11,7 @@ from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import Axes
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.kernels.mexican_hat import MexicanHat
-from deodar.numerics.kernels.shifted import Shifted
+from deodar.numerics.kernels.separable import Gaussian, MexicanHat, Shifted
 
 Fault = tuple[str, str]
 """What is wrong with a kernel, and what to write."""

@@ -11,12 +11,8 @@ from deodar.elements.field import Field
 from deodar.errors import Problem
 from deodar.leaves import per_axis
 from deodar.model.wiring import Wiring, warning
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.kernels.mexican_hat import MexicanHat
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.kernels.separable import Gaussian, MexicanHat, TruncatedGaussian
+from deodar.numerics.sigmoids import Absolute, Logistic, Step
 
 STEEP, STEEP_BEYOND = 5.0, 10.0
 """Change of beta u over one sample at the edge of a peak from which sums over points depend on the grid: over

@@ -6,16 +6,13 @@ import dataclasses as dc
 import math
 from collections.abc import Iterator
 
-from deodar.couplings.gain import Gain
-from deodar.couplings.sum import Sum
-from deodar.elements.box_stimulus import BoxStimulus
+from deodar.couplings.arithmetic import Gain, Sum
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.stimuli import BoxStimulus, GaussianStimulus
 from deodar.errors import Problem
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.semilinear import SemiLinear
+from deodar.numerics.sigmoids import Linear, SemiLinear
 
 LONGEST = 12
 """Largest number of elements of a linear loop."""

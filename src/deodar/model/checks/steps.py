@@ -6,11 +6,10 @@ import dataclasses as dc
 from collections.abc import Iterator
 from typing import Any
 
-from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.hebbian import Hebbian
-from deodar.elements.memory_trace import MemoryTrace
-from deodar.elements.moving_gaussian import MovingGaussian
-from deodar.elements.time_series import TimeSeries
+from deodar.couplings.learning import AdaptiveWeights
+from deodar.elements.changing_stimuli import MovingGaussian, TimeSeries
+from deodar.elements.memories import MemoryTrace
 from deodar.errors import Problem
 from deodar.leaves import per_axis, step_limits
 from deodar.model.limits import too_long

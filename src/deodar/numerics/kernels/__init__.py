@@ -1,1 +1,1 @@
-"""Interaction kernels, one per file; every module in this folder is registered."""
+"""Interaction kernels; every kernel that a module declares is registered."""

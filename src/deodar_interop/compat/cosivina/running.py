@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from deodar.couplings.delay import Delay
+from deodar.couplings.delays import Delay
 from deodar.errors import UnknownName, did_you_mean
 from deodar.importers.report import ImportReport
 from deodar.model import edit

@@ -6,15 +6,14 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from deodar.couplings.interaction import Interaction
-from deodar.couplings.project import Project
+from deodar.couplings.convolutions import Interaction
+from deodar.couplings.projections import Project
 from deodar.element import Element
 from deodar.importers.report import Line, Verdict
 from deodar.model.document import Document, Entry
 from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import Gaussian, TruncatedGaussian
 from deodar.parameters import parameters
 from deodar_interop.exporters.cosivina.layout import circular, layout, size, widths
 from deodar_interop.exporters.cosivina.part import FilePart, PartInput, PartLink, PartOutput

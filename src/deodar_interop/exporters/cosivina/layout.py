@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.convolution import boundaries
-from deodar.numerics.kernels.gaussian import NARROWEST
+from deodar.numerics.kernels.separable import NARROWEST
 from deodar.parameters import PerAxis
 from deodar_interop.importers._piece import Dims
 from deodar_interop.importers.cosivina.sizes import NAMES

@@ -9,8 +9,8 @@ from typing import Any, cast
 import numpy as np
 
 from deodar import codec
-from deodar.couplings.convolve import Convolve
-from deodar.elements.noise import Noise
+from deodar.couplings.convolutions import Convolve
+from deodar.elements.changing_stimuli import Noise
 from deodar.errors import ModelError
 from deodar.exporters.exported import Exported
 from deodar.importers.report import ImportReport, Line

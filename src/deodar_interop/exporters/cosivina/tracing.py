@@ -11,10 +11,10 @@ import dataclasses as dc
 import re
 from collections.abc import Mapping
 
-from deodar.couplings.delay import Delay
-from deodar.couplings.gain import Gain
-from deodar.couplings.project import Project
-from deodar.elements.boost import Boost
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.delays import Delay
+from deodar.couplings.projections import Project
+from deodar.elements.stimuli import Boost
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.resolve import Node
 from deodar_interop.exporters.cosivina.layout import layout

@@ -8,7 +8,7 @@ import numpy as np
 
 from deodar.codec import Json
 from deodar.element import Coupling
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.model.document import Entry
 from deodar_interop.importers.cedar.file import CedarGroup, StepPath, items, members, text
 from deodar_interop.importers.cedar.values import StepValues, number

@@ -7,23 +7,16 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from deodar.couplings.axis_weights import AxisWeights
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.delay import Delay
-from deodar.couplings.envelope import Envelope
-from deodar.couplings.gain import Gain
-from deodar.couplings.pointwise import Pointwise
-from deodar.couplings.product import Product
-from deodar.couplings.quotient import Quotient
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.couplings.sum import Sum
-from deodar.couplings.weights import Weights
+from deodar.couplings.arithmetic import Envelope, Gain, Pointwise, Product, Quotient, Sigmoid, Sum
+from deodar.couplings.convolutions import Convolve
+from deodar.couplings.delays import Delay
+from deodar.couplings.weights import AxisWeights, Weights
 from deodar.element import Element
-from deodar.elements.boost import Boost
+from deodar.elements.stimuli import Boost
 from deodar.importers.report import Verdict
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Step
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import projection
 from deodar_interop.importers.cedar.file import CedarStep

@@ -14,11 +14,8 @@ import numpy as np
 
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.kernels.box import Box
 from deodar.numerics.kernels.custom import Custom
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.kernels.shifted import Shifted
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import Box, Gaussian, Shifted, TruncatedGaussian
 from deodar_interop.importers.cedar.border import CedarBorder
 from deodar_interop.importers.cedar.values import StepValues
 

@@ -7,14 +7,11 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from deodar.couplings.adaptive_weights import AdaptiveWeights
-from deodar.couplings.gain import Gain
-from deodar.couplings.pointwise import Pointwise
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.couplings.sum import Sum
+from deodar.couplings.arithmetic import Gain, Pointwise, Sigmoid, Sum
+from deodar.couplings.learning import AdaptiveWeights
 from deodar.element import Element
-from deodar.elements.boost import Boost
-from deodar.elements.memory_trace import MemoryTrace
+from deodar.elements.memories import MemoryTrace
+from deodar.elements.stimuli import Boost
 from deodar.experiments.actions import Action, End, Set, Snapshot
 from deodar.experiments.design import OWN
 from deodar.experiments.events import All, Crosses, Event, Reached
@@ -23,7 +20,7 @@ from deodar.importers.report import Line, Verdict
 from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.model.paths import display
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Step
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers.cedar import translate
 from deodar_interop.importers.cedar.condition import DataCondition, TrialCondition, condition, rounded, short

@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.semilinear import SemiLinear
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Absolute, Linear, Logistic, SemiLinear, SigmoidFunction, Step
 from deodar_interop.importers.cedar.values import StepValues
 
 STEEPEST = 1e6

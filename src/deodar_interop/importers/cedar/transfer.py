@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.numerics.sigmoids._base import SigmoidFunction
+from deodar.couplings.arithmetic import Sigmoid
+from deodar.numerics.sigmoids import SigmoidFunction
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal
 from deodar_interop.importers.cedar.sigmoids import sigmoid
 from deodar_interop.importers.cedar.values import StepValues

@@ -20,10 +20,10 @@ import dataclasses as dc
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from deodar.couplings.delay import Delay
+from deodar.couplings.delays import Delay
 from deodar.element import Element
-from deodar.elements.boost import Boost
 from deodar.elements.placeholder import Placeholder
+from deodar.elements.stimuli import Boost
 from deodar.importers.report import Line
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers.cedar.file import CedarGroup, CedarWire, StepPath, text

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.numerics.kernels.gaussian import NARROWEST
+from deodar.numerics.kernels.separable import NARROWEST
 from deodar_interop.importers._values import LARGEST, ForeignValues
 from deodar_interop.importers.cosivina.file import array
 

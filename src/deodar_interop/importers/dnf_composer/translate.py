@@ -8,9 +8,9 @@ from pathlib import PurePath
 
 import numpy as np
 
-from deodar.couplings.sum import Sum
-from deodar.elements.pattern import Pattern
+from deodar.couplings.arithmetic import Sum
 from deodar.elements.placeholder import Placeholder
+from deodar.elements.stimuli import Pattern
 from deodar.importers._beside import Beside, nothing
 from deodar.importers.imported import Imported
 from deodar.importers.report import Line

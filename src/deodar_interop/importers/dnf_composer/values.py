@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, cast
 
-from deodar.numerics.kernels.gaussian import NARROWEST
+from deodar.numerics.kernels.separable import NARROWEST
 from deodar.parameters import show
 from deodar_interop.importers._foreign import Foreign
 from deodar_interop.importers._values import LARGEST, ForeignValues

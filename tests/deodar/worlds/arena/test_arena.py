@@ -11,9 +11,8 @@ import pytest
 
 import deodar as dd
 from deodar.couplings.weights import Weights
-from deodar.elements.boost import Boost
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.elements.stimuli import Boost
+from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import UnknownName, WorldError
 from deodar.worlds._settings import arguments
 from deodar.worlds.arena.arena import Arena

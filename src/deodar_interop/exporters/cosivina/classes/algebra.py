@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from deodar.couplings.delay import Delay
-from deodar.couplings.diagonal_sum import DiagonalSum
-from deodar.couplings.gain import Gain
-from deodar.couplings.product import Product
-from deodar.couplings.project import Project
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.couplings.sum import Sum
-from deodar.elements.boost import Boost
-from deodar.elements.pattern import Pattern
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.semilinear import SemiLinear
-from deodar.numerics.sigmoids.step import Step
+from deodar.couplings.arithmetic import Gain, Product, Sigmoid, Sum
+from deodar.couplings.delays import Delay
+from deodar.couplings.projections import DiagonalSum, Project
+from deodar.elements.stimuli import Boost, Pattern
+from deodar.numerics.sigmoids import Absolute, Logistic, SemiLinear, Step
 from deodar_interop.exporters.cosivina.classes.kernels import shift_input
 from deodar_interop.exporters.cosivina.classes.logistic import logistic
 from deodar_interop.exporters.cosivina.classes.shapes import diagonal_sum, sum_dimension

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from deodar.elements.field import Field
-from deodar.elements.integrator import Integrator
-from deodar.elements.memory_trace import MemoryTrace
+from deodar.elements.memories import MemoryTrace
 from deodar.elements.placeholder import Placeholder
-from deodar.elements.rate_node import RateNode
+from deodar.elements.populations import RateNode
+from deodar.elements.variables import Integrator
 from deodar.parameters import FrozenArray
 from deodar_interop.exporters.cosivina.classes.kernels import field_kernels
 from deodar_interop.exporters.cosivina.classes.logistic import logistic

@@ -10,10 +10,15 @@ from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, cell
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.kernels.gaussian import NARROWEST, Gaussian, integral, unresolved
-from deodar.numerics.kernels.mexican_hat import MexicanHat
-from deodar.numerics.kernels.shifted import Shifted
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import (
+    NARROWEST,
+    Gaussian,
+    MexicanHat,
+    Shifted,
+    TruncatedGaussian,
+    integral,
+    unresolved,
+)
 from deodar_interop.exporters.cosivina.draft import Given
 from deodar_interop.exporters.cosivina.layout import circular, is_row, widths
 from deodar_interop.importers._piece import Dims

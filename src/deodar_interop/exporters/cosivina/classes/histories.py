@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from deodar.elements.history import History
-from deodar.elements.sampled_history import SampledHistory
+from deodar.elements.memories import History, SampledHistory
 from deodar.numerics.axes import Axis
 from deodar.numerics.windows import FOR_EVER
 from deodar.parameters import FrozenArray

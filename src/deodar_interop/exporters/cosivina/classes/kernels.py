@@ -10,19 +10,15 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.interaction import Interaction
-from deodar.couplings.shift import Shift
+from deodar.couplings.convolutions import Convolve, Interaction, Shift
 from deodar.elements.field import Field
-from deodar.elements.pattern import Pattern
+from deodar.elements.stimuli import Pattern
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, cell
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.kernels.gaussian import NARROWEST, Gaussian
-from deodar.numerics.kernels.shifted import Shifted
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import NARROWEST, Gaussian, Shifted, TruncatedGaussian
 from deodar.parameters import FrozenArray
 from deodar_interop.exporters.cosivina.classes.gaussians import Bell, bells
 from deodar_interop.exporters.cosivina.classes.stimuli import kernel_values

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Absolute, Logistic, SigmoidFunction, Step
 from deodar_interop.exporters.cosivina.draft import Given
 
 STEEP = 1000.0

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from deodar.couplings.diagonal_expansion import DiagonalExpansion
-from deodar.couplings.diagonal_sum import DiagonalSum
-from deodar.couplings.gain import Gain
-from deodar.couplings.project import Project
-from deodar.couplings.resample import Resample
+from deodar.couplings.arithmetic import Gain
+from deodar.couplings.projections import DiagonalExpansion, DiagonalSum, Project, Resample
 from deodar.model.document import Entry
 from deodar_interop.exporters.cosivina.conversion import ConversionStep, NoConversion, conversion
 from deodar_interop.exporters.cosivina.draft import Given, Unwritable

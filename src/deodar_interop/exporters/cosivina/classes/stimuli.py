@@ -9,17 +9,11 @@ from typing import Any, cast
 import jax
 import numpy as np
 
-from deodar.couplings.gain import Gain
-from deodar.couplings.space_code import SpaceCode
-from deodar.couplings.sum import Sum
+from deodar.couplings.arithmetic import Gain, Sum
+from deodar.couplings.positions import SpaceCode
 from deodar.element import Setting
-from deodar.elements._stimulus import Stimulus
-from deodar.elements.boost import Boost
-from deodar.elements.box_stimulus import BoxStimulus
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.noise import Noise
-from deodar.elements.pattern import Pattern
-from deodar.elements.time_series import TimeSeries
+from deodar.elements.changing_stimuli import Noise, TimeSeries
+from deodar.elements.stimuli import Boost, BoxStimulus, GaussianStimulus, Pattern, Stimulus
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
 from deodar.numerics.axes import Axes, cell, shape

@@ -6,9 +6,8 @@ import math
 
 import numpy as np
 
-from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.hebbian import Hebbian
-from deodar.couplings.reward_gate import RewardGate
+from deodar.couplings.learning import AdaptiveWeights, RewardGate
 from deodar.couplings.weights import Weights
 from deodar.numerics.axes import cell, shape
 from deodar.parameters import FrozenArray

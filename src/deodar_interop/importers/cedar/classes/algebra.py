@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from deodar.couplings.steered_convolve import SteeredConvolve
-from deodar.elements.pattern import Pattern
-from deodar.numerics.sigmoids.absolute import Absolute
+from deodar.couplings.convolutions import SteeredConvolve
+from deodar.elements.stimuli import Pattern
+from deodar.numerics.sigmoids import Absolute
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.border import CedarBorder, border
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from deodar.couplings.space_code import SpaceCode
-from deodar.elements.pattern import Pattern
+from deodar.couplings.positions import SpaceCode
+from deodar.elements.stimuli import Pattern
 from deodar.numerics.axes import Axis
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.border import CedarBorder

@@ -9,16 +9,14 @@ import dataclasses as dc
 
 import numpy as np
 
-from deodar.couplings.rate_code import RateCode
-from deodar.couplings.space_code import SpaceCode
-from deodar.elements.attractor import Attractor
+from deodar.couplings.positions import RateCode, SpaceCode
 from deodar.elements.field import Field
-from deodar.elements.memory_trace import MemoryTrace
-from deodar.elements.pattern import Pattern
+from deodar.elements.memories import MemoryTrace
+from deodar.elements.stimuli import Pattern
+from deodar.elements.variables import Attractor
 from deodar.numerics.axes import Axis
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.kernels.separable import TruncatedGaussian
+from deodar.numerics.sigmoids import Absolute, Linear
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.border import CedarBorder, border
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step

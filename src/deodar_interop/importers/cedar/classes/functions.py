@@ -7,9 +7,8 @@ import math
 
 import numpy as np
 
-from deodar.couplings.axis_weights import AxisWeights
-from deodar.couplings.pseudo_inverse import PseudoInverse
-from deodar.elements.pattern import Pattern
+from deodar.couplings.weights import AxisWeights, PseudoInverse
+from deodar.elements.stimuli import Pattern
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.classes.algebra import chain
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step

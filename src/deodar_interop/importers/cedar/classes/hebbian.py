@@ -7,11 +7,8 @@ import math
 
 import numpy as np
 
-from deodar.couplings.adaptive_weights import AdaptiveWeights
-from deodar.couplings.reward_gate import RewardGate
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.linear import Linear
-from deodar.numerics.sigmoids.step import Step
+from deodar.couplings.learning import AdaptiveWeights, RewardGate
+from deodar.numerics.sigmoids import Linear, SigmoidFunction, Step
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
 from deodar_interop.importers.cedar.grid import Counts

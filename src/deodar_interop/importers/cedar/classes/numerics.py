@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from deodar.couplings.delay import Delay
-from deodar.elements.integrator import Integrator
+from deodar.couplings.delays import Delay
+from deodar.elements.variables import Integrator
 from deodar.numerics.axes import Axis
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step

@@ -6,12 +6,10 @@ import math
 
 import numpy as np
 
-from deodar.couplings.delay import Delay
-from deodar.couplings.delay_line import DelayLine
-from deodar.couplings.maximum_position import MaximumPosition
-from deodar.couplings.rate_code import RateCode
-from deodar.couplings.threshold import Threshold
-from deodar.elements.integrator import Integrator
+from deodar.couplings.arithmetic import Threshold
+from deodar.couplings.delays import Delay, DelayLine
+from deodar.couplings.positions import MaximumPosition, RateCode
+from deodar.elements.variables import Integrator
 from deodar.numerics.axes import Axis
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.classes.numerics import SECOND

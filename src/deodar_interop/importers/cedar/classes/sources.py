@@ -6,10 +6,8 @@ import math
 
 import numpy as np
 
-from deodar.elements.box_stimulus import BoxStimulus
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.noise import Noise
-from deodar.elements.pattern import Pattern
+from deodar.elements.changing_stimuli import Noise
+from deodar.elements.stimuli import BoxStimulus, GaussianStimulus, Pattern
 from deodar_interop.importers.cedar.border import CedarBorder
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
 from deodar_interop.importers.cedar.file import items

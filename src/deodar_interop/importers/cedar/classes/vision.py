@@ -11,10 +11,10 @@ import math
 
 import numpy as np
 
-from deodar.couplings.axis_weights import AxisWeights
-from deodar.couplings.hue_saturation_value import HueSaturationValue
-from deodar.elements.pattern import Pattern
-from deodar.elements.sensor import Sensor
+from deodar.couplings.pictures import HueSaturationValue
+from deodar.couplings.weights import AxisWeights
+from deodar.elements.stimuli import Pattern
+from deodar.elements.world_ports import Sensor
 from deodar.numerics.axes import Axis
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.classes.arrays import layered

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from deodar.couplings.gain import Gain
-from deodar.couplings.product import Product
-from deodar.couplings.sigmoid import Sigmoid
-from deodar.couplings.sum import Sum
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.semilinear import SemiLinear
+from deodar.couplings.arithmetic import Gain, Product, Sigmoid, Sum
+from deodar.numerics.sigmoids import Logistic, SemiLinear
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers.cosivina.classes.fields import STEEPEST
 from deodar_interop.importers.cosivina.element import SourceElement

@@ -6,16 +6,14 @@ import math
 
 import numpy as np
 
-from deodar.elements.boost import Boost
 from deodar.elements.field import Field
-from deodar.elements.history import History
-from deodar.elements.integrator import Integrator
-from deodar.elements.memory_trace import MemoryTrace
-from deodar.elements.rate_node import RateNode
-from deodar.elements.sampled_history import SampledHistory
+from deodar.elements.memories import History, MemoryTrace, SampledHistory
+from deodar.elements.populations import RateNode
+from deodar.elements.stimuli import Boost
+from deodar.elements.variables import Integrator
 from deodar.model.paths import display
 from deodar.numerics.axes import Axis, shape
-from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids import Logistic
 from deodar.numerics.windows import FOR_EVER
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers._piece import Dims, Unfit, axes

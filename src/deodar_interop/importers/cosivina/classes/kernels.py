@@ -5,14 +5,11 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Sequence
 
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.interaction import Interaction
-from deodar.couplings.project import Project
+from deodar.couplings.convolutions import Convolve, Interaction
+from deodar.couplings.projections import Project
 from deodar.model.paths import display
 from deodar.numerics.kernels._base import Kernel
-from deodar.numerics.kernels.gaussian import Gaussian
-from deodar.numerics.kernels.shifted import Shifted
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import Gaussian, Shifted, TruncatedGaussian
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers._piece import Dims, axes
 from deodar_interop.importers.cosivina.classes.stimuli import LETTERS, boundary

@@ -6,16 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from deodar.couplings.convolve import Convolve
-from deodar.couplings.diagonal_expansion import DiagonalExpansion
-from deodar.couplings.diagonal_sum import DiagonalSum
-from deodar.couplings.gain import Gain
-from deodar.couplings.sum import Sum
-from deodar.elements.pattern import Pattern
+from deodar.couplings.arithmetic import Gain, Sum
+from deodar.couplings.convolutions import Convolve
+from deodar.couplings.projections import DiagonalExpansion, DiagonalSum
+from deodar.elements.stimuli import Pattern
 from deodar.numerics.axes import Axis, shape
-from deodar.numerics.kernels.gaussian import NARROWEST
-from deodar.numerics.kernels.shifted import Shifted
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import NARROWEST, Shifted, TruncatedGaussian
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers._piece import Dims, Unfit, axes
 from deodar_interop.importers.cosivina.classes.kernels import add_sums

@@ -6,15 +6,10 @@ import math
 
 import numpy as np
 
-from deodar.couplings.gain import Gain
-from deodar.couplings.product import Product
-from deodar.couplings.space_code import SpaceCode
-from deodar.couplings.sum import Sum
-from deodar.elements.boost import Boost
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.noise import Noise
-from deodar.elements.pattern import Pattern
-from deodar.elements.time_series import TimeSeries
+from deodar.couplings.arithmetic import Gain, Product, Sum
+from deodar.couplings.positions import SpaceCode
+from deodar.elements.changing_stimuli import Noise, TimeSeries
+from deodar.elements.stimuli import Boost, GaussianStimulus, Pattern
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
 from deodar.numerics.windows import FOR_EVER, Window

@@ -5,9 +5,8 @@ from __future__ import annotations
 import dataclasses as dc
 from typing import TypeVar
 
-from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.hebbian import Hebbian
-from deodar.couplings.reward_gate import RewardGate
+from deodar.couplings.learning import AdaptiveWeights, RewardGate
 from deodar.couplings.weights import Weights
 from deodar.model.paths import display
 from deodar.numerics.axes import shape

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from deodar.couplings.gain import Gain
+from deodar.couplings.arithmetic import Gain
 from deodar.couplings.weights import Weights
 from deodar.errors import DeodarError
 from deodar.importers._beside import is_plain

@@ -5,14 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any, cast
 
-from deodar.elements.boost import Boost
 from deodar.elements.field import Field
-from deodar.elements.memory_trace import MemoryTrace
+from deodar.elements.memories import MemoryTrace
+from deodar.elements.stimuli import Boost
 from deodar.model.paths import display
-from deodar.numerics.sigmoids._base import SigmoidFunction
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.step import Step
+from deodar.numerics.sigmoids import Absolute, Logistic, SigmoidFunction, Step
 from deodar_interop.importers._element import translates
 from deodar_interop.importers._piece import axes
 from deodar_interop.importers.dnf_composer.element import StoredElement

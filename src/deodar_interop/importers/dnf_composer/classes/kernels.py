@@ -7,13 +7,13 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from deodar.couplings.interaction import Interaction
-from deodar.elements.pattern import Pattern
+from deodar.couplings.convolutions import Interaction
+from deodar.elements.stimuli import Pattern
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.custom import Custom
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import TruncatedGaussian
 from deodar_interop.importers._element import translates
 from deodar_interop.importers._piece import Dims, axes
 from deodar_interop.importers.dnf_composer import taps

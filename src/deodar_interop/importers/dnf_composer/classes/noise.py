@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from deodar.couplings.convolve import Convolve
-from deodar.elements.noise import Noise
+from deodar.couplings.convolutions import Convolve
+from deodar.elements.changing_stimuli import Noise
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.custom import Custom
-from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar.numerics.kernels.separable import TruncatedGaussian
 from deodar_interop.importers._element import translates
 from deodar_interop.importers._piece import axes
 from deodar_interop.importers.dnf_composer import taps

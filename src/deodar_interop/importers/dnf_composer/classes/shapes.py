@@ -7,10 +7,10 @@ import math
 
 import numpy as np
 
-from deodar.couplings.product import Product
-from deodar.couplings.project import Project
+from deodar.couplings.arithmetic import Product
+from deodar.couplings.projections import Project
 from deodar.couplings.weights import Weights
-from deodar.elements.pattern import Pattern
+from deodar.elements.stimuli import Pattern
 from deodar.numerics.axes import shape
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers._piece import Dims, Unfit, axes

@@ -7,10 +7,8 @@ import math
 
 import numpy as np
 
-from deodar.couplings.delay import Delay
-from deodar.elements.boost import Boost
-from deodar.elements.gaussian_stimulus import GaussianStimulus
-from deodar.elements.pattern import Pattern
+from deodar.couplings.delays import Delay
+from deodar.elements.stimuli import Boost, GaussianStimulus, Pattern
 from deodar.numerics.axes import Axis, shape
 from deodar.numerics.windows import Window
 from deodar_interop.importers._element import translates

@@ -1,1 +1,0 @@
-"""Sigmoids, one per file; every module in this folder is registered."""
