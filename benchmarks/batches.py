@@ -81,12 +81,12 @@ def rounding() -> None:
 
 
 def sizes() -> None:
-    from deodar.model.resolve import resolve
+    from deodar.model.graph import graph
     from deodar.session.memory import copy_bytes
 
     for name, us in BATCHED.items():
         model = workloads.WORKLOADS[name].model()
-        size = copy_bytes(resolve(model.document)[0], "float32")
+        size = copy_bytes(graph(model.document).nodes, "float32")
         shown: list[str] = []
         for copies in SIZES:
             if size * copies <= 4 * MOST_CELLS:

@@ -18,8 +18,9 @@ from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, TimeError, option
 from deodar.importers.report import ImportReport, Line, Verdict
 from deodar.model.document import Connection, Document, Entry
+from deodar.model.graph import graph
 from deodar.model.model import Model
-from deodar.model.resolve import Node, resolve
+from deodar.model.resolve import Node
 from deodar.model.unit import unit_seconds
 from deodar.parameters import parameters
 from deodar_spikes.counterparts import COUNTERPARTS, Counterpart, TranslationSetup
@@ -75,9 +76,7 @@ def translate(
         TooLarge: the network has too many neurons or weights.
     """
     doc = model.document
-    nodes, problems = resolve(doc)
-    if problems:
-        raise ModelError(problems)
+    nodes = graph(doc).required().nodes
     if neurons < 1:
         raise ParameterError(f"{neurons} neurons of a cell", fix=option("Give 1 or more:", "neurons", "20"))
     unit = unit_seconds(doc.time_unit)

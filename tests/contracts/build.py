@@ -19,7 +19,8 @@ from deodar.elements.changing_stimuli import Noise
 from deodar.elements.stimuli import Boost
 from deodar.leaves import leaves
 from deodar.model.check import problems as structural
-from deodar.model.resolve import Node, resolve
+from deodar.model.graph import graph
+from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes, shape
 from deodar.parameters import Part, parameters
 from deodar.worlds._base import World
@@ -99,7 +100,7 @@ def any_example(kind: str) -> Element:
 
 def node(model: dd.Model, path: str = "example") -> Node:
     """Return the element as the engine resolves it, with the axes at its ports."""
-    return next(n for n in resolve(model.document)[0] if n.path == path)
+    return next(n for n in graph(model.document).nodes if n.path == path)
 
 
 def session(model: dd.Model, **options: Any) -> dd.Session:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.numerics.axes import shape
 from deodar.parameters import FrozenArray
 from tests.contracts.build import KINDS, around
@@ -13,7 +13,7 @@ from tests.contracts.build import KINDS, around
 @pytest.mark.parametrize("kind", [name for name, cls in KINDS.items() if cls.maps])
 def test_maps_name_arrays_and_the_ports_of_their_dimensions(kind: str) -> None:
     model = around(KINDS[kind].example())
-    [node] = [n for n in resolve(model.document)[0] if n.path == "example"]
+    [node] = [n for n in graph(model.document).nodes if n.path == "example"]
     axes = {**node.ins, **node.outs}
     for name, ports in node.element.maps.items():
         array = getattr(node.element, name)

@@ -19,8 +19,8 @@ from deodar.elements.field import Field
 from deodar.errors import ParameterError, WorkerError
 from deodar.model import find
 from deodar.model.document import Document
+from deodar.model.graph import graph
 from deodar.model.model import Model
-from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
 from deodar.parameters import show
 from deodar.precision import Arithmetic
@@ -182,7 +182,7 @@ class RunPlan:
 
         `samples`: number of samples of each copy that stay in memory.
         """
-        nodes, _ = resolve(self.doc)
+        nodes = graph(self.doc).nodes
         rebuilt, precision = self.points.rebuilt(), self.arithmetic.precision
         cut = self._cut(memory.copy_bytes(nodes, precision, rebuilt, len(self.numbers)))
         of = {node.id: node for node in nodes}

@@ -15,11 +15,11 @@ import numpy as np
 from deodar.compiler.divided_axis import divided_axis
 from deodar.compiler.sharing import shared
 from deodar.compiler.strategies import EXACT, Strategy, strategies
-from deodar.errors import ModelError
 from deodar.leaves import bind, leaves, resting, structure
 from deodar.model.document import Document
-from deodar.model.order import NodeRole, order
-from deodar.model.resolve import Instant, Node, reach, readers, resolve
+from deodar.model.graph import graph
+from deodar.model.order import NodeRole
+from deodar.model.resolve import Instant, Node, reach, readers
 from deodar.numerics.axes import Axes
 from deodar.numerics.choice import MANY, Shards
 from deodar.numerics.exact import LOW
@@ -198,7 +198,8 @@ def plan(
         ModelError: the document has problems.
         DeviceError: it has no axis that these devices can divide.
     """
-    nodes, acts = _ordered(doc)
+    found = graph(doc).required()
+    nodes = found.nodes
     neutral = {n.id: _neutral(n, lifted) for n in nodes}
     still = _still(nodes, readings != "constant")
     shards = divided_axis(nodes, devices) if devices > 1 else None
@@ -211,21 +212,12 @@ def plan(
     sensory = _sensory(nodes, still) if readings == "held" else dict.fromkeys(still, False)
     groups, row = _groups(nodes, neutral, still, sensory, strategy_of)
     size = _place(groups, neutral)
-    calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
+    calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in found.acts))
     ports = [(g, port) for g, group in enumerate(groups) for port in group.like.reads]
     reads = {(g, port): _reads(groups[g], port, groups, row) for g, port in ports}
     sensors = {ident: k for k, ident in enumerate(sorted(n.id for n in nodes if n.element.external))}
     ticks = int(np.lcm.reduce([n.every for n in nodes] or [1]))
     return Plan(groups, calls, reads, row, sensors, size, ticks, shards)
-
-
-def _ordered(doc: Document) -> tuple[list[Node], Sequence[tuple[str, NodeRole, Instant]]]:
-    """Return the nodes of a document without problems, and their calls in order."""
-    nodes, problems = resolve(doc)
-    acts, loops = order(nodes) if not problems else ([], [])
-    if problems or loops:
-        raise ModelError([*problems, *loops])
-    return nodes, acts
 
 
 def strategies_of(
@@ -236,8 +228,8 @@ def strategies_of(
     devices: int = 1,
 ) -> dict[str, Strategy]:
     """Return the strategy of each element for its kernels, if not matrices."""
-    nodes, problems = resolve(doc)
-    if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
+    nodes = graph(doc).nodes
+    if graph(doc).problems or not any(n.element.kernels() for n in nodes):
         return {}
     shards = divided_axis(nodes, devices) if devices > 1 else None
     strategy_of = strategies(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies, shards)

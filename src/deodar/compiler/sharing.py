@@ -36,7 +36,7 @@ REST = "-"
 """Suffix of a port with the part of an input that does not arrive as spectral modes."""
 
 
-@dc.dataclass
+@dc.dataclass(frozen=True)
 class SharedNode(Node):
     """A node that shares waves: one with the ports that hold them."""
 

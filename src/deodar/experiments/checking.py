@@ -17,8 +17,8 @@ from deodar.experiments.observable import PLACE, Observable, mask
 from deodar.experiments.observations import require
 from deodar.model import edit, find
 from deodar.model.document import Document
+from deodar.model.graph import graph
 from deodar.model.model import Model
-from deodar.model.resolve import resolve
 from deodar.numerics.sigmoids import SigmoidFunction
 from deodar.session.exchange import used
 from deodar.session.run import require_step, whole
@@ -153,7 +153,7 @@ def _view(view: Observable, model: Model, world: World | None) -> None:
             )
         return
     entry, port = view.place(model.document)
-    axes = next(n for n in resolve(model.document)[0] if n.id == entry.id).axes(port)
+    axes = next(n for n in graph(model.document).nodes if n.id == entry.id).axes(port)
     mask(axes, view.near, view.radius)
     if view.reduce == PLACE and not axes:
         raise ParameterError(f"{view.of} is one number and has no position", fix="Use reduce='max'")

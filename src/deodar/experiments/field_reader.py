@@ -17,7 +17,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.experiments.observable import PLACE, REDUCES, Observable, mask
 from deodar.model import edit
 from deodar.model.document import Document
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.peak import position
 from deodar.parameters import Recompile
@@ -72,7 +72,7 @@ def with_readers(doc: Document, views: Sequence[Observable]) -> tuple[Document, 
 
     Views of single numbers, of input ports and of whole arrays are left out: they are read directly.
     """
-    nodes = {node.id: node for node in resolve(doc)[0]}
+    nodes = {node.id: node for node in graph(doc).nodes}
     at: dict[Observable, ReadPlace] = {}
     for view in views:
         source, port = view.place(doc)

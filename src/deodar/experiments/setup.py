@@ -23,8 +23,9 @@ from deodar.experiments.trial import Trial
 from deodar.experiments.trials import Trials
 from deodar.experiments.writing import trial_records, write_record, write_records
 from deodar.model import edit, find
+from deodar.model.graph import graph
 from deodar.model.model import Model, load
-from deodar.model.resolve import Node, resolve
+from deodar.model.resolve import Node
 from deodar.numerics.axes import shape
 from deodar.recording import provenance
 from deodar.recording.opened import named
@@ -269,9 +270,9 @@ class Setup(Summarised):
         out.programs = self.model.programs
         return out
 
-    @cached_property
-    def _nodes(self) -> list[Node]:
-        return resolve(self.model.document)[0]
+    @property
+    def _nodes(self) -> Sequence[Node]:
+        return graph(self.model.document).nodes
 
     @property
     def record_bytes(self) -> float:

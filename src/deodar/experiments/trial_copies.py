@@ -16,7 +16,7 @@ from deodar.errors import NotFinite, ParameterError
 from deodar.experiments.field_reader import ReadPlace
 from deodar.model import edit, find
 from deodar.model.document import Document
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import real
@@ -180,7 +180,7 @@ class TrialCopies:
                 break
         if size == len(self.rows):
             return
-        cells = memory.copy_bytes(resolve(self.run.doc)[0], "float32") // 4
+        cells = memory.copy_bytes(graph(self.run.doc).nodes, "float32") // 4
         if self.world is None and (len(self.rows) - size) * cells * steps_left < WORTH:
             return
         ended = [k for k in range(len(self.rows)) if k not in set(running)]

@@ -18,8 +18,8 @@ from deodar.experiments.running_trial import RunningTrial
 from deodar.experiments.trial import Trial, TrialPlan
 from deodar.experiments.trial_copies import Numbered, TrialCopies
 from deodar.experiments.trial_samples import LOOKS, SampledPlaces, Stops, TrialSamples
+from deodar.model.graph import graph
 from deodar.model.model import Model
-from deodar.model.resolve import resolve
 from deodar.session import agreement, memory
 from deodar.session.exchange import embodied
 from deodar.session.run import require_step
@@ -92,7 +92,7 @@ class Trials(Summarised):
         if together:
             doc, readers = with_readers(doc, plan.views)
         self.dynamics = Dynamics(staged, doc, precision, body=body)
-        self._nodes = resolve(doc)[0]
+        self._nodes = graph(doc).nodes
         self._places = SampledPlaces(doc, plan, None if together else world, readers)
 
     def __reduce__(self) -> tuple[type[Trials], tuple[object, ...]]:

@@ -13,7 +13,7 @@ from deodar.codec import Json
 from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.document import Document
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.recording import files
 from deodar.recording.record import dataset
 
@@ -59,7 +59,7 @@ def _labelled(
     values: Mapping[str, np.ndarray],
     description: Mapping[str, Json],
 ) -> xarray.Dataset:
-    nodes = {node.id: node for node in resolve(doc)[0]}
+    nodes = {node.id: node for node in graph(doc).nodes}
     variables: list[Any] = []
     for name in names:
         entry, port = find.shown(doc, name)

@@ -16,8 +16,8 @@ from deodar.codec import Json
 from deodar.errors import ModelError, UnknownName, did_you_mean
 from deodar.model import edit, find, new_elements
 from deodar.model.document import Connection, Document, Entry
+from deodar.model.graph import graph
 from deodar.model.paths import PathNames, display
-from deodar.model.resolve import resolve
 from deodar.numerics.axes import Axes
 
 BoxPosition = tuple[float, float]
@@ -372,7 +372,7 @@ def axes_around(
     """Return the axes of an output port and of an input port; None where they are unknown."""
     if source is None and target is None:
         return None, None
-    nodes = {n.id: n for n in resolve(doc)[0]}
+    nodes = {n.id: n for n in graph(doc).nodes}
     port_axes: list[Axes | None] = []
     for end, of in ((source, "outs"), (target, "ins")):
         node = nodes.get(find.entry(doc, end[0]).id) if end is not None else None

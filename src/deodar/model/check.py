@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from deodar.errors import Problem
 from deodar.model.document import Document
-from deodar.model.order import order
-from deodar.model.resolve import Node, resolve
+from deodar.model.graph import graph
+from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring
 from deodar.registry import imported
 
@@ -16,15 +16,15 @@ def check(doc: Document) -> list[Problem]:
     """Return all problems of the structure; without any, the warnings and the problems of the document's own
     step.
     """
-    nodes, problems = structure(doc)
-    return problems or judge(doc, nodes)
+    found = graph(doc)
+    return list(found.problems) or judge(doc, found.nodes)
 
 
 def problems(doc: Document) -> list[Problem]:
     """Return the problems that prevent every run at any step, without warnings. An empty list: it
     compiles.
     """
-    return structure(doc)[1]
+    return list(graph(doc).problems)
 
 
 def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
@@ -39,9 +39,3 @@ def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
         warnings += family.check(wiring)
     place = {e.path: k for k, e in enumerate(doc.entries)}
     return sorted(dict.fromkeys(warnings), key=lambda p: (p.severity, place.get(p.where, len(place))))
-
-
-def structure(doc: Document) -> tuple[list[Node], list[Problem]]:
-    """Return the resolved nodes and the problems that prevent every run."""
-    nodes, problems = resolve(doc)
-    return nodes, problems or order(nodes)[1]

@@ -122,10 +122,11 @@ class Document(Summarised):
     foreign: bool = dc.field(default=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the state for a pickle, without trust: trust is valid only in the process in which it was
-        given.
+        """Return the state for a pickle, without cached look-ups and without trust: it is valid only in the
+        process in which it was given.
         """
-        return {**self.__dict__, "foreign": True}
+        kept = {name: value for name, value in self.__dict__.items() if not name.startswith("_")}
+        return {**kept, "foreign": True}
 
     def asks(self) -> bool:
         """Return whether the document names functions that the user has not allowed to be run."""

@@ -17,7 +17,8 @@ from deodar.element import Coupling, Element
 from deodar.errors import AxesError, DeodarError
 from deodar.model import document_files, edit, find, new_elements
 from deodar.model.document import Document, Entry
-from deodar.model.resolve import Node, misfit, reach, resolve
+from deodar.model.graph import graph
+from deodar.model.resolve import Node, misfit, reach
 from deodar.numerics.axes import Axes, Axis, describe, shape
 from deodar.parameters import parameters
 
@@ -232,8 +233,8 @@ class _Judge:
 
     def __init__(self, doc: Document) -> None:
         self.doc = doc
-        nodes, self.problems = resolve(doc)
-        self.nodes = {n.id: n for n in nodes if n.declared}
+        self.problems = graph(doc).problems
+        self.nodes = {n.id: n for n in graph(doc).nodes if n.declared}
         self.axes = document_files.axes(doc)
         self.ends = doc.ends()
         self.resolved = 0
@@ -350,7 +351,7 @@ class _Judge:
             return ""
         self.resolved += 1
         new = edit.connect(self.doc, source, port, target, name)
-        new_problems = [p for p in resolve(new)[1] if p not in self.problems]
+        new_problems = [p for p in graph(new).problems if p not in self.problems]
         return f"{new_problems[0].where}: {new_problems[0].what}" if new_problems else ""
 
     def upstream(self, ident: str, port: str) -> set[tuple[str, str]]:

@@ -13,8 +13,8 @@ Act = tuple[str, NodeRole, Instant]
 """Element id, role, and instant: outputs at t (0) or t + dt (1), an advance at t."""
 
 
-def order(nodes: Sequence[Node]) -> tuple[list[Act], list[Problem]]:
-    """Return all evaluations of a step in topological order; sets `level` of each node.
+def order(nodes: Sequence[Node]) -> tuple[list[Act], dict[str, tuple[int, ...]], list[Problem]]:
+    """Return all evaluations of a step in topological order, the level of each node, and loops.
 
     A read of `current` orders the advance of its source before it. Nodes of equal level can be evaluated
     together.
@@ -30,12 +30,10 @@ def order(nodes: Sequence[Node]) -> tuple[list[Act], list[Problem]]:
     for act in walk.acts:
         if act[1] == "advance" and act[0] not in walk.ahead:
             walk.depth[act] = last  # no element reads its new state: all such elements advance together
-    for n in nodes:
-        acts: tuple[Act, ...] = ((n.id, "output", 0), (n.id, "advance", 0), (n.id, "output", 1))
-        n.level = tuple(walk.depth.get(act, -1) for act in acts)
+    roles: tuple[tuple[NodeRole, Instant], ...] = (("output", 0), ("advance", 0), ("output", 1))
+    levels = {n.id: tuple(walk.depth.get((n.id, role, at), -1) for role, at in roles) for n in nodes}
     place = {n.id: k for k, n in enumerate(sorted(nodes, key=lambda n: n.id))}
-
-    return sorted(walk.acts, key=lambda act: (walk.depth[act], place[act[0]])), walk.problems
+    return sorted(walk.acts, key=lambda act: (walk.depth[act], place[act[0]])), levels, walk.problems
 
 
 class _Walk:

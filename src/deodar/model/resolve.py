@@ -26,7 +26,7 @@ Slot = tuple[str, str, Instant]
 """Element id, output port, and the time of reading: 0 at time t, 1 at t + dt."""
 
 
-@dc.dataclass
+@dc.dataclass(frozen=True)
 class Node:
     """One resolved element."""
 
@@ -181,7 +181,7 @@ class _Resolver:
             if ident in self.failed:
                 return None
         try:
-            node.outs = dict(entry.element.outputs(node.ins))
+            node.outs.update(entry.element.outputs(node.ins))
         except KeyError:
             return None
         self.nodes[ident] = node

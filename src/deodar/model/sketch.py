@@ -18,7 +18,7 @@ from deodar.elements.world_ports import Motor, Sensor
 from deodar.model import find
 from deodar.model.building import positions
 from deodar.model.document import Connection, Document, Entry
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.numerics.axes import Axes
 from deodar.numerics.signs import Sign, product
 from deodar.parameters import Part, parameters
@@ -97,7 +97,7 @@ class _Sketch:
         self.connections = connections
 
     def run(self) -> Graph:
-        axes = {node.id: node.outs for node in resolve(self.doc)[0]}
+        axes = {node.id: node.outs for node in graph(self.doc).nodes}
         chained = self._chained()
         wires = [w for c in self.connections if c.source not in chained for w in [self._wire(c, chained)]]
         passed = {e for c in self.connections if c.source not in chained for e in self._follow(c, chained)[1]}

@@ -18,7 +18,7 @@ import xarray
 from deodar.errors import DeodarError, RecordError, UnknownName, option
 from deodar.model import find
 from deodar.model.document import Document
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.numerics.axes import Axes
 from deodar.recording import diverged, files, provenance, writer_lock
 from deodar.recording.record import about, time_dimension
@@ -88,7 +88,7 @@ class RecordReader:
                 f"is damaged: its provenance cannot be read ({text})", where=str(path)
             ) from None
         self._take(record)
-        self._axes = {n.id: {**n.ins, **n.outs} for n in resolve(self.document)[0] if n.declared}
+        self._axes = {n.id: {**n.ins, **n.outs} for n in graph(self.document).nodes if n.declared}
         self._names: dict[PortPlace, str] = {}
         for name in map(str, self.data.data_vars):
             try:

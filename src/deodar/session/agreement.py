@@ -16,7 +16,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from deodar.element import Element
 from deodar.errors import Fix, Problem, RunWarning, option
 from deodar.model.document import Document
-from deodar.model.resolve import Node, resolve
+from deodar.model.graph import graph
+from deodar.model.resolve import Node
 from deodar.numerics import units
 from deodar.numerics.axes import Axis, barely_overlap
 from deodar.numerics.positions import PositionCode, PositionUnit, PositionUnits
@@ -35,8 +36,8 @@ def judge(doc: Document, world: World | None) -> list[Problem]:
         p for e in doc.entries if e.element.sensor_name() for p in _axes(e.path, e.element, world)
     ]
     if _exchanges_positions(doc, world):
-        nodes, problems = resolve(doc)
-        problems_of_world += [] if problems else _Tracer(nodes, world).judge()
+        found = graph(doc)
+        problems_of_world += [] if found.problems else _Tracer(found.nodes, world).judge()
     return problems_of_world
 
 

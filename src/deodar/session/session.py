@@ -20,8 +20,8 @@ from deodar.compiler.program import Port
 from deodar.errors import DeviceError, ModelError, ParameterError, TimeError, UnknownName, WorldError, option
 from deodar.model import edit, find
 from deodar.model.document import Document
+from deodar.model.graph import graph
 from deodar.model.model import Handle, Model, path_of
-from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
 from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe, probes
@@ -95,7 +95,7 @@ class Session(Summarised):
             hosts.require_equal("the model", stored(doc))
             hosts.require_equal("the arguments of the session", arguments)
         model.require()
-        memory.require(resolve(doc)[0], numbers, 1, 0)
+        memory.require(graph(doc).nodes, numbers, 1, 0)
         step = doc.step if dt is None else dt
         require_step(doc, step)
         dynamics = Dynamics(model, doc, numbers, accuracy, distribution or self.device)

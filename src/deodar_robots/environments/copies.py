@@ -12,7 +12,7 @@ from deodar.compiler.dynamics import Dynamics
 from deodar.experiments.field_reader import ReadPlace, with_readers
 from deodar.experiments.observable import Observable
 from deodar.model import find
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.session import agreement, memory
 from deodar.session.exchange import embodied
 from deodar.session.run import Run
@@ -32,7 +32,7 @@ class LoopCopies:
         self.loop, doc = loop, loop.model.document
         agreement.warn(doc, loop.world, stacklevel=4)
         self._doc, self._at = with_readers(doc, loop.views)
-        memory.require(resolve(self._doc)[0], loop.precision, copies, 0)
+        memory.require(graph(self._doc).nodes, loop.precision, copies, 0)
         leaves = tuple(tuple(driven(self._doc, path)) for path in loop.act)
         self._first = [np.full(copies, float(find.value(self._doc, path))) for path in loop.act]
         body = embodied(self._doc, loop.world)

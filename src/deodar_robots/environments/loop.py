@@ -18,8 +18,8 @@ from deodar.experiments.observable import Observable
 from deodar.experiments.observations import require
 from deodar.leaves import leaves
 from deodar.model import find
+from deodar.model.graph import graph
 from deodar.model.model import Model
-from deodar.model.resolve import resolve
 from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import shape
 from deodar.parameters import real, show
@@ -241,7 +241,7 @@ def _seen(model: Model, see: Sequence[str]) -> dict[str, tuple[str, str, tuple[i
 
 
 def _shape(model: Model, ident: str, port: str) -> tuple[int, ...]:
-    node = next(n for n in resolve(model.document)[0] if n.id == ident)
+    node = next(n for n in graph(model.document).nodes if n.id == ident)
     return shape(node.outs[port] if port in node.outs else node.ins[port])
 
 

@@ -24,7 +24,7 @@ from deodar.experiments.results import ROWS, run_trials
 from deodar.experiments.rows import Row
 from deodar.experiments.setup import Setup
 from deodar.model import find, output
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.numerics.axes import shape
 from deodar.progress import Progress
 from deodar.recording import writer_lock
@@ -282,7 +282,7 @@ class ExperimentRun:
         of each field, the first output of other elements.
         """
         e, doc = self.setup.experiment, self.setup.model.document
-        nodes = {node.id: node for node in resolve(doc)[0]}
+        nodes = {node.id: node for node in graph(doc).nodes}
         frames = self.setup.steps if e.plan.every is None else e.plan.limit / e.plan.every
         size: dict[str, float] = {}
         for entry in doc.entries:

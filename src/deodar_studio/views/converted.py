@@ -16,8 +16,8 @@ from deodar.element import Element
 from deodar.errors import Problem
 from deodar.importers import stored_report
 from deodar.model import document_files, find
-from deodar.model.check import structure
 from deodar.model.document import Document, Entry
+from deodar.model.graph import graph
 from deodar.model.parts import to_json
 from deodar.model.resolve import Node
 from deodar.model.sketch import effect
@@ -70,9 +70,9 @@ def convert(doc: Document, before: Converted | None = None) -> Converted:
     """Convert a document; elements that `before` has already are taken from there."""
     if before is not None and _same_model(before.document, doc):
         return dc.replace(before, document=doc)
-    nodes, problems = structure(doc)
+    resolved = graph(doc)
     axes, arrays = document_files.axes(doc), document_files.arrays(doc)
-    found = {n.id: n for n in nodes if n.declared}
+    found = {n.id: n for n in resolved.nodes if n.declared}
     ports: dict[str, Ports] = {e.id: _ports(found.get(e.id)) for e in doc.entries}
     old: Mapping[str, Entry] = {}
     if before is not None and _same_axes(before.axes, axes) and _same_arrays(before.arrays, arrays):
@@ -84,7 +84,7 @@ def convert(doc: Document, before: Converted | None = None) -> Converted:
             elements[e.id] = before.elements[e.id]
         else:
             elements[e.id] = _element(e, ports[e.id], named, arrays)
-    return Converted(doc, axes, arrays, ports, elements, problems, nodes)
+    return Converted(doc, axes, arrays, ports, elements, resolved.problems, resolved.nodes)
 
 
 def _same_model(old: Document, new: Document) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 import deodar as dd
 from deodar.compiler.executable import executable
 from deodar.compiler.plan import plan
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.model.sketch import caption
 
 x = dd.Axis("x", 0, 10, samples=11)
@@ -97,12 +97,12 @@ def masked(source: Sequence[dd.Axis], mask: Sequence[dd.Axis]) -> dd.Model:
 
 
 def test_a_port_that_follows_another_takes_its_axes() -> None:
-    node = next(n for n in resolve(masked([x], []).document)[0] if n.path == "m")
+    node = next(n for n in graph(masked([x], []).document).nodes if n.path == "m")
     assert node.ins["mask"] == node.ins["input"] == (x,)
 
 
 def test_a_port_that_follows_another_refuses_more_axes_and_names_it() -> None:
-    problems = resolve(masked([x], [x, y]).document)[1]
+    problems = graph(masked([x], [x, y]).document).problems
     assert len(problems) == 1 and "it has more axes" in problems[0].what
     assert "the port 'input' takes the larger one" in problems[0].fix
 

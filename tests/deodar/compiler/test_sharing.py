@@ -15,7 +15,7 @@ from deodar.compiler.executable import executable
 from deodar.compiler.plan import plan
 from deodar.compiler.strategies import role
 from deodar.errors import ModelError
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 
 SQUARE = [dd.Axis(name, 0, 40, samples=40, periodic=True) for name in "xy"]
 
@@ -90,7 +90,7 @@ def coupled(kind: type[dd.Field], axes: Sequence[dd.Axis] = SQUARE) -> dd.Model:
 
 
 def roles(model: dd.Model) -> dict[str, str]:
-    return {n.path: role(n) for n in resolve(model.document)[0]}
+    return {n.path: role(n) for n in graph(model.document).nodes}
 
 
 def shares(model: dd.Model, path: str) -> bool:
@@ -102,7 +102,7 @@ def test_roles_follow_from_declarations() -> None:
     roles_of_fields = roles(coupled(dd.Field))
     assert roles_of_fields["u"] == "source" and roles_of_fields["s"] == ""
     assert sorted(roles_of_fields.values()) == ["", "filter", "filter", "gain", "source", "source"]
-    assert role(resolve(_with(dd.Logarithm()).document)[0][1]) == ""
+    assert role(graph(_with(dd.Logarithm()).document).nodes[1]) == ""
 
 
 def _with(coupling: dd.Coupling) -> dd.Model:

@@ -9,7 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.plan import plan
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.numerics import interaction
 from deodar.recording.provenance import KEY
 from deodar.session import memory
@@ -79,7 +79,7 @@ def test_a_sweep_over_a_kernel_gives_the_run_of_every_value(shape: tuple[int, ..
 
 def test_matrices_of_each_copy_count_in_the_size_of_a_piece() -> None:
     document = selection((200,)).document
-    nodes, _ = resolve(document)
+    nodes = graph(document).nodes
     (u,) = [e.id for e in document.entries if e.path == "u"]
     ports = memory.copy_bytes(nodes, "float32")
     assert ports < 10_000

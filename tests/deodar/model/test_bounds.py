@@ -8,7 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.element import Element
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar.model.wiring import Wiring
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.separable import MexicanHat, TruncatedGaussian
@@ -21,7 +21,7 @@ STATED = [kind for kind in KINDS if type(example(kind)).bounds is not Element.bo
 
 def _inside(model: dd.Model, ports: list[str], duration: float = 60) -> float:
     """Require every value inside its interval; return the used share of the widest one."""
-    wiring = Wiring(model.document, resolve(model.document)[0])
+    wiring = Wiring(model.document, graph(model.document).nodes)
     record = dd.simulate(model, duration, dt=1, record=ports, every=1, precision="float64")
     used = 0.0
     for port in ports:

@@ -11,13 +11,12 @@ import numpy as np
 from deodar import codec
 from deodar.couplings.convolutions import Convolve
 from deodar.elements.changing_stimuli import Noise
-from deodar.errors import ModelError
 from deodar.exporters.exported import Exported
 from deodar.importers.report import ImportReport, Line
 from deodar.model.document import Connection, Document
+from deodar.model.graph import graph
 from deodar.model.model import Model
 from deodar.model.paths import display
-from deodar.model.resolve import resolve
 from deodar_interop.exporters.cosivina.classes import KINDS
 from deodar_interop.exporters.cosivina.conversion import NoConversion, conversion
 from deodar_interop.exporters.cosivina.draft import Draft, Given, Unwritable
@@ -41,9 +40,7 @@ def write(model: Model, name: str) -> Exported:
         ModelError: the model has problems; the error lists all.
     """
     doc = model.document
-    nodes, problems = resolve(doc)
-    if problems:
-        raise ModelError(problems)
+    nodes = graph(doc).required().nodes
     draft = Draft(doc, {n.id: n for n in nodes})
     for entry in doc.entries:
         if entry.id in draft.claimed:

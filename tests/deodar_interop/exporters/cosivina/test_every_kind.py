@@ -7,7 +7,7 @@ import pytest
 import deodar as dd
 from deodar import registry
 from deodar.model.check import problems
-from deodar.model.resolve import resolve
+from deodar.model.graph import graph
 from deodar_interop.exporters.cosivina import write
 from deodar_interop.importers.cosivina import read
 
@@ -37,7 +37,7 @@ def around(kind: str) -> dd.Model:
             m.add(dd.Field(f"to {port}", list(axes if own is None else own))) >> it[port]
         if problems(m.document):
             continue
-        (node,) = (n for n in resolve(m.document)[0] if n.id == it.id)
+        (node,) = (n for n in graph(m.document).nodes if n.id == it.id)
         if "output" in node.outs:
             it >> m.add(dd.Field("reader", list(node.outs["output"])))
         if not problems(m.document):

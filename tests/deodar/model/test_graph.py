@@ -1,0 +1,52 @@
+"""The graph of a document is made once."""
+
+from __future__ import annotations
+
+import pickle
+
+import pytest
+
+import deodar as dd
+from deodar.errors import ModelError
+from deodar.model import graph as graphs
+from deodar.model.document import Document
+from deodar.model.graph import graph
+
+
+def chain() -> dd.Model:
+    model = dd.Model("chain")
+    model.add(dd.Boost("b", [], 1.0)) >> dd.Gain(2.0) >> model.add(dd.Field("u", []))
+    return model
+
+
+def test_a_document_is_resolved_once_for_its_check_its_program_and_its_runs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    resolved: list[Document] = []
+    resolve = graphs.resolve
+    monkeypatch.setattr(graphs, "resolve", lambda doc: (resolved.append(doc), resolve(doc))[1])
+    model = chain()
+    model.check()
+    dd.Session(model).step()
+    dd.simulate(model, 1)
+    assert len(resolved) == 1
+
+
+def test_the_graph_of_a_document_does_not_travel_with_it() -> None:
+    doc = chain().document
+    assert graph(doc) is graph(doc)
+    assert "_graph" not in pickle.loads(pickle.dumps(doc)).__dict__
+
+
+def test_only_the_latest_documents_keep_their_graphs() -> None:
+    docs = [chain().document for _ in range(graphs.MOST_KEPT + 1)]
+    first, *_, last = [graph(doc) for doc in docs]
+    assert graph(docs[-1]) is last and graph(docs[0]) is not first
+
+
+def test_a_graph_with_problems_has_no_order() -> None:
+    model = dd.Model("open")
+    model.add(dd.Gain(2.0, name="g"))
+    assert graph(model.document).problems and not graph(model.document).acts
+    with pytest.raises(ModelError, match="its axes are unknown"):
+        graph(model.document).required()
