@@ -427,17 +427,18 @@ def changed(action: Action, world: World | None) -> World:
         action.world_method: "calls World.{}",
         **dict.fromkeys(("arrangement", "arrange"), "needs World.{}, to restore objects after a trial"),
     }
+    stage = type(world.stage)
+    kind = stage.__name__
     for method, need in needs.items():
-        if getattr(type(world), method) is getattr(World, method):
-            kind = type(world).__name__
+        if getattr(stage, method) is getattr(World, method):
             raise WorldError(
                 f"the action {name} {need.format(method)}, which the world {kind} does not have",
                 fix="Use a world that has it, such as dd.Arena",
             )
     for argument in action.world_arguments:
-        if argument not in inspect.signature(getattr(type(world), action.world_method)).parameters:
+        if argument not in inspect.signature(getattr(stage, action.world_method)).parameters:
             raise WorldError(
-                f"the action {name} has a {argument}, and {type(world).__name__}.{action.world_method} has no"
+                f"the action {name} has a {argument}, and {kind}.{action.world_method} has no"
                 f" argument {argument!r}",
                 fix=f"Leave {argument} out, or use a world that has it, such as dd.Arena",
             )

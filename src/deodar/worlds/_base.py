@@ -16,6 +16,7 @@ from deodar.codec import Json
 from deodar.errors import Problem, WorldError, did_you_mean
 from deodar.numerics.axes import Axes, shape
 from deodar.worlds._link_state import LinkState
+from deodar.worlds._motor_rule import MotorRule
 from deodar.worlds._scene import Scene
 
 
@@ -63,6 +64,7 @@ class World:
     Class attributes:
         sensors: signals of the sensors by name.
         motors: signals of the motors by name.
+        rules: what motors allow, by name; one without a rule allows any command.
         stands_in: whether the example of this class may be used when the user chose no world; False if the
             class needs an extra or a device.
         repeatable: whether a restored state leads to the same readings again; False if they come from
@@ -78,6 +80,7 @@ class World:
 
     sensors: Mapping[str, Signal] = {}
     motors: Mapping[str, Signal] = {}
+    rules: Mapping[str, MotorRule] = {}
     period: float | None = None
     stands_in: ClassVar[bool] = True
     repeatable: ClassVar[bool] = True
@@ -134,6 +137,9 @@ class World:
         Nothing by default: a simulated world does not move while its model pauses.
         """
 
+    def close(self) -> None:
+        """Release devices, files and connections; nothing by default."""
+
     def link(self) -> LinkState | None:
         """Return how well the link with the robot works; None if the world is not in another process."""
         return None
@@ -167,9 +173,14 @@ class World:
         raise WorldError(f"nothing can be placed in the world {type(self).__name__}", where=name)
 
     @property
+    def stage(self) -> World:
+        """The world whose objects the methods for objects change: this one, or one inside of it."""
+        return self
+
+    @property
     def can_place(self) -> bool:
         """Whether `place` adds objects."""
-        return type(self).place is not World.place
+        return type(self.stage).place is not World.place
 
     def remove(self, name: str) -> None:
         """Remove an object from the scene."""

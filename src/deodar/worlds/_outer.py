@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import functools
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from deodar.errors import Problem
 from deodar.worlds._base import World
-from deodar.worlds._link_state import LinkState
-from deodar.worlds._scene import Scene
+
+INNER = (
+    *("scene", "preview", "halt", "link", "alternative"),
+    *("place", "move", "remove", "push", "arrangement", "arrange", "validate_object"),
+)
+"""Methods that an `OuterWorld` calls in the world that it is around, with all arguments."""
 
 
 class OuterWorld(World):
@@ -16,39 +21,41 @@ class OuterWorld(World):
 
     world: World
 
-    def scene(self) -> Scene | None:
-        return self.world.scene()
-
-    def link(self) -> LinkState | None:
-        return self.world.link()
+    @property
+    def members(self) -> tuple[World, ...]:
+        """The worlds that it is made of, `world` first."""
+        return (self.world,)
 
     @property
-    def can_place(self) -> bool:
-        return self.world.can_place
+    def stage(self) -> World:
+        return self.world.stage
 
-    def move(self, name: str, center: Sequence[float]) -> None:
-        self.world.move(name, center)
+    @property
+    def repeatable(self) -> bool:  # type: ignore[override]
+        """Whether a restored state leads to the same readings again."""
+        return all(member.repeatable for member in self.members)
 
-    def place(
-        self,
-        name: str,
-        center: Sequence[float],
-        size: Sequence[float],
-        color: Sequence[float] = (0.72, 0.53, 0.3),
-    ) -> None:
-        self.world.place(name, center, size, color)
+    @property
+    def wall_clock(self) -> bool:  # type: ignore[override]
+        """Whether it follows the wall clock."""
+        return any(member.wall_clock for member in self.members)
 
-    def remove(self, name: str) -> None:
-        self.world.remove(name)
+    def validate(self) -> Iterator[Problem]:
+        for member in self.members:
+            yield from member.validate()
 
-    def push(self, body: str, force: Sequence[float]) -> None:
-        self.world.push(body, force)
+    def close(self) -> None:
+        for member in self.members:
+            member.close()
 
-    def arrangement(self) -> Any:
-        return self.world.arrangement()
 
-    def arrange(self, kept: Any) -> None:
-        self.world.arrange(kept)
+def _passed_on(name: str) -> Callable[..., Any]:
+    @functools.wraps(getattr(World, name))
+    def method(self: OuterWorld, *args: Any, **given: Any) -> Any:
+        return getattr(self.world, name)(*args, **given)
 
-    def validate_object(self, name: str) -> Iterator[Problem]:
-        return self.world.validate_object(name)
+    return method
+
+
+for _name in INNER:
+    setattr(OuterWorld, _name, _passed_on(_name))

@@ -71,17 +71,11 @@ class Combined(OuterWorld):
         return replace(signal, period=period if fits else None)
 
     @property
-    def repeatable(self) -> bool:  # type: ignore[override]
-        """Whether a restored state leads to the same readings again."""
-        return all(member.repeatable for member in (self.world, *self.others.values()))
-
-    @property
-    def wall_clock(self) -> bool:  # type: ignore[override]
-        """Whether it follows the wall clock."""
-        return any(member.wall_clock for member in (self.world, *self.others.values()))
+    def members(self) -> tuple[World, ...]:
+        return (self.world, *self.others.values())
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
-        for member in (self.world, *self.others.values()):
+        for member in self.members:
             with errors_of(member, "reset"):
                 member.reset(seed, trials, precision)
 
@@ -105,22 +99,6 @@ class Combined(OuterWorld):
             yield from self.world.validate_axes(sensor, axes)
         else:
             yield from origin.validate_axes(self._names[sensor], axes)
-
-    def validate(self) -> Iterator[Problem]:
-        for member in (self.world, *self.others.values()):
-            yield from member.validate()
-
-    def close(self) -> None:
-        """Release the cameras and files of all worlds."""
-        for member in (self.world, *self.others.values()):
-            close = getattr(member, "close", None)
-            if callable(close):
-                close()
-
-    # ------------------------------------------------------------------------- everything of the first world
-
-    def halt(self) -> None:
-        self.world.halt()
 
     def alternative(self, signal: str, shape: Sequence[int]) -> str:
         return "" if signal in self.others else self.world.alternative(signal, shape)

@@ -22,7 +22,6 @@ from deodar.registry import register
 from deodar.worlds._address import is_address
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
-from deodar.worlds._motor_rule import MotorRule
 from deodar.worlds._outer import OuterWorld
 from deodar.worlds._settings import arguments, setting_names
 from deodar.worlds.arena.arena import Arena
@@ -95,21 +94,11 @@ class Robot(OuterWorld):
             name: _signal(name, self.world.motors, target, entry, f"{where}: motor {name}")
             for name, (target, entry) in self._motors.items()
         }
-        own: Mapping[str, MotorRule] = getattr(self.world, "rules", {}) if not self.file.motors else {}
-        self.rules: Mapping[str, MotorRule] = {
+        own = {} if self.file.motors else self.world.rules
+        self.rules = {
             name: own.get(name) or entry.rule(f"{where}: {name}") for name, (_, entry) in self._motors.items()
         }
         self._limiter = MotorLimiter(self.motors, self.rules)
-
-    @property
-    def repeatable(self) -> bool:  # type: ignore[override]
-        """Whether a restored state leads to the same readings again."""
-        return self.world.repeatable
-
-    @property
-    def wall_clock(self) -> bool:  # type: ignore[override]
-        """Whether it follows the wall clock."""
-        return self.world.wall_clock
 
     # ------------------------------------------------------------------------------------------- the exchange
 
@@ -149,22 +138,12 @@ class Robot(OuterWorld):
         """Return the name of a sensor in the world."""
         return self._sensors[sensor][0]
 
-    def close(self) -> None:
-        """Close the world, if it has something to close."""
-        closes = getattr(self.world, "close", None)
-        if callable(closes):
-            closes()
-
     def validate_axes(self, sensor: str, axes: Axes) -> Iterator[Problem]:
         return self.world.validate_axes(self._sensors[sensor][0], axes)
 
-    def validate(self) -> Iterator[Problem]:
-        return self.world.validate()
-
-    # ------------------------------------------------------------------------------- everything of the world
-
-    def preview(self) -> np.ndarray | None:
-        return self.world.preview()
+    def alternative(self, signal: str, shape: Sequence[int]) -> str:
+        name, _ = {**self._sensors, **self._motors}[signal]
+        return self.world.alternative(name, shape)
 
     # -------------------------------------------------------------------------------------- state and records
 

@@ -59,10 +59,9 @@ class About:
     @classmethod
     def of_world(cls, world: World, name: str, clock: RobotClock) -> About:
         """Return the description of a world that is served under a name."""
-        rules = cast("Mapping[str, MotorRule]", getattr(world, "rules", {}))
         repeatable = clock == "step" and world.repeatable
         signals = dict(world.sensors), dict(world.motors)
-        return cls(name, clock, world.period, *signals, dict(rules), repeatable, True, world.describe())
+        return cls(name, clock, world.period, *signals, dict(world.rules), repeatable, True, world.describe())
 
     def to_text(self) -> str:
         """Return the description as JSON."""

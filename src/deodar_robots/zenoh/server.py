@@ -118,9 +118,7 @@ class WorldServer:
                 self._rest()
         finally:
             self._close()
-            closes = getattr(self.world, "close", None)
-            if callable(closes):
-                closes()
+            self.world.close()
 
     # ------------------------------------------------------------------- what arrives, in threads of Zenoh
 

@@ -215,9 +215,7 @@ def preview(world: World, doc: Document | None) -> WorldPreview:
             elif seen is None and free:
                 picture = world.sense(free[0], PREVIEW, 0.0).transpose(1, 0, 2)
     finally:
-        close = getattr(world, "close", None)
-        if callable(close):
-            close()
+        world.close()
     pixels = (np.clip(picture, 0, 1) * 255).astype(np.uint8)
     return WorldPreview(
         sensors=list(world.sensors),

@@ -200,3 +200,20 @@ def test_the_command_lists_robots_and_checks_one_without_moving_it(written, monk
     assert typed("robots check").status == 2
     absent = typed("robots check nowhere")
     assert absent.status == 1 and "no robot file 'nowhere'" in absent.err
+
+
+def test_the_world_of_a_robot_has_all_that_it_has_without_the_file(tmp_path: Path):
+    robot = Robot("epuck")
+    robot.place("tower", (30, 30), (5, 5), height=5)
+    [tower] = [t for t in robot.world.objects.present(1, 0) if t.name == "tower"]
+    assert tower.height == 0.05
+    plan = dd.TrialPlan(200.0, actions=[dd.Place(64.0, "wall", (30, 30), (5, 5), height=5)])
+    model = dd.Model("still")
+    model.add(dd.Sensor("eye", [dd.Axis("beam", 0, 7, 8)], sensor="infrared"))
+    dd.Trials(model, plan, Robot("epuck"), together=False).run([0])
+    other = dd.Model("near")
+    other.add(dd.Sensor("eye", [dd.Axis("beam", 0, 5, 6)], sensor="beams"))
+    file = tmp_path / "mine.json"
+    file.write_text(json.dumps(EPUCK | {"sensors": {"beams": {"from": "infrared"}}}))
+    with pytest.raises(WorldError, match=r"\[6\]. Choose another vehicle of the arena: vehicle=khepera"):
+        dd.Session(other, world=Robot(file))
