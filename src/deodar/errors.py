@@ -7,8 +7,9 @@ type. A fix that differs between a script, a shell and the page of the studio is
 
 from __future__ import annotations
 
+import contextlib
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeVar
 
@@ -129,6 +130,12 @@ class DeodarError(Exception):
         fix = last.fix.then(text) if isinstance(last.fix, Fix) else joined(last.fix, text)
         self.problems = (*others, replace(last, fix=fix))
         self.args = (self.at("script"),)
+
+    def inside(self, place: object, mark: str = ":") -> list[Problem]:
+        """Return the problems as those of a place, such as a file, in which each is at its own `where`."""
+        return [
+            replace(p, where=f"{place}{mark} {p.where}" if p.where else str(place)) for p in self.problems
+        ]
 
     def _render_traceback_(self) -> list[str]:
         """Return the lines that IPython shows: without the frames of deodar."""
@@ -282,6 +289,22 @@ class Interrupted(DeodarError):
     def __init__(self, what: str, data: Any) -> None:
         self.data = data
         super().__init__(what)
+
+
+@contextlib.contextmanager
+def reading(path: object, kind: type[DeodarError]) -> Generator[None]:
+    """Name the file that is read inside a block in its errors, which become errors of one class.
+
+    Args:
+        path: the file.
+        kind: the class, also of errors of the system.
+    """
+    try:
+        yield
+    except DeodarError as error:
+        raise kind(error.inside(path)) from None
+    except OSError as error:
+        raise kind(f"cannot be read: {error.strerror}", where=str(path)) from None
 
 
 def _again(kind: type[DeodarError], args: tuple[Any, ...], state: dict[str, Any]) -> DeodarError:

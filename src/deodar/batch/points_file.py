@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import csv
-import dataclasses as dc
 from pathlib import Path
 from typing import Any
 
 from deodar import codec
-from deodar.errors import DocumentError
+from deodar.errors import DocumentError, reading
 
 
 def read(path: str | Path) -> list[dict[str, float]]:
@@ -24,15 +23,12 @@ def read(path: str | Path) -> list[dict[str, float]]:
         DocumentError: it cannot be read, or is no such table or JSON.
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
+    with reading(path, DocumentError):
+        try:
+            text = path.read_text(encoding="utf-8-sig")
+        except UnicodeDecodeError:
+            raise DocumentError("is not text in UTF-8") from None
         return _table(text) if path.suffix.lower() == ".csv" else _listed(text)
-    except OSError as error:
-        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
-    except UnicodeDecodeError:
-        raise DocumentError("is not text in UTF-8", where=str(path)) from None
-    except DocumentError as error:
-        raise DocumentError([dc.replace(problem, where=str(path)) for problem in error.problems]) from None
 
 
 def _listed(text: str) -> list[dict[str, float]]:

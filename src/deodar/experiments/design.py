@@ -10,7 +10,16 @@ from typing import Annotated, Any, Self, cast
 
 from deodar import codec, plugins
 from deodar.codec import Json, JsonObject
-from deodar.errors import DeodarError, DocumentError, Fix, ParameterError, Problem, UnknownName, did_you_mean
+from deodar.errors import (
+    DeodarError,
+    DocumentError,
+    Fix,
+    ParameterError,
+    Problem,
+    UnknownName,
+    did_you_mean,
+    reading,
+)
 from deodar.experiments.actions import ACTIONS
 from deodar.experiments.events import EVENTS
 from deodar.experiments.experiment_migrations import migrate
@@ -19,6 +28,7 @@ from deodar.experiments.measures import MEASURES
 from deodar.experiments.plain import from_data, schema, to_data
 from deodar.experiments.trial import TrialPlan
 from deodar.model import output
+from deodar.model.document_files import require_file
 from deodar.model.model import Model, load, save
 from deodar.parameters import Part, Recompile, show
 from deodar.summary import Summarised, Summary
@@ -224,24 +234,9 @@ class Design(Summarised, Part):
                 listed.
         """
         path = output.location(path)
-        try:
-            if not path.is_file():
-                suggestion = (
-                    did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")])
-                    if path.parent.is_dir()
-                    else ""
-                )
-                raise DocumentError("there is no such file", fix=suggestion)
+        with reading(path, DocumentError):
+            require_file(path)
             return cls.from_data(codec.read(path.read_bytes()), path.parent, read)
-        except DeodarError as error:
-            raise DocumentError(
-                [
-                    Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix)
-                    for p in error.problems
-                ]
-            ) from None
-        except OSError as error:
-            raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
 
     @staticmethod
     def schema() -> dict[str, Any]:

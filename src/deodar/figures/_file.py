@@ -170,9 +170,7 @@ class FigureFile(Summarised):
         try:
             return cls.parse(text, path.parent)
         except FigureError as error:
-            raise FigureError(
-                [dc.replace(p, where=f"{path}, {p.where}" if p.where else str(path)) for p in error.problems]
-            ) from None
+            raise FigureError(error.inside(path, ",")) from None
 
     @classmethod
     def parse(cls, text: str, folder: str | Path = "") -> FigureFile:
@@ -311,11 +309,7 @@ class FigureFile(Summarised):
             except DeodarError as error:
                 if len(self.panels) == 1:
                     raise
-                here = f"panel {n}"
-                problems = [
-                    dc.replace(p, where=f"{here}, {p.where}" if p.where else here) for p in error.problems
-                ]
-                raise type(error)(problems) from None
+                raise type(error)(error.inside(f"panel {n}", ",")) from None
         return cells
 
     def _data(

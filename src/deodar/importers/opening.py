@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from types import ModuleType
 
-from deodar.errors import DeodarError, DocumentError, Problem
+from deodar.errors import DocumentError, reading
 from deodar.importers import examples
 from deodar.importers._beside import in_folder
 from deodar.importers.imported import Imported
@@ -79,7 +79,7 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
         DocumentError: no importer recognises the file, or it is broken; no partial model is returned.
     """
     path = require(path)
-    try:
+    with reading(path, DocumentError):
         if not path.is_file():
             raise DocumentError("is not a file")
         tool = tool_of(path)
@@ -92,12 +92,6 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
         if size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; at most {MOST_BYTES // 2**20} are read")
         return tool.read(path.read_bytes(), path.name, bugs, in_folder(path.parent))
-    except DeodarError as error:
-        raise DocumentError(
-            [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
-        ) from None
-    except OSError as error:
-        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
 
 
 def load(path: str | Path, trust: bool = False, bugs: bool = False) -> Model:

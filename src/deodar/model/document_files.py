@@ -18,7 +18,7 @@ import numpy as np
 import psutil
 
 from deodar import codec, npz, registry
-from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
+from deodar.errors import DocumentError, did_you_mean, reading
 from deodar.leaves import parameter_values
 from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
@@ -149,8 +149,7 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
         beside = {codec.parse(text)["arrays"]["file"]: packed} if packed is not None else {}
         output.write(path, package.pack({f"{path.stem}.json": text.encode(), **beside}))
         return
-    old = _old_arrays(path)
-    new = None
+    old, new = array_file(path), None
     if packed is not None:
         new = path.with_name(codec.parse(text)["arrays"]["file"])
         if not (
@@ -159,16 +158,16 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
         ):
             output.write(output.claim(new, force), packed)
     output.write(path, text.encode())
-    if old is not None and old != new:
+    if old is not None and old != new and old.name.startswith(f"{path.stem}."):  # deodar wrote it
         old.unlink(missing_ok=True)
 
 
-def _old_arrays(path: Path) -> Path | None:
-    """Return the array file of the document at `path`, if deodar wrote it."""
+def array_file(path: Path) -> Path | None:
+    """Return the array file that the document at `path` names; None: there is none beside it."""
     try:
-        name = codec.parse(path.read_text())["arrays"]["file"]
-        old = path.with_name(name)
-        return old if Path(name).name == name and name.startswith(path.stem + ".") and old.is_file() else None
+        name = codec.parse(path.read_bytes())["arrays"]["file"]
+        beside = path.with_name(name)
+        return beside if Path(name).name == name and beside.is_file() else None
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
@@ -204,16 +203,8 @@ def load(path: str | Path) -> Document:
     if not isinstance(path, (str, Path)):
         raise DocumentError(f"needs the path of a file, not {show(path)}")
     path = Path(path)
-    try:
-        if not path.exists():
-            suggestion = (
-                did_you_mean(path.name, [p.name for p in path.parent.glob("*.json")])
-                if path.parent.is_dir()
-                else ""
-            )
-            raise DocumentError("there is no such file", fix=suggestion)
-        if not path.is_file():
-            raise DocumentError("is not a file")
+    with reading(path, DocumentError):
+        require_file(path)
         if package.is_package(path):
             return _load_package(path)
         size = path.stat().st_size
@@ -221,13 +212,15 @@ def load(path: str | Path) -> Document:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; a document has at most {MOST_BYTES // 2**20}")
         data = codec.read(path.read_bytes())
         return from_data(data, _arrays(data, lambda name: _beside(path.parent / name)))
-    except DeodarError as error:
-        problems = [
-            Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems
-        ]
-        raise DocumentError(problems) from None
-    except OSError as error:
-        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
+
+
+def require_file(path: Path) -> None:
+    """Refuse a path without a file; the error suggests a document of the same folder with a similar name."""
+    if not path.exists():
+        there = [p.name for p in path.parent.glob("*.json")] if path.parent.is_dir() else []
+        raise DocumentError("there is no such file", fix=did_you_mean(path.name, there))
+    if not path.is_file():
+        raise DocumentError("is not a file")
 
 
 def loads(content: bytes, beside: Callable[[str], bytes | None]) -> Document:
@@ -326,6 +319,7 @@ def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
 
 
 __all__ = [
+    "array_file",
     "arrays",
     "axes",
     "axis_data",
@@ -336,6 +330,7 @@ __all__ = [
     "loads",
     "of_data",
     "pack",
+    "require_file",
     "require_room",
     "save",
     "to_data",

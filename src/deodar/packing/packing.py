@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Generator, Mapping
 from pathlib import Path
 
-from deodar.errors import DeodarError, DocumentError, Problem, TooLarge
+from deodar.errors import DeodarError, DocumentError, TooLarge, reading
 from deodar.model import output, package
 from deodar.model.package import Package
 from deodar.model.package_contents import Contents, Module
@@ -68,9 +68,8 @@ def contents(path: str | Path) -> Contents:
     """
     path = output.location(path)
     if _is_package(path):
-        with _located(path), Package(path) as packed:
-            if packed.contents.files:
-                return packed.contents
+        if (stated := _stated(path)).files:
+            return stated
         work = document_at(path)
     else:
         work = work_at(path)
@@ -101,20 +100,7 @@ def unpack(
     """
     path = output.location(path)
     target = Path(path.stem) if folder is None else output.location(folder)
-    if not _is_package(path):
-        raise DocumentError("is not a package", where=str(path))
-    places.claim_folder(target, force)
-    with _located(path), Package(path) as packed:
-        free = shutil.disk_usage(target.absolute().parent).free
-        if packed.size > free:
-            raise TooLarge(
-                f"takes {packed.size / 2**30:,.1f} GiB on the disk, and {free / 2**30:,.1f} GiB are free"
-            )
-        places.write_folder(target, lambda beside: _extract(packed, beside), force)
-        inner = target / packed.contents.path
-        if trust:
-            modules.require(packed.contents, target, True)
-    return inner
+    return _unpacked(path, target, trust or None, force)
 
 
 @contextlib.contextmanager
@@ -127,20 +113,14 @@ def opened(path: Path, trust: bool, runs: bool = True) -> Generator[Path]:
         runs: whether it is run, so that the modules which it needs must be there.
     """
     with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-        inside = Path(folder, path.stem)
-        inner = unpack(path, inside)
-        if runs:
-            with _located(path), Package(path) as packed:
-                modules.require(packed.contents, inside, trust)
-        yield inner
+        yield _unpacked(path, Path(folder, path.stem), trust if runs else None)
 
 
 def has_contents(path: Path) -> bool:
     """Return whether a file is a package that holds more than a model."""
     if not _is_package(path):
         return False
-    with _located(path), Package(path) as packed:
-        return bool(packed.contents.files)
+    return bool(_stated(path).files)
 
 
 def unpack_beside(path: Path, trust: bool) -> tuple[Path, Contents]:
@@ -155,16 +135,45 @@ def unpack_beside(path: Path, trust: bool) -> tuple[Path, Contents]:
         DocumentError: the file is damaged; what it holds is a model or an experiment, and its modules are
             missing or not trusted.
     """
-    with _located(path), Package(path) as packed:
-        stated = packed.contents
+    stated = _stated(path)
     folder = path.with_suffix("")
     if not _holds(folder, stated):
         folder = places.free(path.parent, path.stem) if folder.exists() else folder
-        unpack(path, folder)
+        _unpacked(path, folder, None)
     if stated.kind != "record":  # a record is played without the modules that made it
         with _located(path):
             modules.require(stated, folder, trust)
     return folder / stated.path, stated
+
+
+def _stated(path: Path) -> Contents:
+    """Return what a package states that it holds."""
+    with _located(path), Package(path) as packed:
+        return packed.contents
+
+
+def _unpacked(path: Path, folder: Path, trust: bool | None, force: bool = False) -> Path:
+    """Unpack a package into a folder, and return the path of what was packed.
+
+    Args:
+        path: the package.
+        folder: the folder to write.
+        trust: whether modules that come with it may be imported; None: it is not run, and needs no modules.
+        force: whether to replace an existing folder.
+    """
+    if not _is_package(path):
+        raise DocumentError("is not a package", where=str(path))
+    places.claim_folder(folder, force)
+    with _located(path), Package(path) as packed:
+        free = shutil.disk_usage(folder.absolute().parent).free
+        if packed.size > free:
+            raise TooLarge(
+                f"takes {packed.size / 2**30:,.1f} GiB on the disk, and {free / 2**30:,.1f} GiB are free"
+            )
+        places.write_folder(folder, lambda beside: _extract(packed, beside), force)
+        if trust is not None:
+            modules.require(packed.contents, folder, trust)
+        return folder / packed.contents.path
 
 
 def _holds(folder: Path, stated: Contents) -> bool:
@@ -176,10 +185,8 @@ def _holds(folder: Path, stated: Contents) -> bool:
 
 
 def _is_package(path: Path) -> bool:
-    try:
+    with reading(path, DocumentError):
         return path.is_file() and package.is_package(path)
-    except OSError as error:
-        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
 
 
 def _modules(work: Work, with_code: bool) -> tuple[tuple[Module, ...], Mapping[str, Path]]:
@@ -205,6 +212,4 @@ def _located(path: Path) -> Generator[None]:
     try:
         yield
     except DeodarError as error:
-        raise type(error)(
-            [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
-        ) from None
+        raise type(error)(error.inside(path)) from None

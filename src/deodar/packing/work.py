@@ -156,8 +156,8 @@ def _model_files(place: Path, name: str) -> list[Path]:
     if name.startswith(examples.PREFIX):
         return []
     model = _relative(place, name, "the model")
-    arrays = [name for name in document_at(model).files if name.endswith(".npz")]
-    return [model, *map(model.with_name, arrays)]
+    arrays = document_files.array_file(model)
+    return [model] if arrays is None else [model, arrays]
 
 
 def _figure(place: Path) -> Work:

@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
+from deodar.errors import DeodarError, DocumentError, did_you_mean, reading
 from deodar.importers import examples, opening, stored_report
 from deodar.importers.imported import Imported
 from deodar.model import document_files, package
@@ -55,17 +55,12 @@ def load(space: Workspace, place: Path) -> Document:
     """
     if _is_example(space, place):
         return opening.load(place).document if opening.tool_of(place) is None else _kept(opening.read(place))
-    try:
-        with space.folder(place) as folder:
-            return _document(_content(folder, place.name), place.name, lambda name: _beside(folder, name))
-    except FileNotFoundError:
-        raise DocumentError("there is no such file", where=str(place), fix=_near(place)) from None
-    except OSError as error:
-        raise DocumentError(f"cannot be read: {error.strerror}", where=str(place)) from None
-    except DeodarError as error:
-        raise DocumentError(
-            [Problem(f"{place}: {p.where}" if p.where else str(place), p.what, p.fix) for p in error.problems]
-        ) from None
+    with reading(place, DocumentError):
+        try:
+            with space.folder(place) as folder:
+                return _document(_content(folder, place.name), place.name, lambda name: _beside(folder, name))
+        except FileNotFoundError:
+            raise DocumentError("there is no such file", fix=_near(place)) from None
 
 
 def is_foreign(space: Workspace, place: Path) -> bool:

@@ -23,7 +23,7 @@ from pathlib import Path
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import DocumentError, Problem, WorldError, did_you_mean
+from deodar.errors import Problem, WorldError, did_you_mean, reading
 from deodar.parameters import real, show
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
@@ -165,19 +165,13 @@ def load(source: LayoutSource) -> ArenaLayout:
 
 
 def _read(path: Path) -> JsonObject:
-    try:
+    with reading(path, WorldError):
         if path.stat().st_size > LARGEST_FILE:
-            raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB", where=str(path))
+            raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB")
         arenas = codec.read(path.read_bytes())
-    except DocumentError as error:
-        raise WorldError(
-            [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
-        ) from None
-    except OSError as error:
-        raise WorldError(f"cannot be read: {error.strerror}", where=str(path)) from None
-    if not isinstance(arenas, dict):
-        raise WorldError(f"holds {show(arenas)}; an arena is an object with walls", where=str(path))
-    return arenas
+        if not isinstance(arenas, dict):
+            raise WorldError(f"holds {show(arenas)}; an arena is an object with walls")
+        return arenas
 
 
 class _Faults(list[Problem]):

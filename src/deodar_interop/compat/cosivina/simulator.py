@@ -11,7 +11,15 @@ from typing import Any, cast
 import numpy as np
 
 from deodar import codec
-from deodar.errors import DocumentError, ModelError, ParameterError, RunWarning, UnknownName, did_you_mean
+from deodar.errors import (
+    DocumentError,
+    ModelError,
+    ParameterError,
+    RunWarning,
+    UnknownName,
+    did_you_mean,
+    reading,
+)
 from deodar.importers.report import ImportReport
 from deodar.model import output
 from deodar.model.model import Model
@@ -322,10 +330,8 @@ class Simulator:
 
 
 def _content(path: str | Path) -> bytes:
-    try:
+    with reading(path, DocumentError):
         return Path(path).read_bytes()
-    except OSError as error:
-        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
 
 
 def _warn(what: Sequence[str]) -> None:

@@ -6,7 +6,7 @@ import dataclasses as dc
 from pathlib import Path
 
 from deodar import codec
-from deodar.errors import DocumentError
+from deodar.errors import DocumentError, reading
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.trial import TrialPlan
 from deodar.importers._beside import in_folder
@@ -66,9 +66,7 @@ def load_cedar_experiment(path: str | Path, architecture: str | Path) -> Importe
 
 def _content(path: Path) -> bytes:
     """Return the content of a file of moderate size."""
-    try:
+    with reading(path, DocumentError):
         if path.stat().st_size > MOST_BYTES:
-            raise DocumentError(f"is larger than {MOST_BYTES // 2**20} MiB", where=str(path))
+            raise DocumentError(f"is larger than {MOST_BYTES // 2**20} MiB")
         return path.read_bytes()
-    except OSError as error:
-        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
