@@ -1,7 +1,7 @@
 """The command line: one module per command; every module in this folder is a command.
 
-A command is a module with `HELP` (one line), `arguments(parser)` and `run(args) -> int`. Heavy imports are
-inside `run`, so that `deodar --help` starts quickly.
+A command is a module with `HELP` (one line), `arguments(parser)` and `run(args)`, which returns an `Answer`,
+or the status if it prints by itself. Heavy imports are inside `run`, so that `deodar --help` starts quickly.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from types import ModuleType
 from typing import Any
 
 from deodar import __version__
+from deodar.cli._answer import Answer
 from deodar.cli._options import CommandParser
 from deodar.errors import DeodarError, RunWarning, UnknownName, first_line
 from deodar.extensions import Extensions, requires
@@ -79,7 +80,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         for name in args.imports:
             _import(name)
         with _warnings_of(args.command):
-            return int(args.run(args))
+            answer = args.run(args)
+            return answer.tell(args.json) if isinstance(answer, Answer) else int(answer)
     except DeodarError as error:
         print(f"deodar {args.command}: {error.at('shell')}", file=sys.stderr)
     except KeyboardInterrupt:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from deodar.importers.report import ImportReport
 
 
-def show(report: ImportReport) -> None:
-    """Print the summary, the elements and their counterparts, and what was not carried."""
+def shown(report: ImportReport, then: Iterable[str]) -> Iterator[str]:
+    """Print the summary, the elements and their counterparts, and what was not carried; yield what is printed
+    then.
+    """
     # start-up time: only a terminal needs rich
     from rich import box
     from rich.console import Console
@@ -42,3 +45,4 @@ def show(report: ImportReport) -> None:
         console.print(table)
     for bug in report.bugs:
         console.print(f"Known error of {report.tool}: {escape(bug)}.", highlight=False)
+    yield from then

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.branch import SteadyBranch
@@ -49,7 +49,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Print the bifurcations, and write the figure."""
     # matrices are small: more threads of BLAS would wait for each other. Read when NumPy is imported
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -86,19 +86,12 @@ def run(args: argparse.Namespace) -> int:
     if target is not None and figure is not None:
         _files.save_figure(figure, target, args.force)
     written = [] if save is None else _saved([branch, *side_branches], save, args.force)
-    if args.json:
-        answer = branch.data() | {"switched": [side_branch.data() for side_branch in side_branches]}
-        answer["figure"] = None if target is None else str(target)
-        print(codec.text(answer | {"files": list(map(str, written))}))
-        return 0
-    print(_table(branch))
-    for side_branch in side_branches:
-        print(f"\nA branch that leaves a branch point:\n{_table(side_branch)}")
-    if target is not None:
-        print(f"\nFigure: {target}")
-    for path in written:
-        print(f"Branch: {path}")
-    return 0
+    data = branch.data() | {"switched": [side_branch.data() for side_branch in side_branches]}
+    data |= {"figure": None if target is None else str(target), "files": list(map(str, written))}
+    lines = [_table(branch)]
+    lines += [f"\nA branch that leaves a branch point:\n{_table(side)}" for side in side_branches]
+    lines += [] if target is None else [f"\nFigure: {target}"]
+    return Answer(data, [*lines, *(f"Branch: {path}" for path in written)])
 
 
 def _saved(branches: Sequence[SteadyBranch], path: Path, force: bool) -> list[Path]:

@@ -8,12 +8,17 @@ import importlib.metadata
 import os
 import platform
 import re
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from deodar import __version__, codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 from deodar.errors import DocumentError
+
+if TYPE_CHECKING:
+    from deodar.compiler.plans import Measured
 
 HELP = "list installed packages, devices, the cache of compiled programs, and what is missing"
 
@@ -37,26 +42,21 @@ def arguments(parser: _options.CommandParser) -> None:
     )
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Examine the installation; status 1 if a requirement is missing."""
     if args.plans:
-        return _plans(args.json)
+        return _plans()
     if args.sizes:
-        return _measure_sizes(args.json)
+        return _measure_sizes()
     state = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
-    if args.json:
-        print(codec.text(state))
-    else:
-        print(_page(state))
-    return 1 if state["missing"] else 0
+    return Answer(state, [_page(state)], 1 if state["missing"] else 0)
 
 
-def _plans(as_json: bool) -> int:
+def _plans() -> Answer:
     """Compare the cost model of convolutions with this machine, on one core."""
     # start-up time: these bring JAX
     from rich.console import Console
     from rich.progress import track
-    from rich.table import Table
 
     from deodar.cores import use_cores
 
@@ -66,9 +66,15 @@ def _plans(as_json: bool) -> int:
 
     console = Console(stderr=True)
     found = [m for case in track(CASES, "measuring", console=console, transient=True) for m in measure(case)]
-    if as_json:
-        print(codec.text([{**dc.asdict(m), "case": str(m.case)} for m in found]))
-        return 0
+    return Answer([{**dc.asdict(m), "case": str(m.case)} for m in found], _table(found))
+
+
+def _table(found: Sequence[Measured]) -> Iterator[str]:
+    """Print measurements as a table, and yield how good the choice of strategies is."""
+    # start-up time
+    from rich.console import Console
+    from rich.table import Table
+
     table = Table(
         "field and kernels",
         "method",
@@ -89,15 +95,14 @@ def _plans(as_json: bool) -> int:
     Console().print(table)
     lost = [m.measured_us / min(o.measured_us for o in found if o.case == m.case) for m in found if m.chosen]
     right = sum(ratio <= 1.25 for ratio in lost)
-    print(
+    yield (
         f"The chosen strategy is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst"
         f" it takes {max(lost):.2f} times as long"
     )
-    return 0
 
 
-def _measure_sizes(as_json: bool) -> int:
-    """Print the size and the time of an import of each package that deodar needs, the largest first."""
+def _measure_sizes() -> Answer:
+    """Measure the size and the time of an import of each package that deodar needs, the largest first."""
     # start-up time
     from rich.console import Console
     from rich.progress import track
@@ -107,18 +112,13 @@ def _measure_sizes(as_json: bool) -> int:
     modules, needed = _sizes.modules_by_distribution(), _sizes.closure()
     bar = track(needed.items(), "measuring", console=Console(stderr=True), transient=True)
     costs = sorted((_sizes.measure(name, parent, modules) for name, parent in bar), key=lambda cost: -cost.mb)
-    if as_json:
-        print(codec.text([dc.asdict(cost) for cost in costs]))
-        return 0
-    print(f"{'package':<24}{'version':<14}{'MB':>8}{'import, s':>11}  needed by")
+    lines = [f"{'package':<24}{'version':<14}{'MB':>8}{'import, s':>11}  needed by"]
     for cost in costs:
         seconds = "-" if cost.seconds is None else f"{cost.seconds:.2f}"
-        print(f"{cost.name:<24}{cost.version:<14}{cost.mb:>8.1f}{seconds:>11}  {cost.needed_by}")
-    print(
-        f"{len(costs)} packages, {sum(cost.mb for cost in costs):.0f} MB. The time of an import is CPU time,"
-    )
-    print("with all that the package itself imports.")
-    return 0
+        lines.append(f"{cost.name:<24}{cost.version:<14}{cost.mb:>8.1f}{seconds:>11}  {cost.needed_by}")
+    total = sum(cost.mb for cost in costs)
+    lines.append(f"{len(costs)} packages, {total:.0f} MB. The time of an import is CPU time,")
+    return Answer([dc.asdict(cost) for cost in costs], [*lines, "with all that the package itself imports."])
 
 
 def examine() -> dict[str, Any]:

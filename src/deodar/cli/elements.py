@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 from deodar.declarations import range_text
 
 if TYPE_CHECKING:  # this also imports NumPy
@@ -25,7 +25,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Print the list of kinds, or the page of one kind."""
     # start-up time: these bring JAX
     from deodar import docstring, registry
@@ -37,41 +37,34 @@ def run(args: argparse.Namespace) -> int:
     if args.kind:
         cls = registry.kind(args.kind)
         source = docstring.source(cls)
-        if args.json:
-            kinds = (
-                schema(cls, reference)
-                if issubclass(cls, Part)
-                else {"title": cls.__name__, "description": source}
-            )
-            print(codec.text(kinds))
-        else:
-            kind = describe(cls)
-            print(f"{kind.name}  ({kind.public_name})\n\n{source}")
-            if kind.parameters:
-                print("\n".join(["", "Values:", *_values(kind.parameters)]))
-        return 0
+        data = (
+            schema(cls, reference)
+            if issubclass(cls, Part)
+            else {"title": cls.__name__, "description": source}
+        )
+        kind = describe(cls)
+        values = ["", "Values:", *_values(kind.parameters)] if kind.parameters else []
+        return Answer(data, [f"{kind.name}  ({kind.public_name})\n\n{source}", *values])
     listed = {room: registry.kinds(room) for room in registry.ROOMS}
     names = {name for kinds in listed.values() for name in kinds}
     outside = {
         name: cls for name, cls in registry.kinds().items() if name not in names and not registry.own(cls)
     }
     listed |= {"own": outside} if outside else {}
-    lines = {
+    summaries = {
         room: {
             name: docstring.parse(docstring.source(cls)).summary or cls.__name__
             for name, cls in kinds.items()
         }
         for room, kinds in listed.items()
     }
-    if args.json:
-        print(codec.text(lines))
-        return 0
-    width = max(len(name) for kinds in lines.values() for name in kinds)
-    for room, kinds in lines.items():
-        print(room.split(".")[-1])
-        for name, line in kinds.items():
-            print(f"  {name:{width}}  {line}")
-    return 0
+    width = max(len(name) for kinds in summaries.values() for name in kinds)
+    lines = [
+        line
+        for room, kinds in summaries.items()
+        for line in (room.split(".")[-1], *(f"  {name:{width}}  {text}" for name, text in kinds.items()))
+    ]
+    return Answer(summaries, lines)
 
 
 def _values(parameters: Sequence[ParameterDescription]) -> Iterator[str]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 from deodar.errors import UnknownName
 from deodar.importers import examples
 from deodar.model import output
@@ -36,33 +37,34 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer | int:
     """List, copy or open examples."""
     if args.what == "list":
         if args.name is not None:
             args.wrong(f"list takes no name. To copy it: deodar examples copy {args.name}")
-        return _list(args)
+        return _list()
     if args.name is None:
         args.wrong(f"{args.what} needs the NAME of an example. All examples: deodar examples")
     return _copy(args) if args.what == "copy" else _open(args)
 
 
-def _list(args: argparse.Namespace) -> int:
+def _list() -> Answer:
+    listed = [
+        {
+            "name": n,
+            "kind": kind,
+            "file": str(examples.file(n)),
+            "sentence": examples.sentence(n),
+            "duration": examples.duration(n),
+        }
+        for kind, names in (("document", examples.names()), ("script", examples.scripts()))
+        for n in names
+    ]
+    return Answer({"examples": listed}, _tables())
 
-    if args.json:
-        listed = [
-            {
-                "name": n,
-                "kind": kind,
-                "file": str(examples.file(n)),
-                "sentence": examples.sentence(n),
-                "duration": examples.duration(n),
-            }
-            for kind, names in (("document", examples.names()), ("script", examples.scripts()))
-            for n in names
-        ]
-        print(codec.text({"examples": listed}))
-        return 0
+
+def _tables() -> Iterator[str]:
+    """Print the list as tables, and yield what to type next."""
     # start-up time: only a terminal needs rich
     from rich import box
     from rich.console import Console
@@ -77,15 +79,13 @@ def _list(args: argparse.Namespace) -> int:
         for name in names:
             table.add_row(name, escape(examples.sentence(name)))
         console.print(table)
-    print(
+    yield (
         "Run one with: deodar run example:NAME. Open one in the studio with: deodar examples open NAME. Copy"
         " one with: deodar examples copy NAME"
     )
-    return 0
 
 
-def _copy(args: argparse.Namespace) -> int:
-
+def _copy(args: argparse.Namespace) -> Answer:
     sources = examples.parts(args.name)
     folder: Path = args.folder or Path()
     if args.folder is not None and not folder.exists():
@@ -94,18 +94,10 @@ def _copy(args: argparse.Namespace) -> int:
     targets = [output.claim(folder / path.name, args.force) for path in sources]
     for source, target in zip(sources, targets, strict=True):
         output.write(target, source.read_bytes())
-    if args.json:
-        print(codec.text({"files": [str(t) for t in targets]}))
-    else:
-        next_step = (
-            f"deodar studio {_options.shown(targets[0])}"
-            if targets[0].suffix == ".json"
-            else f"jupyter lab {_options.shown(targets[0])}"
-            if targets[0].suffix == ".ipynb"
-            else f"python {_options.shown(targets[0])}"
-        )
-        print(f"Copied {', '.join(_options.shown(t) for t in targets)}. Next: {next_step}")
-    return 0
+    program = {".json": "deodar studio", ".ipynb": "jupyter lab"}.get(targets[0].suffix, "python")
+    copied = ", ".join(map(_options.shown, targets))
+    text = f"Copied {copied}. Next: {program} {_options.shown(targets[0])}"
+    return Answer({"files": [str(t) for t in targets]}, [text])
 
 
 def _open(args: argparse.Namespace) -> int:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar import codec
 from deodar.cli import _long, _machines, _options, _package, _work_plan
+from deodar.cli._answer import Answer
 from deodar.credentials import masked
 from deodar.errors import OutputError, WorkerError
 from deodar.recording import places
@@ -81,7 +82,7 @@ def arguments(parser: _options.CommandParser) -> None:
     parser.flag("--no-progress", "show no progress bar")
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer | int:
     """Run an experiment; status 1 if it was stopped, if all trials diverged, or if the repetition of results
     has other rows without a reason.
     """
@@ -95,7 +96,7 @@ def run(args: argparse.Namespace) -> int:
         return _run(args)
 
 
-def _run(args: argparse.Namespace) -> int:
+def _run(args: argparse.Namespace) -> Answer | int:
     # start-up time: these bring JAX
     from deodar.experiments.repeated_results import compare_results
     from deodar.experiments.results import ROWS, run_trials, stored
@@ -115,7 +116,7 @@ def _run(args: argparse.Namespace) -> int:
     if args.check:
         return _check(args, setup)
     if args.plan:
-        return _work_plan.show(setup, args.json)
+        return _work_plan.answer(setup)
     out: Path = args.out or places.free(Path.cwd(), experiment.name)
     _confirm(args, setup, out)
     try:
@@ -126,10 +127,7 @@ def _run(args: argparse.Namespace) -> int:
             raise
         _tell_stop(args, out, part, "stopped" if isinstance(stop, KeyboardInterrupt) else f"{stop}")
         return 1
-    repetition = None if before is None else compare_results(before, out)
-    _tell(args, out, results, repetition)
-    faithful = repetition is None or repetition.faithful
-    return 1 if 0 < _diverged(results) == results.sizes["trial"] or not faithful else 0
+    return _answer(args, out, results, None if before is None else compare_results(before, out))
 
 
 def _experiment(args: argparse.Namespace, before: Path | None, part: tuple[int, int] | None) -> Experiment:
@@ -175,7 +173,7 @@ def trials(text: str) -> int | tuple[int, int]:
 trials.__name__ = "number of trials, or range A:B"
 
 
-def _merge(args: argparse.Namespace) -> int:
+def _merge(args: argparse.Namespace) -> Answer:
     # start-up time: these bring JAX
     from deodar.experiments.merging import merge_results
 
@@ -185,14 +183,12 @@ def _merge(args: argparse.Namespace) -> int:
     assert out is not None
     merged = merge_results(args.folders, out)
     missing = [f"{a}:{b}" for a, b in merged.gaps]
-    if args.json:
-        print(codec.text({"out": str(out), "trials": merged.data.sizes["trial"], "missing": missing}))
-    else:
-        print(f"{merged.data.sizes['trial']} trials. Written to {_options.shown(out)}.")
-        if missing:
-            listed = ", ".join(missing[:MOST_CELLS]) + (", ..." if len(missing) > MOST_CELLS else "")
-            print(f"Trials without a row, as --trials names them: {listed}")
-    return 1 if missing else 0
+    count = merged.data.sizes["trial"]
+    lines = [f"{count} trials. Written to {_options.shown(out)}."]
+    if missing:
+        listed = ", ".join(missing[:MOST_CELLS]) + (", ..." if len(missing) > MOST_CELLS else "")
+        lines.append(f"Trials without a row, as --trials names them: {listed}")
+    return Answer({"out": str(out), "trials": count, "missing": missing}, lines, 1 if missing else 0)
 
 
 def _follow(args: argparse.Namespace, of: int) -> int:
@@ -280,43 +276,32 @@ def _check(args: argparse.Namespace, setup: Any) -> int:
     return 0
 
 
-def _tell(
+def _answer(
     args: argparse.Namespace, out: Path, results: xarray.Dataset, repetition: RepeatedResults | None
-) -> None:
+) -> Answer:
     names = sorted(p.name for p in out.iterdir())
     outcomes = {
         str(name): int((results["outcome"] == name).sum())
         for name in sorted(set(results["outcome"].values.tolist()))
     }
-    if lost := _diverged(results):
+    lost = int((results["diverged"] != "").sum()) if "diverged" in results.attrs else 0
+    if lost:
         print(f"deodar experiment: warning: {results.attrs['diverged']}", file=sys.stderr)
-    if args.json:
-        answer: dict[str, Any] = {
-            "out": str(out),
-            "trials": results.sizes["trial"],
-            "outcomes": outcomes,
-            "diverged": lost,
-            "files": names,
-        }
-        if repetition is not None:
-            answer["repetition"] = dc.asdict(repetition)
-        print(codec.text(answer | ({} if args.records is None else {"records": masked(args.records)})))
-        return
-    for line in _cells(results):
-        print(line)
+    count = results.sizes["trial"]
+    data: dict[str, Any] = {"out": str(out), "trials": count, "outcomes": outcomes}
+    data |= {"diverged": lost, "files": names}
     counts = ", ".join(f"{name} {n}" for name, n in outcomes.items())
     none = "their batch begins before this part, and runs with that one"
-    print(f"{results.sizes['trial']} trials: {counts or none}.")
-    print(f"Written to {_options.shown(out)}: {', '.join(names)}.")
+    lines = [*_cells(results), f"{count} trials: {counts or none}."]
+    lines.append(f"Written to {_options.shown(out)}: {', '.join(names)}.")
     if repetition is not None:
-        print(f"{repetition}.")
+        data["repetition"] = dc.asdict(repetition)
+        lines.append(f"{repetition}.")
     if args.records is not None:
-        print(f"Records written to {masked(args.records)}; dd.open_records reads them.")
-
-
-def _diverged(results: xarray.Dataset) -> int:
-    """Return the number of trials that diverged."""
-    return int((results["diverged"] != "").sum()) if "diverged" in results.attrs else 0
+        data["records"] = masked(args.records)
+        lines.append(f"Records written to {masked(args.records)}; dd.open_records reads them.")
+    faithful = repetition is None or repetition.faithful
+    return Answer(data, lines, 1 if 0 < lost == count or not faithful else 0)
 
 
 def _cells(results: xarray.Dataset) -> Iterator[str]:

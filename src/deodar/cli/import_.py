@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from deodar import codec
 from deodar.cli import _options, _report
+from deodar.cli._answer import Answer, problem_data
 from deodar.importers.tools import IMPORTERS
 from deodar.model import output
 
@@ -32,7 +32,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_force(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Import a file; status 1 if it cannot be read, or with `--strict` if a part was lost."""
     # start-up time: these bring JAX
     from deodar.importers.opening import read
@@ -47,23 +47,17 @@ def run(args: argparse.Namespace) -> int:
     problems = done.model.check()
     if args.out is not None and not failed:
         save(Model(document=with_report(doc, report)), args.out, args.force)
-    if args.json:
-        lines = [
-            {"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix_at("shell")}
-            for p in problems
-        ]
-        written = str(args.out) if args.out is not None and not failed else None
-        print(codec.text({**located(report, doc).data(), "problems": lines, "out": written}))
-        return int(failed)
-    _report.show(report)
+    written = str(args.out) if args.out is not None and not failed else None
+    data = {**located(report, doc).data(), "problems": problem_data(problems), "out": written}
+    lines: list[str] = []
     for severity, title in (
         ("problem", "It does not run as it is:"),
         ("warning", "It runs, but this is probably a mistake:"),
     ):
         if listed := [f"  {p.at('shell')}" for p in problems if p.severity == severity]:
-            print("\n".join([title, *listed]))
+            lines += [title, *listed]
     if failed:
-        print("Nothing was written: --strict.")
+        lines.append("Nothing was written: --strict.")
     elif args.out is not None:
-        print(f"Written: {_options.shown(args.out)}")
-    return int(failed)
+        lines.append(f"Written: {_options.shown(args.out)}")
+    return Answer(data, _report.shown(report, lines), int(failed))

@@ -7,8 +7,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.locus import Locus
@@ -62,7 +62,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Print the share of each regime, and write the figure."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _options.use_cores(None)
@@ -104,16 +104,10 @@ def run(args: argparse.Namespace) -> int:
         _files.save_figure(regime_map_figure(regimes, loci), target, args.force)
     if save is not None:
         regimes.save(save, args.force)
-    if args.json:
-        lines = {"loci": [line.data() for line in loci]} if args.loci else {}
-        print(codec.text(regimes.data() | lines | {"figure": None if target is None else str(target)}))
-        return 0
-    print(_table(regimes))
-    if args.loci:
-        print(_lines(regimes, loci))
-    if target is not None:
-        print(f"\nFigure: {target}")
-    return 0
+    data = regimes.data() | ({"loci": [line.data() for line in loci]} if args.loci else {})
+    lines = [_table(regimes), *([_lines(regimes, loci)] if args.loci else [])]
+    lines += [] if target is None else [f"\nFigure: {target}"]
+    return Answer(data | {"figure": None if target is None else str(target)}, lines)
 
 
 def _table(regimes: RegimeMap) -> str:

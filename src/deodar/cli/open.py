@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 
 HELP = "show what a package, a record, an experiment or a figure holds, and what made it"
 EPILOG = """\
@@ -29,19 +29,14 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Print the contents."""
     # start-up time: this brings JAX
     from deodar.packing import packing
 
     contents = packing.contents(args.file)
-    if args.json:
-        print(codec.text(contents.to_data()))
-        return 0
-    print(repr(contents)[1:-1])
-    file = _options.shown(args.file)
+    lines, file = [repr(contents)[1:-1]], _options.shown(args.file)
     if any(module.files for module in contents.modules):
-        print(f"Its modules run only with --trust. Read them first: deodar pack {file} --unpack")
-    for command in COMMANDS[contents.kind]:
-        print(f"Next: deodar {command.format(file=file)}")
-    return 0
+        lines.append(f"Its modules run only with --trust. Read them first: deodar pack {file} --unpack")
+    lines += [f"Next: deodar {command.format(file=file)}" for command in COMMANDS[contents.kind]]
+    return Answer(contents.to_data(), lines)

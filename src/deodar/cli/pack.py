@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 from deodar.summary import sized
 
 HELP = "pack a model, a record, an experiment or a figure into one file for a colleague, or unpack one"
@@ -33,7 +33,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Write the package, or extract its files."""
     # start-up time: these bring JAX
     from deodar.model import package
@@ -43,27 +43,20 @@ def run(args: argparse.Namespace) -> int:
         if args.with_code:
             args.wrong("--with-code packs modules, and --unpack unpacks")
         inner = packing.unpack(args.file, args.out, force=args.force)
-        if args.json:
-            print(codec.text({"out": str(inner)}))
-        else:
-            print(f"Unpacked {_options.shown(inner)}")
-        return 0
+        return Answer({"out": str(inner)}, [f"Unpacked {_options.shown(inner)}"])
     if args.out is not None and args.out.suffix.lower() != package.SUFFIX:
         args.wrong(
             f"the name of a package ends in {package.SUFFIX}: --out"
             f" {_options.shown(args.out.with_suffix(package.SUFFIX))}"
         )
     target = packing.pack(args.file, args.out, args.with_code, args.force)
-    if args.json:
-        print(codec.text({"out": str(target), "bytes": target.stat().st_size}))
-        return 0
-    name = _options.shown(target)
-    print(f"Wrote {name} ({sized(target.stat().st_size)}). See what is inside: deodar open {name}")
+    name, size = _options.shown(target), target.stat().st_size
+    lines = [f"Wrote {name} ({sized(size)}). See what is inside: deodar open {name}"]
     for module in packing.contents(target).modules:
         if module.distribution:
-            print(f"It needs the package {module.distribution}, of which {module.name} is.")
+            lines.append(f"It needs the package {module.distribution}, of which {module.name} is.")
         elif not module.files:
-            print(f"It needs your module {module.name}, which is not in it; --with-code includes it")
+            lines.append(f"It needs your module {module.name}, which is not in it; --with-code includes it")
         else:
-            print(f"Your module {module.name} is in it: {', '.join(module.files)}")
-    return 0
+            lines.append(f"Your module {module.name} is in it: {', '.join(module.files)}")
+    return Answer({"out": str(target), "bytes": size}, lines)

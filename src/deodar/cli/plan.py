@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from deodar import codec
 from deodar.cli import _options, _work_plan
+from deodar.cli._answer import Answer
 
 if TYPE_CHECKING:
     from deodar.codec import JsonObject
@@ -32,7 +32,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Print the plan of a document."""
     # start-up time: these bring JAX
     from deodar.compiler import device
@@ -47,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
             if getattr(args, name) is not None:
                 args.wrong(f"--{name} is for a model, and --cluster plans an experiment")
         _options.use_cores(None)  # one core, as workers use
-        return _work_plan.show(Experiment.load(args.file, load).setup(), args.json)
+        return _work_plan.answer(Experiment.load(args.file, load).setup())
     model = load(args.file)
     model.require()
     precision = args.precision or "float32"
@@ -57,19 +57,14 @@ def run(args: argparse.Namespace) -> int:
         device.require_count(count)
     program_plan = plan(model.document, exact=exact, devices=count or 1)
     if program_plan.shards is None:
-        answer: JsonObject = {"plan": program_plan.describe().splitlines()}
-        print(codec.text(answer) if args.json else program_plan.describe())
-        return 0
+        described = program_plan.describe()
+        return Answer({"plan": described.splitlines()}, [described])
     traffic = planned(program_plan, 8 if precision == "float64" else 4)
     bytes_each = memory.device_bytes(
         [n for g in program_plan.groups for n in g.nodes], precision, program_plan.shards
     )
-    print(
-        codec.text(_json(program_plan.shards, traffic, bytes_each))
-        if args.json
-        else _text(program_plan.shards, traffic, bytes_each)
-    )
-    return 0
+    of = program_plan.shards, traffic, bytes_each
+    return Answer(_data(*of), [_text(*of)])
 
 
 def _text(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> str:
@@ -83,7 +78,7 @@ def _text(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> str:
     return "\n".join(lines)
 
 
-def _json(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> JsonObject:
+def _data(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> JsonObject:
     return {
         "axis": shards.axis,
         "samples": shards.samples,

@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from deodar import codec
 from deodar.cli import _analysis, _figure, _options, _package
+from deodar.cli._answer import Answer
 from deodar.errors import FigureError, RecordError
 
 if TYPE_CHECKING:
@@ -67,13 +67,13 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer | int:
     """Draw the record, write the file and print its path."""
     with _package.opened(args.record, runs=False) as args.record:
         return _run(args)
 
 
-def _run(args: argparse.Namespace) -> int:
+def _run(args: argparse.Namespace) -> Answer | int:
     if args.follow:
         return _followed(args)
     analysis = _analysis.drawn(args)
@@ -91,23 +91,19 @@ def _run(args: argparse.Namespace) -> int:
     if video is not None:
         video()
     _files.save_figure(drawing, out, args.force)
-    _say(args, drawn, out)
-    return 0
+    return _answer(args, drawn, out)
 
 
-def _drawn_analysis(args: argparse.Namespace, drawn: _analysis.AnalysisDrawing) -> int:
+def _drawn_analysis(args: argparse.Namespace, drawn: _analysis.AnalysisDrawing) -> Answer:
     """Write the figure of files of analyses and print its path."""
     # start-up time: these bring matplotlib
     from deodar.figures import _files
 
     out = _claimed(args, f"{_figure.stem(args.record)}-plot")
     _files.save_figure(drawn.figure, out, args.force)
-    if args.json:
-        print(codec.text({"out": str(out), "kinds": {str(path): kind for path, kind in drawn.files}}))
-    else:
-        words = " and ".join(f"the {kind} of {_options.shown(path)}" for path, kind in drawn.files)
-        print(f"Drew {words} into {_options.shown(out)}")
-    return 0
+    words = " and ".join(f"the {kind} of {_options.shown(path)}" for path, kind in drawn.files)
+    data = {"out": str(out), "kinds": {str(path): kind for path, kind in drawn.files}}
+    return Answer(data, [f"Drew {words} into {_options.shown(out)}"])
 
 
 def _claimed(args: argparse.Namespace, stem: str) -> Path:
@@ -122,20 +118,17 @@ def _claimed(args: argparse.Namespace, stem: str) -> Path:
     return out
 
 
-def _say(args: argparse.Namespace, drawn: _figure.DrawnFigure, out: Path) -> None:
-    """Print what was drawn into which files."""
-    also = {"gif": args.gif, "figure": args.save_as}
-    if args.json:
-        kinds = dict(zip(drawn.names, drawn.figure.kinds(drawn.record), strict=True))
-        other_files = {key: str(path) for key, path in also.items() if path is not None}
-        print(codec.text({"out": str(out), "kinds": kinds, **other_files}))
-    else:
-        written = [out, *(path for path in also.values() if path is not None)]
-        names = ", ".join(dict.fromkeys(drawn.names))
-        print(f"Drew {names} into {' and '.join(map(_options.shown, written))}")
+def _answer(args: argparse.Namespace, drawn: _figure.DrawnFigure, out: Path) -> Answer:
+    """Return what was drawn into which files."""
+    also = {key: path for key, path in (("gif", args.gif), ("figure", args.save_as)) if path is not None}
+    kinds = dict(zip(drawn.names, drawn.figure.kinds(drawn.record), strict=True))
+    names = ", ".join(dict.fromkeys(drawn.names))
+    files = " and ".join(map(_options.shown, [out, *also.values()]))
+    data = {"out": str(out), "kinds": kinds, **{key: str(path) for key, path in also.items()}}
+    return Answer(data, [f"Drew {names} into {files}"])
 
 
-def _followed(args: argparse.Namespace) -> int:
+def _followed(args: argparse.Namespace) -> Answer | int:
     """Draw again whenever the record has grown, until it is complete, or its run or this command is stopped.
 
     Raises:
@@ -147,7 +140,7 @@ def _followed(args: argparse.Namespace) -> int:
 
     if args.gif is not None or args.save_as is not None:
         args.wrong("--follow writes one figure again and again; leave out --gif and --save-as")
-    drawn = out = seen = None
+    drawn = out = seen = answer = None
     stopped: list[Path] = []
     watches: dict[Path, WriterWatch] = {}
     try:
@@ -172,7 +165,7 @@ def _followed(args: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         pass
     if drawn is not None and out is not None and seen is not None:
-        _say(args, drawn, out)
+        answer = _answer(args, drawn, out)
     elif stopped:
         raise RecordError(
             "the run was stopped before the record held a sample", where=str(stopped[0]), fix="Run it again"
@@ -181,7 +174,7 @@ def _followed(args: argparse.Namespace) -> int:
         print("Stopped before the record held a sample")
     for path in stopped:
         print(_continuation(path), file=sys.stderr)
-    return 0
+    return answer or 0
 
 
 def _stopped(growing: Sequence[xarray.Dataset], watches: dict[Path, WriterWatch]) -> list[Path]:

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.confirmation import Confirmation
@@ -47,7 +47,7 @@ def arguments(parser: _options.CommandParser) -> None:
     )
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Print the table, and write the figure."""
     # start-up time: these bring JAX
     from deodar.importers.opening import load
@@ -79,14 +79,9 @@ def run(args: argparse.Namespace) -> int:
         status.update("folds")
         folds = confirmed(measured)
     _files.save_figure(regimes_figure(measured), target, args.force)
-    if args.json:
-        computed = {name: fold.data() for name, fold in folds.items()}
-        print(codec.text(measured.data() | {"folds": computed, "figure": str(target)}))
-    else:
-        print(_table(measured))
-        print(_folds(folds))
-        print(f"\nFigure: {target}")
-    return 0
+    computed = {name: fold.data() for name, fold in folds.items()}
+    data = measured.data() | {"folds": computed, "figure": str(target)}
+    return Answer(data, [_table(measured), _folds(folds), f"\nFigure: {target}"])
 
 
 def _table(measured: Regimes) -> str:

@@ -6,8 +6,8 @@ import argparse
 import itertools
 from pathlib import Path
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 from deodar.errors import OutputError
 from deodar.model import output
 
@@ -22,7 +22,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Write the script, or print it."""
     # start-up time: this brings JAX
     from deodar.importers.opening import load
@@ -32,13 +32,10 @@ def run(args: argparse.Namespace) -> int:
     script = load(args.file).to_script(_free(args.file.stem, args.out or Path("script.py")))
     if args.out is not None:
         output.write(output.claim(args.out, args.force), script.encode())
-    if args.json:
-        print(codec.text({"out": None if args.out is None else str(args.out), "script": script}))
-    elif args.out is None:
-        print(script, end="")
-    else:
-        print(f"Wrote {_options.shown(args.out)}. Type: python {_options.shown(args.out)}")
-    return 0
+    if args.out is None:
+        return Answer({"out": None, "script": script}, [script.removesuffix("\n")])
+    wrote = f"Wrote {_options.shown(args.out)}. Type: python {_options.shown(args.out)}"
+    return Answer({"out": str(args.out), "script": script}, [wrote])
 
 
 def _free(stem: str, script: Path) -> str:

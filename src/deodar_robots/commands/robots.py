@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 from deodar.codec import JsonObject
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Print the robots, or the signals of one."""
     # start-up time: these bring JAX
     from deodar_robots.robot import robot_file
@@ -39,30 +39,21 @@ def run(args: argparse.Namespace) -> int:
     if not args.what:
         files = robot_file.shipped() | {str(p): p for p in sorted(Path("robots").glob("*.json"))}
         listed = {name: robot_file.load_robot(path) for name, path in files.items()}
-        if args.json:
-            print(
-                codec.text({name: {"kind": f.kind, "places": list(f.places)} for name, f in listed.items()})
-            )
-        else:
-            width = max(map(len, listed))
-            for name, file in listed.items():
-                places = f"; places: {', '.join(file.places)}" if file.places else ""
-                print(f"{name:{width}}  {file.kind}{places}")
-        return 0
+        width, lines = max(map(len, listed)), list[str]()
+        for name, file in listed.items():
+            places = f"; places: {', '.join(file.places)}" if file.places else ""
+            lines.append(f"{name:{width}}  {file.kind}{places}")
+        return Answer({name: {"kind": f.kind, "places": list(f.places)} for name, f in listed.items()}, lines)
     robot = Robot.open(args.file)
     try:
         found = _check(robot)
     finally:
         robot.close()
-    if args.json:
-        print(codec.text(found))
-        return 0
-    print(f"{found['robot']} is there: {found['kind']}, {found['clock']}")
+    lines = [f"{found['robot']} is there: {found['kind']}, {found['clock']}"]
     rows: dict[str, dict[str, Any]] = {"sensor": found["sensors"], "motor": found["motors"]}
     for what, signals in rows.items():
-        for name, about in signals.items():
-            print(f"  {what} {name}: {about}")
-    return 0
+        lines += [f"  {what} {name}: {about}" for name, about in signals.items()]
+    return Answer(found, lines)
 
 
 def _check(robot: Robot) -> dict[str, Any]:

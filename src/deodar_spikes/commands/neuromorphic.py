@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 from deodar.model import output
 from deodar_spikes import options
 
@@ -51,10 +51,10 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer:
     """Compare, or list chips."""
     if args.what == "chips":
-        return _chips(args)
+        return _chips()
     # start-up time: these bring JAX
     from deodar.figures import _files
     from deodar.importers.opening import load
@@ -77,11 +77,8 @@ def run(args: argparse.Namespace) -> int:
         first = {run: {k: v[:, 0] for k, v in r.items()} for run, r in comparison.runs.items()}
         figure = spikes_figure(first, comparison.times, doc.time_unit)
         _files.save_figure(figure, args.out, force=args.force)
-    if args.json:
-        print(codec.text({**comparison.data(), "out": None if args.out is None else str(args.out)}))
-        return 0
-    _show(comparison, doc.time_unit, args)
-    return 0
+    data = {**comparison.data(), "out": None if args.out is None else str(args.out)}
+    return Answer(data, _lines(comparison, doc.time_unit, args))
 
 
 def _seconds(unit: str) -> float:
@@ -91,8 +88,8 @@ def _seconds(unit: str) -> float:
     return unit_seconds(unit)
 
 
-def _show(comparison: SpikingComparison, unit: str, args: argparse.Namespace) -> None:
-    """Print a table for each element."""
+def _lines(comparison: SpikingComparison, unit: str, args: argparse.Namespace) -> list[str]:
+    """Return a table for each element."""
     network = comparison.prepared.translated.network
     lines = [
         f"{network.neurons:,} neurons, {network.synapses:,} synapses, steps of {network.step * 1e3:g} ms,"
@@ -109,7 +106,7 @@ def _show(comparison: SpikingComparison, unit: str, args: argparse.Namespace) ->
         lines += ["", "norse is not installed here: --norse PYTHON names an environment that has it."]
     if args.out is not None:
         lines += ["", f"Drawn: {_options.shown(args.out)}"]
-    print("\n".join(lines))
+    return lines
 
 
 def _cell(e: Estimate, kind: str, unit: str) -> str:
@@ -123,15 +120,12 @@ def _cell(e: Estimate, kind: str, unit: str) -> str:
     return f"{scale * e.value:.3g}{after}{spread}"
 
 
-def _chips(args: argparse.Namespace) -> int:
+def _chips() -> Answer:
     """List the chips and their limits."""
     # start-up time: this brings NumPy
     from deodar_spikes.chip_limits import chip_limits, chip_names
 
     chips = [chip_limits(name) for name in chip_names()]
-    if args.json:
-        print(codec.text({"chips": [{k: _plain(v) for k, v in vars(c).items()} for c in chips]}))
-        return 0
     lines: list[str] = []
     for c in chips:
         lines.append(f"{c.name}: {c.meaning}")
@@ -139,8 +133,7 @@ def _chips(args: argparse.Namespace) -> int:
             limit = getattr(c, name)
             shown = ", ".join(f"{k} {v:g}" for k, v in limit.items()) if isinstance(limit, Mapping) else limit
             lines.append(f"  {name:24}{shown!s:28}{source}")
-    print("\n".join(lines))
-    return 0
+    return Answer({"chips": [{k: _plain(v) for k, v in vars(c).items()} for c in chips]}, lines)
 
 
 def _plain(value: object) -> object:

@@ -1,0 +1,40 @@
+"""What a command answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from deodar import codec
+
+if TYPE_CHECKING:
+    from deodar.errors import Problem
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The answer of a command, which `main` prints.
+
+    Attributes:
+        data: what `--json` prints.
+        lines: what is printed without it, one after another; a line may be made when it is printed.
+        status: the exit status.
+    """
+
+    data: object
+    lines: Iterable[str] = ()
+    status: int = 0
+
+    def tell(self, as_json: bool) -> int:
+        """Print the answer, and return the status."""
+        for line in (codec.text(self.data),) if as_json else self.lines:
+            print(line)
+        return self.status
+
+
+def problem_data(problems: Sequence[Problem]) -> list[dict[str, str]]:
+    """Return problems as plain data, with what to type in a shell."""
+    return [
+        {"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix_at("shell")} for p in problems
+    ]
