@@ -10,7 +10,6 @@ functions need tens of milliseconds for a record, this module about two.
 from __future__ import annotations
 
 import io
-import itertools
 import math
 import zipfile
 from collections.abc import Mapping
@@ -24,7 +23,7 @@ from deodar import codec
 from deodar.codec import Json, JsonObject
 from deodar.errors import DamagedFile, RecordError
 from deodar.recording import portable
-from deodar.recording.chunks import ChunkedArray
+from deodar.recording.chunks import ChunkedArray, ChunkIndex
 
 CHUNK_BYTES = 2**26
 """Bytes of a chunk before compression: most arrays of a trial have one chunk, and are read whole."""
@@ -53,37 +52,23 @@ class ArchiveWriter:
     def add(self, name: str, record: xarray.Dataset) -> None:
         """Add a record as the group `name`."""
         stored = portable.pack(record, narrow=False)
-        names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
         members: JsonObject = {}
-        for new, variable in stored.variables.items():
-            old = record.variables[names.get(str(new), str(new))]
-            whole = old if portable.large(old) else variable
-            metadata = _array(variable)
-            array, members[str(new)] = ChunkedArray(Path(str(new)), metadata), metadata
-            values = np.asarray(whole.values)
-            for place in itertools.product(*(range(math.ceil(n / c)) for n, c in _grid(array))):
-                chunk = array.empty()
-                outer = tuple(slice(k * c, (k + 1) * c) for k, c in zip(place, array.chunks, strict=True))
-                part = values[outer]
-                chunk[tuple(slice(n) for n in part.shape)] = part
-                self._store("/".join([name, str(new), "c", *map(str, place)]), array.encode(chunk))
-            self._store(f"{name}/{new}/{META}", codec.line(metadata).encode())
+        for new, whole in portable.sources(record, stored).items():
+            members[new] = metadata = _metadata(stored.variables[new])
+            array = _ZippedArray(self._zip, f"{name}/{new}", metadata)
+            array.store([0] * whole.ndim, np.asarray(whole.values))
+            _store(self._zip, f"{name}/{new}/{META}", codec.line(metadata).encode())
         inline: JsonObject = {"kind": "inline", "must_understand": False, "metadata": members}
-        self._store(f"{name}/{META}", _group(dict(stored.attrs), inline))
+        _store(self._zip, f"{name}/{META}", _group(dict(stored.attrs), inline))
 
     def close(self, attributes: Mapping[str, Json]) -> bytes:
         """Return the file; `attributes` are those of the group that contains all records.
 
         They are the last entry, beside the directory of the zip file, so that both are read at once.
         """
-        self._store(META, _group(dict(attributes)))
+        _store(self._zip, META, _group(dict(attributes)))
         self._zip.close()
         return self._file.getvalue()
-
-    def _store(self, name: str, content: bytes) -> None:
-        entry = zipfile.ZipInfo(name)
-        entry.create_system, entry.external_attr = 3, 0o644 << 16  # the same bytes on every system
-        self._zip.writestr(entry, content)
 
 
 class Archive:
@@ -138,17 +123,11 @@ class Archive:
         self._file.close()
 
     def _variable(self, name: str, new: str, metadata: Mapping[str, Any]) -> xarray.Variable:
-        array = ChunkedArray(Path(new), metadata)
-        values, chunk = np.empty(array.shape, array.dtype.newbyteorder("=")), array.empty()
-        for place in itertools.product(*(range(math.ceil(n / c)) for n, c in _grid(array))):
-            content = self._zip.read("/".join([name, new, "c", *map(str, place)]))
-            try:
-                array.decode(np.frombuffer(content, np.uint8), chunk)
-            except DamagedFile as error:
-                raise DamagedFile(f"{new}: {error}") from None
-            outer = (slice(k * c, (k + 1) * c) for k, c in zip(place, array.chunks, strict=True))
-            part = values[(*outer, ...)]  # a view, also of an array without axes
-            part[...] = chunk[tuple(slice(n) for n in part.shape)]
+        array = _ZippedArray(self._zip, f"{name}/{new}", metadata)
+        try:
+            values = array.load([0] * len(array.shape), array.shape)
+        except DamagedFile as error:
+            raise DamagedFile(f"{new}: {error.problems[0].what}") from None
         return xarray.Variable(metadata["dimension_names"], values, metadata["attributes"])
 
     def _damaged(self, error: Exception, name: str = "") -> RecordError:
@@ -161,12 +140,29 @@ class Archive:
         )
 
 
-def _grid(array: ChunkedArray) -> list[tuple[int, int]]:
-    """Return the number of samples along each axis, and that of a chunk."""
-    return list(zip(array.shape, array.chunks, strict=True))
+class _ZippedArray(ChunkedArray):
+    """An array whose chunks are entries of a zip file."""
+
+    def __init__(self, archive: zipfile.ZipFile, folder: str, metadata: Mapping[str, Any]) -> None:
+        super().__init__(Path(folder), metadata)
+        self._zip = archive
+
+    def put(self, place: ChunkIndex, content: bytes) -> None:
+        """Add the entry of a chunk."""
+        _store(self._zip, self.path(place).as_posix(), content)
+
+    def get(self, place: ChunkIndex) -> bytes:
+        """Return the entry of a chunk."""
+        return self._zip.read(self.path(place).as_posix())
 
 
-def _array(variable: xarray.Variable) -> JsonObject:
+def _store(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
+    entry = zipfile.ZipInfo(name)
+    entry.create_system, entry.external_attr = 3, 0o644 << 16  # the same bytes on every system
+    archive.writestr(entry, content)
+
+
+def _metadata(variable: xarray.Variable) -> JsonObject:
     """Return the metadata of an array, as Zarr (version 3) states them."""
     inner = max(1, variable.dtype.itemsize * math.prod(variable.shape[1:]))
     first = [min(variable.shape[0], max(1, CHUNK_BYTES // inner))] if variable.ndim else []

@@ -146,13 +146,21 @@ class ChunkedArray:
         Raises:
             OSError: the system refused.
         """
-        content, path = self.encode(values), self.path(place)
+        self.put(place, self.encode(values))
+
+    def put(self, place: ChunkIndex, content: bytes) -> None:
+        """Write the file of a chunk."""
+        path = self.path(place)
         try:
             output.replace(path, content)
         except FileNotFoundError:  # the folders of the array are not removed while it is written
             for parent in reversed(path.relative_to(self.folder).parents[:-1]):
                 self.folder.joinpath(parent).mkdir(exist_ok=True)
             output.replace(path, content)
+
+    def get(self, place: ChunkIndex) -> bytes:
+        """Return the content of the file of a chunk."""
+        return self.path(place).read_bytes()
 
     def read(self, place: ChunkIndex, room: np.ndarray | None = None) -> np.ndarray:
         """Return a chunk that may be changed: fill values if there is none.
@@ -166,7 +174,7 @@ class ChunkedArray:
         """
         chunk = self.empty() if room is None else room
         try:
-            content: Any = np.frombuffer(self.path(place).read_bytes(), np.uint8)
+            content: Any = np.frombuffer(self.get(place), np.uint8)
         except FileNotFoundError:
             if self.whole:
                 raise self._damaged(place, "it is missing") from None

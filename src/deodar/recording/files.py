@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import stat
 import warnings
-from collections.abc import Generator, Mapping
+from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +31,6 @@ from deodar.recording import group_file, growing, lazy, netcdf, places, portable
 from deodar.recording.chunks import COMPRESSORS, ChunkedArray
 from deodar.recording.provenance import KEY
 from deodar.recording.record import time_dimension
-from deodar.recording.shown_dataset import ShownDataset
 from deodar.recording.slabs import slabs
 
 SUFFIXES = {"zarr": ".zarr", "netcdf": ".nc", "csv": ".csv"}
@@ -163,7 +162,7 @@ def opened(path: str | Path) -> xarray.Dataset:
     """
     with _reading(path := Path(path)):
         place, kind = locate(path)
-        record = ShownDataset.of(portable.unpack_lazily(_require_record(_opened(place, kind))))
+        record = portable.unpack(_require_record(_opened(place, kind)), lazily=True)
         record.encoding["source"] = str(place)
         return record
 
@@ -270,19 +269,14 @@ def _write_zarr(record: xarray.Dataset, path: Path) -> None:
         # other programs open a record at once, and without a warning, if its metadata are in one file
         warnings.filterwarnings("ignore", message="Consolidated metadata")
         stored = portable.pack(record, narrow=False)
-        names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
         encoding: dict[Any, Any] = {name: {"chunks": shape} for name, shape in _frame_chunks(stored).items()}
-        large = {
-            str(name): old
-            for name in stored.variables
-            if portable.large(old := record.variables[names.get(str(name), str(name))])
-        }
+        sources = portable.sources(record, stored)
         for name in stored.variables:
             encoding.setdefault(name, {})["compressors"] = COMPRESSORS
         stored.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=encoding)
     group_file.prove(path)
     for name, metadata in group_file.read(path)["consolidated_metadata"]["metadata"].items():
-        array, variable = ChunkedArray(path / name, metadata), large.get(name, stored.variables[name])
+        array, variable = ChunkedArray(path / name, metadata), sources[name]
         for slab in slabs(variable.shape, portable.BLOCK):
             array.store([part.start for part in slab], variable[slab].values)
 
@@ -310,14 +304,11 @@ def _write_netcdf(record: xarray.Dataset, path: Path) -> None:
                 fix="Save it as .zarr",
             )
     stored = portable.pack(record, narrow=True)
-    names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
-
-    def reader(new: str) -> netcdf.ReadSlab:
-        old = record.variables[names.get(new, new)]
-        whole = old if portable.large(old) else stored.variables[new]
-        return lambda slab: whole[slab].values
-
-    netcdf.write(stored, {str(name): reader(str(name)) for name in stored.variables}, path)
+    readers: dict[str, netcdf.ReadSlab] = {
+        name: lambda slab, whole=whole: whole[slab].values
+        for name, whole in portable.sources(record, stored).items()
+    }
+    netcdf.write(stored, readers, path)
 
 
 def _opened(path: Path, kind: str) -> xarray.Dataset:

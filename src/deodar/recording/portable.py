@@ -50,6 +50,12 @@ RESERVED = frozenset(
 )
 """Names that NetCDF does not allow."""
 
+NARROW = tuple(map(np.dtype, ("f4", "f8", "i1", "i2", "i4")))
+"""Types of numbers that NetCDF 3 has."""
+
+WIDENED = {np.dtype("f2"): np.float32, np.dtype("?"): np.int8}
+"""Types that hold the values of others, which NetCDF 3 does not have."""
+
 EXACT_INTEGERS = 2**53
 
 LARGE = 2**24
@@ -102,18 +108,35 @@ def large(variable: xarray.Variable) -> bool:
     return variable.dtype in (np.dtype("f4"), np.dtype("f8")) and variable.nbytes > LARGE
 
 
-def unpack(stored: xarray.Dataset) -> xarray.Dataset:
+def sources(record: xarray.Dataset, stored: xarray.Dataset) -> dict[str, xarray.Variable]:
+    """Return what has the values of each stored variable: the record has those of large arrays.
+
+    Args:
+        record: the Dataset before `pack`.
+        stored: what `pack` returned.
+    """
+    names: Mapping[str, str] = codec.parse(stored.attrs[KEY])["names"]
+    originals = {str(new): record.variables[names.get(str(new), str(new))] for new in stored.variables}
+    return {new: old if large(old) else stored.variables[new] for new, old in originals.items()}
+
+
+def unpack(stored: xarray.Dataset, lazily: bool = False) -> xarray.Dataset:
     """Return the Dataset as it was before `pack`; a Dataset of another program is returned unchanged.
 
+    Args:
+        stored: what a file holds.
+        lazily: whether values that were stored as they are stay unread: all but coordinates and arrays of
+            which the file changed the type.
+
     Raises:
-        RecordError: an array differs from the one that was written.
+        RecordError: an array that is read differs from the one that was written.
     """
     text = stored.attrs.get(KEY)
     if text is None:
         return stored
     layout = _layout(text)
     names: Mapping[str, str] = layout["names"]
-    if set(layout["variables"]) != set(map(str, stored.variables)):
+    if not lazily and set(layout["variables"]) != set(map(str, stored.variables)):
         raise DamagedFile(
             "is damaged: of its arrays,"
             f" {_listed(set(layout['variables']) ^ set(map(str, stored.variables)))} are missing or too many"
@@ -121,54 +144,22 @@ def unpack(stored: xarray.Dataset) -> xarray.Dataset:
     stored = stored.isel({d: slice(0, 0) for d in layout.get("empty", ())})
     variables: dict[str, Any] = {}
     for name, description in layout["variables"].items():
-        variable = stored.variables[name]
-        array = _restored(names.get(name, name), np.asarray(variable.values), description)
-        variables[names.get(name, name)] = (
-            [names.get(str(d), str(d)) for d in variable.dims],
-            array,
-            description["attributes"],
-        )
+        variable, old = stored.variables[name].copy(deep=False), names.get(name, name)
+        variable.dims = [names.get(str(d), str(d)) for d in variable.dims]
+        as_stored = "labels" not in description and str(variable.dtype) == description["type"]
+        if not (lazily and as_stored and name not in layout["coords"]):
+            array = _restored(old, np.asarray(variable.values), description)
+            variable = xarray.Variable(variable.dims, array)
+        variable.attrs = description["attributes"]
+        variables[old] = variable
     coords = {n: variables.pop(n) for n in [names.get(c, c) for c in layout["coords"]]}
     attributes = {
         k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in layout["attributes"].items()
     }
-    return ShownDataset(variables, coords, attributes)
-
-
-def unpack_lazily(stored: xarray.Dataset) -> xarray.Dataset:
-    """Return the Dataset as it was before `pack`, without reading values that were stored as they are.
-
-    Coordinates, and arrays of which the file changed the type, are read and checked.
-    """
-    text = stored.attrs.get(KEY)
-    if text is None:
-        return stored
-    layout = _layout(text)
-    names: Mapping[str, str] = layout["names"]
-    stored = stored.isel({d: slice(0, 0) for d in layout.get("empty", ())})
-    whole = [
-        name
-        for name, description in layout["variables"].items()
-        if name in layout["coords"]
-        or "labels" in description
-        or str(stored[name].dtype) != description["type"]
-    ]
-    for name in whole:
-        description = layout["variables"][name]
-        values = _restored(names.get(name, name), np.asarray(stored[name].values), description)
-        stored = stored.assign({name: (stored[name].dims, values)})
-    stored = stored.set_coords(layout["coords"])
-    changed = {new: old for new, old in names.items() if new in stored.variables or new in stored.dims}
-    record = stored.rename(changed)
-    for name, description in layout["variables"].items():
-        record.variables[names.get(name, name)].attrs = dict(description["attributes"])
-    # a folder lists its arrays in any order
-    coords = record.coords
-    record = record[[names.get(n, n) for n in layout["variables"] if names.get(n, n) not in coords]]
-    record = record.assign_coords({name: c for name, c in coords.items() if name not in record.coords})
-    record.attrs = {
-        k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in layout["attributes"].items()
-    }
+    record = ShownDataset(variables, coords, attributes)
+    if lazily:
+        record.encoding = stored.encoding
+        record.set_close(stored.close)
     return record
 
 
@@ -219,29 +210,26 @@ def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dic
             where=name,
         )
     description["sha256"] = _digest(array)
-    if not narrow or array.dtype in (
-        np.dtype("f4"),
-        np.dtype("f8"),
-        np.dtype("i1"),
-        np.dtype("i2"),
-        np.dtype("i4"),
-    ):
-        return array, description
-    if array.dtype == np.dtype("f2"):
-        return array.astype(np.float32), description
+    return _narrowed(name, array) if narrow else array, description
+
+
+def _narrowed(name: str, array: np.ndarray) -> np.ndarray:
+    """Return numbers in a type of NetCDF 3 that holds them exactly."""
+    if array.dtype in NARROW:
+        return array
+    if array.dtype in WIDENED:
+        return array.astype(WIDENED[array.dtype])
     if array.dtype.kind == "f":
         raise RecordError(
             f"holds values of the type {array.dtype}, which NetCDF 3 does not have",
             where=name,
             fix="Save it as .zarr",
         )
-    if array.dtype.kind == "b":
-        return array.astype(np.int8), description
     low, high = (int(array.min()), int(array.max())) if array.size else (0, 0)
     if low >= -(2**31) and high < 2**31:
-        return array.astype(np.int32), description
+        return array.astype(np.int32)
     if max(-low, high) <= EXACT_INTEGERS:
-        return array.astype(np.float64), description
+        return array.astype(np.float64)
     raise RecordError(
         "holds whole numbers beyond 2^53, which NetCDF 3 cannot hold exactly",
         where=name,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,14 +28,10 @@ def present(record: xarray.Dataset, path: Path) -> xarray.Dataset:
         record: the Dataset before `portable.unpack`.
         path: its folder.
     """
-    layout = _layout(record)
     ends: dict[str, tuple[int, str]] = {}
-    for name, stored in layout.get("variables", {}).items():
-        if "grows" not in stored or name not in record.variables:
-            continue
+    for name, old, axis in _growing(record):
         variable = record.variables[name]
-        dims = [layout["names"].get(str(d), str(d)) for d in variable.dims]
-        axis, chunks = dims.index(stored["grows"]), variable.encoding["chunks"]
+        chunks = variable.encoding["chunks"]
         count = [math.ceil(n / c) for n, c in zip(variable.shape, chunks, strict=True)]
         whole = axis == 0 or _complete(record)
         rows = itertools.product(*(range(n) if i != axis else [0] for i, n in enumerate(count)))
@@ -42,9 +39,18 @@ def present(record: xarray.Dataset, path: Path) -> xarray.Dataset:
             k for row in rows if (k := _missing(path / name / "c", row, axis, count[axis], whole)) >= 0
         ]
         if missing:
-            first = min(missing) * chunks[axis]
-            _shorten(ends, str(variable.dims[axis]), first, layout["names"].get(name, name))
+            _shorten(ends, str(variable.dims[axis]), min(missing) * chunks[axis], old)
     return _cut(record, ends, "missing")
+
+
+def _growing(record: xarray.Dataset) -> Iterator[tuple[str, str, int]]:
+    """Yield for each stored array that grows its name, that in the record, and the axis that grows."""
+    layout = _layout(record)
+    names: Mapping[str, str] = layout.get("names", {})
+    for name, stored in layout.get("variables", {}).items():
+        if "grows" in stored and name in record.variables:
+            dims = [names.get(str(d), str(d)) for d in record.variables[name].dims]
+            yield name, names.get(name, name), dims.index(stored["grows"])
 
 
 def _missing(folder: Path, row: tuple[int, ...], axis: int, count: int, whole: bool) -> int:
@@ -64,20 +70,15 @@ def readable(record: xarray.Dataset) -> xarray.Dataset:
     Raises:
         Exception: an array that does not grow cannot be read.
     """
-    layout = _layout(record)
     ends: dict[str, tuple[int, str]] = {}
-    for name, stored in layout.get("variables", {}).items():
-        if "grows" not in stored:
-            continue
+    for name, old, axis in _growing(record):
         variable = record.variables[name]
-        dims = [layout["names"].get(str(d), str(d)) for d in variable.dims]
-        axis = dims.index(stored["grows"])
         frames = variable.encoding["chunks"][axis]
         for first in range(0, variable.shape[axis], frames):
             try:
                 variable.isel({variable.dims[axis]: slice(first, first + frames)}).to_numpy()
             except Exception:  # libraries that read untrusted bytes may raise any exception
-                _shorten(ends, str(variable.dims[axis]), first, layout["names"].get(name, name))
+                _shorten(ends, str(variable.dims[axis]), first, old)
                 break
     return _cut(record, ends, "damaged")
 
