@@ -13,9 +13,9 @@ import pytest
 from deodar.errors import ModelError
 from deodar.experiments import actions, events
 from deodar.experiments.design import KINDS, Design
-from deodar.experiments.plain import from_data, to_data
 from deodar.family import Family
 from deodar.parameters import Recompile
+from deodar.part_data import from_data, to_data
 from deodar_studio.messages import to_page
 from deodar_studio.messages.message import Message, union
 from deodar_studio.pages.hub import Hub

@@ -25,12 +25,13 @@ from deodar.experiments.events import EVENTS
 from deodar.experiments.experiment_migrations import migrate
 from deodar.experiments.factor import DESIGNS, Factor, assign
 from deodar.experiments.measures import MEASURES
-from deodar.experiments.plain import from_data, schema, to_data
 from deodar.experiments.trial import TrialPlan
 from deodar.model import output
 from deodar.model.document_files import require_file
 from deodar.model.model import Model, load, save
-from deodar.parameters import Part, Recompile, show
+from deodar.model.parts import schema
+from deodar.parameters import Part, Recompile, parameters, show
+from deodar.part_data import defaults, from_data, to_data
 from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
 
@@ -241,8 +242,9 @@ class Design(Summarised, Part):
     @staticmethod
     def schema() -> dict[str, Any]:
         """Return the JSON Schema of a file."""
-        parameters = [schema({"": cls}, named=False)["oneOf"][0]["properties"] for cls in (Design, TrialPlan)]
-        properties = by_key(*parameters) | {
+        classes = (Design, TrialPlan)
+        properties_of = [_schema({"": cls}, named=False)["oneOf"][0]["properties"] for cls in classes]
+        properties = by_key(*properties_of) | {
             "experiment": {"enum": list(range(1, VERSION + 1))},
             "name": {"type": "string"},
             "model": {"type": "string"},
@@ -250,7 +252,7 @@ class Design(Summarised, Part):
             "packages": {"type": "object", "additionalProperties": {"type": "string"}},
         }
         for key, kinds in KINDS.items():
-            parts = schema(kinds, named=key != "actions")
+            parts = _schema(kinds, named=key != "actions")
             for part in parts["oneOf"]:
                 if part["title"] == USUAL.get(key):
                     part["required"].remove("kind")
@@ -336,3 +338,23 @@ def _parts(key: str, rows: Any, kinds: Mapping[str, type[Part]], problems: list[
     form = "a list" if key == "actions" else "an object of named parts"
     problems.append(Problem(key, f"needs {form}, not {show(rows)}"))
     return []
+
+
+def _schema(kinds: Mapping[str, type[Part]], named: bool) -> dict[str, Any]:
+    """Return the JSON Schema of any of some kinds; `named`: their name is the key beside them."""
+    out: list[dict[str, Any]] = []
+    for cls in kinds.values():
+        part_schema = schema(cls, lambda base: {})
+        for p in parameters(cls):
+            if p.of is object:  # any value that the parameter that it sets accepts
+                part_schema["properties"][p.name] = {"description": p.meaning}
+        part_schema["required"] = [
+            "kind",
+            *(
+                p.name
+                for p in parameters(cls)
+                if p.name not in defaults(cls) and (p.name != "name" or not named)
+            ),
+        ]
+        out.append(part_schema | {"additionalProperties": False})
+    return {"oneOf": out}

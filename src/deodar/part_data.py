@@ -1,4 +1,4 @@
-"""Parts of an experiment as JSON: their schema, writing, and reading that lists every problem."""
+"""Parts as plain data, without their defaults: writing, and reading that lists every problem."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 
 from deodar.codec import JsonObject
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
-from deodar.model.parts import schema as schema_of
 from deodar.parameters import Part, an, parameters, show
 
 WHOLE = 2.0**53
@@ -28,7 +27,7 @@ def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -
         if (
             p.name not in without
             and value is not None
-            and (p.name not in _defaults(type(part)) or value != p.default)
+            and (p.name not in defaults(type(part)) or value != p.default)
         ):
             out[p.name] = _plain(value, f"{type(part).__name__}.{p.name}", p.of is object)
     return out
@@ -69,7 +68,7 @@ def from_data(
     missing = [
         p.name
         for p in parameters(cls)
-        if p.name in names and p.name not in values and p.name not in _defaults(cls)
+        if p.name in names and p.name not in values and p.name not in defaults(cls)
     ]
     problems += [Problem(where, f"{an(name)} needs {key!r}") for key in missing]
     if strange or missing:
@@ -98,27 +97,7 @@ def _kind_of(
         return None
 
 
-def schema(kinds: Mapping[str, type[Part]], named: bool) -> dict[str, Any]:
-    """Return the JSON Schema of any of some kinds; `named`: their name is the key beside them."""
-    out: list[dict[str, Any]] = []
-    for cls in kinds.values():
-        part_schema = schema_of(cls, lambda base: {})
-        for p in parameters(cls):
-            if p.of is object:  # any value that the parameter that it sets accepts
-                part_schema["properties"][p.name] = {"description": p.meaning}
-        part_schema["required"] = [
-            "kind",
-            *(
-                p.name
-                for p in parameters(cls)
-                if p.name not in _defaults(cls) and (p.name != "name" or not named)
-            ),
-        ]
-        out.append(part_schema | {"additionalProperties": False})
-    return {"oneOf": out}
-
-
-def _defaults(cls: type[Part]) -> set[str]:
+def defaults(cls: type[Part]) -> set[str]:
     """Return the names of parameters that need not be given."""
     return {
         f.name
