@@ -99,7 +99,7 @@ class ExactField:
         Raises:
             QuantityLost: it does not exist there, or was not found.
         """
-        if of.kind in ("width", "amplitude"):
+        if of.of_peak:
             return self._form(of, values)
         over = BOOST if of.kind == "forgetting" else MIDDLE
         if near is not None:

@@ -13,8 +13,7 @@ from deodar.analysis.isolated import Isolated, Isolation, isolate
 from deodar.analysis.maps.request import STRONG, TOLERANCE, driven_alone, only_field, positive, with_inputs
 from deodar.analysis.selection import DISTANCE, places
 from deodar.analysis.tuning.candidates import CandidateSpace, candidate_space
-from deodar.analysis.tuning.instabilities import DetectionRequirement
-from deodar.analysis.tuning.requirement import Requirement
+from deodar.analysis.tuning.requirement import Requirement, detects
 from deodar.compiler.plan import Leaf
 from deodar.elements.stimuli import Boost
 from deodar.errors import AnalysisError, ParameterError
@@ -185,7 +184,7 @@ def _divided(
 def _amplitude(required: Sequence[Requirement], isolated: Isolated) -> float:
     """Return the amplitude of the inputs: 1.2 times the detection threshold, if one is required above 0."""
     for requirement in required:
-        if isinstance(requirement, DetectionRequirement) and requirement.at > 0:
+        if isinstance(requirement, detects) and requirement.at > 0:
             return STRONG * requirement.at
     return STRONG * isolated.scale
 

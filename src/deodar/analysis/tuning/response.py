@@ -93,6 +93,10 @@ class FieldResponse:
         self.axes, self.strength, self.scale, self.tau = axes, strength, scale, tau
         self.threshold, self.places = threshold, places
 
+    def localised(self, strength: float | None) -> FieldInput:
+        """Return the localised input of an amplitude; None: that of the protocol."""
+        return FieldInput(middle=self.strength if strength is None else strength)
+
     def after(self, *stages: FieldInput) -> SettledBatch:
         """Return what the field has settled to after stages of input from the resting level."""
         return self._run(stages or (FieldInput(),))
@@ -110,11 +114,11 @@ class FieldResponse:
 
     def silent(self, stage: SettledBatch) -> np.ndarray:
         """Return the margin of a field without a peak."""
-        return self._guarded(stage, self._margin(-stage.above.max(-1)))
+        return self.guarded(stage, self._margin(-stage.above.max(-1)))
 
     def active(self, stage: SettledBatch) -> np.ndarray:
         """Return the margin of a field with a peak that does not spread over the field."""
-        return self._guarded(stage, np.minimum(self._margin(stage.above.max(-1)), self._bounded(stage)))
+        return self.guarded(stage, np.minimum(self._margin(stage.above.max(-1)), self._bounded(stage)))
 
     def kept(self, stage: SettledBatch) -> np.ndarray:
         """Return the margin of a peak that is still there after its input has changed.
@@ -124,7 +128,7 @@ class FieldResponse:
         """
         outlasts = np.log1p(np.maximum(stage.active, 0.0)) / np.log(LASTING)
         lost = -1 + np.minimum(outlasts, 1 + MISSED)
-        return np.where(stage.above.max(-1) > 0, self.active(stage), self._guarded(stage, lost))
+        return np.where(stage.above.max(-1) > 0, self.active(stage), self.guarded(stage, lost))
 
     def one_of_two(self, stage: SettledBatch) -> np.ndarray:
         """Return the margin of one peak at one of the two places, and none at the other."""
@@ -132,14 +136,14 @@ class FieldResponse:
         wins, loses = np.maximum(first, second), np.minimum(first, second)
         margin = np.minimum(self._margin(wins), self._margin(-loses))
         margin = np.where(stage.peaks == 1, margin, np.minimum(margin, MISSED))
-        return self._guarded(stage, margin)
+        return self.guarded(stage, margin)
 
     def both_of_two(self, stage: SettledBatch) -> np.ndarray:
         """Return the margin of a peak at each of the two places."""
         first, second = (self._near(stage, place) for place in self.places)
         margin = self._margin(np.minimum(first, second))
         margin = np.where(stage.peaks == 2, margin, np.minimum(margin, MISSED))
-        return self._guarded(stage, margin)
+        return self.guarded(stage, margin)
 
     def _near(self, stage: SettledBatch, place: int) -> np.ndarray:
         """Return the highest activation near a place: nearer than a quarter of the distance of the two."""
@@ -157,10 +161,7 @@ class FieldResponse:
     def _margin(self, above: np.ndarray) -> np.ndarray:
         return np.minimum(1.0, above / (STEP * self.scale))
 
-    def _guarded(self, stage: SettledBatch, margin: np.ndarray) -> np.ndarray:
-        margin = np.where(stage.settled, margin, np.minimum(margin, MISSED))
-        return np.where(np.isfinite(stage.above).all(-1), np.nan_to_num(margin, nan=LOST), LOST)
-
     def guarded(self, stage: SettledBatch, margin: np.ndarray) -> np.ndarray:
         """Return a margin that is below 0 where the field did not settle, or is not finite."""
-        return self._guarded(stage, margin)
+        margin = np.where(stage.settled, margin, np.minimum(margin, MISSED))
+        return np.where(np.isfinite(stage.above).all(-1), np.nan_to_num(margin, nan=LOST), LOST)

@@ -133,5 +133,5 @@ def _subsets(quantities: Sequence[ExactQuantity]) -> list[list[ExactQuantity]]:
 
     Widths and amplitudes are left out first: on a coarse grid they jump from one value to the next.
     """
-    ordered = sorted(quantities, key=lambda of: of.kind in ("width", "amplitude"))
+    ordered = sorted(quantities, key=lambda of: of.of_peak)
     return [list(some) for n in range(len(ordered), 0, -1) for some in combinations(ordered, n)]

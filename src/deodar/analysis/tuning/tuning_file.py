@@ -2,32 +2,14 @@
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from deodar.analysis.tuning import instabilities, peak_form
-from deodar.analysis.tuning.requirement import Requirement
-from deodar.errors import DocumentError, did_you_mean
+from deodar.analysis.tuning.requirement import REQUIREMENTS, Requirement
+from deodar.errors import DocumentError, Problem, did_you_mean
 from deodar.parameters import show
-
-REQUIREMENTS: Mapping[str, Callable[..., Requirement]] = {
-    call.__name__: call
-    for call in (
-        instabilities.detects,
-        instabilities.reverse,
-        instabilities.remembers,
-        instabilities.forgets,
-        instabilities.rests,
-        instabilities.relaxes_within,
-        peak_form.selects,
-        peak_form.multi_peak,
-        peak_form.peak_width,
-        peak_form.peak_amplitude,
-    )
-}
-"""The requirements of deodar by their names."""
+from deodar.part_data import from_data
 
 OPTIONS = ("field", "strength", "sigma", "inputs", "seed", "budget", "limit")
 """Arguments of `tune` that a file may have."""
@@ -63,47 +45,38 @@ def tuning_file(data: Any, where: str) -> TuningFile:
         where: name of the file, for messages.
 
     Raises:
-        DocumentError: the content is something else.
+        DocumentError: the content is something else; the message lists every problem.
     """
     if not isinstance(data, dict):
         raise DocumentError(f"expected an object, not {show(data)}", where=where)
-    for key in data:
-        if key not in KEYS:
-            raise DocumentError(f"unknown key {key!r}", where=where, fix=did_you_mean(key, KEYS))
+    problems = [
+        Problem(where, f"unknown key {key!r}", did_you_mean(key, KEYS)) for key in data if key not in KEYS
+    ]
     named, listed = data.get("parameters"), data.get("requirements")
     if not isinstance(named, dict) or not named:
         fix = 'Write such as {"u.resting_level": [-8, -1], "u.kernel.0.sigma": null}'
-        raise DocumentError(f"parameters is {show(named)}; expected bounds by path", where=where, fix=fix)
+        problems.append(Problem(where, f"parameters is {show(named)}; expected bounds by path", fix))
+        named = dict[str, Any]()
     if not isinstance(listed, list) or not listed:
         fix = 'Write such as [{"detects": {"at": 3, "within": 0.2}}, "remembers"]'
-        raise DocumentError(f"requirements is {show(listed)}; expected a list", where=where, fix=fix)
+        problems.append(Problem(where, f"requirements is {show(listed)}; expected a list", fix))
+        listed = []
+    required = [_requirement(row, f"{where}: requirements.{k}", problems) for k, row in enumerate(listed)]
+    if problems:
+        raise DocumentError(problems)
     return TuningFile(
         tuple(named),
         {path: ends for path, ends in named.items() if ends is not None},
-        tuple(_requirement(entry, where) for entry in listed),
+        tuple(required),
         {key: data[key] for key in OPTIONS if key in data},
     )
 
 
-def _requirement(entry: Any, where: str) -> Requirement:
-    call_by_name = {entry: {}} if isinstance(entry, str) else entry
-    if not isinstance(call_by_name, dict) or len(call_by_name) != 1:
-        raise DocumentError(f"{show(entry)} is no requirement", where=where, fix='Write such as "remembers"')
-    ((name, values),) = call_by_name.items()
-    if name not in REQUIREMENTS:
-        raise DocumentError(
-            f"unknown requirement {name!r}", where=where, fix=did_you_mean(name, REQUIREMENTS)
-        )
-    call = REQUIREMENTS[name]
-    parameters = inspect.signature(call).parameters
-    if not isinstance(values, dict):
-        raise DocumentError(f"{name} has {show(values)}; expected values by name", where=where)
-    for key in values:
-        if key not in parameters:
-            raise DocumentError(
-                f"{name} has no value {key!r}", where=where, fix=did_you_mean(key, parameters)
-            )
-    for key, parameter in parameters.items():
-        if parameter.default is inspect.Parameter.empty and key not in values:
-            raise DocumentError(f"{name} lacks the value {key!r}", where=where)
-    return call(**values)
+def _requirement(row: Any, where: str, problems: list[Problem]) -> Any:
+    """Return a requirement, or None with its problems added."""
+    by_name = {row: {}} if isinstance(row, str) else row
+    if not isinstance(by_name, dict) or len(by_name) != 1:
+        problems.append(Problem(where, f"{show(row)} is no requirement", 'Write such as "remembers"'))
+        return None
+    ((name, values),) = by_name.items()
+    return from_data(values, where, REQUIREMENTS, {}, problems, name)

@@ -157,15 +157,15 @@ def test_a_field_that_is_not_finite_meets_nothing():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: dd.detects(3, within=0), "within is 0; expected a finite number above 0"),
-        (lambda: dd.detects(float("nan"), within=1), "at is nan; expected a finite number"),
-        (lambda: dd.peak_width(-1, within=1), "width is -1"),
-        (lambda: dd.reverse("a", within=1), "at is 'a'"),
-        (lambda: dd.relaxes_within(0), "time is 0"),
-        (lambda: dd.forgets(within=1), "at is None"),
-        (lambda: dd.forgets(at=1), "within is None"),
-        (lambda: dd.remembers(strength=-2), "strength is -2"),
-        (lambda: dd.selects(dd.isolate(line(31), "u")), "strength is <Isolated"),
+        (lambda: dd.detects(3, within=0), "detects.within: is 0, below its lower bound"),
+        (lambda: dd.detects(float("nan"), within=1), "detects.at: needs a finite number, not nan"),
+        (lambda: dd.peak_width(-1, within=1), "peak_width.width: is -1, below"),
+        (lambda: dd.reverse("a", within=1), "reverse.at: needs a number, not 'a'"),
+        (lambda: dd.relaxes_within(0), "relaxes_within.time: is 0"),
+        (lambda: dd.forgets(within=1), "forgets.at: is None"),
+        (lambda: dd.forgets(at=1), "forgets.within: is None"),
+        (lambda: dd.remembers(strength=-2), "strength: is -2"),
+        (lambda: dd.selects(dd.isolate(line(31), "u")), "strength: needs a number, not <Isolated"),
     ],
 )
 def test_values_that_are_none_are_refused(call, message):
