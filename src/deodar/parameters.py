@@ -281,6 +281,8 @@ def _form(hint: Any) -> tuple[ValueForm, type[Any] | None, bool]:
         optional = len(rest) < len(args)
         if FrozenArray in rest:
             return "array", None, optional
+        if float in rest and str in rest:
+            return "value", object, optional
         if float in rest and len(rest) == 2:
             return "per_axis", None, optional
         if str in rest:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, cast
 
 import numpy as np
 
 from deodar.codec import JsonObject
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
-from deodar.parameters import Part, an, parameters, show
+from deodar.parameters import PLAIN, Parameter, Part, an, normal, parameters, show
 
 WHOLE = 2.0**53
 """Whole numbers below it are the same in float64 and as an integer."""
@@ -55,31 +55,70 @@ def from_data(
         problems.append(Problem(where, f"needs an object, not {show(data)}"))
         return None
     values = cast("dict[str, Any]", data)
-    name = values.get("kind", kind)
-    cls = _kind_of(name, where, kinds, problems)
+    cls = _kind_of(values.get("kind", kind), where, kinds, problems)
     if cls is None:
         return None
+    return made(cls, {key: value for key, value in values.items() if key != "kind"}, where, preset, problems)
+
+
+def made(
+    cls: type[Part],
+    data: Any,
+    where: str,
+    preset: Mapping[str, Any],
+    problems: list[Problem],
+    name: str = "",
+) -> Any:
+    """Return the part of a known class that plain data describe, or None with its problems added.
+
+    Args:
+        cls: its class.
+        data: the plain data.
+        where: name of its place in messages; "": its parameters are places.
+        preset: parameters that are stored elsewhere.
+        problems: the list to which problems are added.
+        name: name of the class in messages; "": its own.
+    """
+    name = name or cls.__name__
+    if not isinstance(data, dict):
+        problems.append(Problem(where, f"needs an object, not {show(data)}"))
+        return None
+    values = cast("dict[str, Any]", data)
     names = [p.name for p in parameters(cls) if p.name not in preset]
-    strange = [key for key in values if key != "kind" and key not in names]
+    strange = [key for key in values if key not in names]
     problems += [
-        Problem(f"{where}.{key}", f"{name} has no such parameter", did_you_mean(key, names))
+        Problem(_inside(where, key), f"{name} has no such parameter", did_you_mean(key, names))
         for key in strange
     ]
-    missing = [
-        p.name
-        for p in parameters(cls)
-        if p.name in names and p.name not in values and p.name not in defaults(cls)
-    ]
+    missing = [key for key in names if key not in values and key not in defaults(cls)]
     problems += [Problem(where, f"{an(name)} needs {key!r}") for key in missing]
     if strange or missing:
+        problems += faulty_values({p.name: p for p in parameters(cls)}, values, where)
         return None
     try:
-        return cls(**preset, **{key: value for key, value in values.items() if key != "kind"})
+        return cls(**preset, **values)
     except (ParameterError, UnknownName) as error:
         problems += [
-            Problem(f"{where}{p.where.removeprefix(cls.__name__)}", p.what, p.fix) for p in error.problems
+            Problem(_inside(where, p.where.removeprefix(cls.__name__).lstrip(".")), p.what, p.fix)
+            for p in error.problems
         ]
         return None
+
+
+def faulty_values(
+    declared: Mapping[str, Parameter], values: Mapping[str, Any], where: str
+) -> Iterator[Problem]:
+    """Return the other problems of the values that do not depend on the parts that failed."""
+    for name, value in values.items():
+        if name in declared and declared[name].form in PLAIN:
+            try:
+                normal(declared[name], value)
+            except ValueError as error:
+                yield Problem(_inside(where, name), str(error))
+
+
+def _inside(where: str, key: str) -> str:
+    return f"{where}.{key}" if where and key else where or key
 
 
 def _kind_of(

@@ -73,7 +73,7 @@ def test_a_plot_is_saved_as_a_figure_file_that_is_drawn(root: Path) -> None:
         course = await p.do("save_figure", **plot, kind="course")
         assert (curve["file"], course["file"]) == ("selection-figure-001.toml", "selection-figure-002.toml")
         snapshot, over_time = (FigureFile.read(root / answer["file"]) for answer in (curve, course))
-        assert snapshot.record == "selection-001" and snapshot.panels[0].at == [300]
+        assert snapshot.record == "selection-001" and snapshot.panels[0].at == (300,)
         assert snapshot.kinds() == ["snapshot"] and over_time.kinds() == ["time_course"]
         axes = snapshot.draw().axes[0]
         assert axes.get_ylim() == (-12, 6)

@@ -6,9 +6,9 @@ import dataclasses as dc
 import os
 import string
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import xarray
@@ -20,6 +20,8 @@ from deodar.figures import _encode, _journals, _panels, _style, _video
 from deodar.figures._moving import Changing
 from deodar.figures._view import REDUCTIONS, View
 from deodar.model import output
+from deodar.parameters import Part, PerAxis, Recompile, parameters, real
+from deodar.part_data import made
 from deodar.progress import telling
 from deodar.recording import files
 from deodar.recording.provenance import KEY
@@ -39,24 +41,17 @@ LEGENDS = (
 MOST_PANELS = 26
 SMALLEST_TYPE, LARGEST_TYPE = 3.0, 40.0
 SMALLEST_VIDEO, LARGEST_VIDEO = 64, 8192
-SETTINGS = (
-    "at",
-    "trial",
-    "where",
-    "axes",
-    "places",
-    "reduce",
-    "time_range",
-    "every",
-    "value_range",
-    "colors",
-    "labels",
-)
-"""The settings of a panel that are those of a `View`."""
+Shares = Annotated[PerAxis | None, Recompile(lower=1e-3, upper=1e3)]
+"""Relative sizes of columns or rows."""
+
+SETTINGS = ("trial", "axes", "reduce", "every", "colors")
+LISTED = ("at", "places", "time_range", "value_range")
+NAMED = ("where", "labels")
+"""The settings of a panel that are those of a `View`: single values, lists of numbers, and tables."""
 
 
 @dc.dataclass(frozen=True)
-class FigurePanel:
+class FigurePanel(Part):
     """One panel of a figure: a variable, the selected part of it, and its title.
 
     Attributes:
@@ -66,26 +61,46 @@ class FigurePanel:
         record: path of the record, if it is not that of the figure.
         title: title of the panel. None: that of the kind; "" for no title.
         legend: place of the legend, as "upper right", or "none". None: where it hides least.
-        at, trial, where, axes, places, reduce: the selected part, as in `View`.
-        time_range, every, value_range, colors, labels: times, ranges, colour map and labels, as in `View`.
+        at: times, in the record's unit.
+        places: for time courses of fields: positions, one number for each axis.
+        trial: number of the trial.
+        where: for each sweep path the selected value.
+        axes: names of the axes to keep in a projection.
+        reduce: contraction over the other axes in a projection.
+        time_range: first and last time to show.
+        every: time between two shown samples.
+        value_range: smallest and largest value of the scale.
+        colors: name of a colour map of matplotlib.
+        labels: labels by name of an axis, `time` or `value`.
+
+    What is None is as in `View`.
     """
 
     variable: str
     kind: str | None = None
     record: str | None = None
     title: str | None = None
-    legend: str | None = None
-    at: Sequence[float] | None = None
-    trial: int | None = None
+    legend: Annotated[str | None, Recompile(choices=LEGENDS)] = None
+    at: PerAxis | None = None
+    places: object | None = None
+    trial: Annotated[int | None, Recompile(lower=0)] = None
     where: Mapping[str, float] | None = None
     axes: Sequence[str] | None = None
-    places: Sequence[Sequence[float] | float] | None = None
-    reduce: str | None = None
-    time_range: Sequence[float] | None = None
+    reduce: Annotated[str | None, Recompile(choices=REDUCTIONS)] = None
+    time_range: PerAxis | None = None
     every: float | None = None
-    value_range: Sequence[float] | None = None
+    value_range: PerAxis | None = None
     colors: str | None = None
     labels: Mapping[str, str] | None = None
+
+    def validate(self) -> Iterator[tuple[str, str]]:
+        for key in ("time_range", "value_range"):
+            ends = _listed(getattr(self, key))
+            if ends and not (len(ends) == 2 and ends[0] < ends[1]):
+                yield key, f"is {show(list(ends))}; expected a smaller and a larger number, such as [0, 500]"
+        places = _listed(self.places)
+        if any(real(n) is None for place in places for n in _listed(place)):
+            yield "places", f"is {show(self.places)}; expected such as [35, 70] or [[30, 5], [60, 5]]"
 
     def view(self, data: xarray.Dataset) -> View:
         """Return the selected part of the variable.
@@ -99,13 +114,16 @@ class FigurePanel:
             raise FigureError(
                 f"the record holds no variable {self.variable!r}", fix=did_you_mean(self.variable, known)
             )
-        given = {key: value for key in SETTINGS if (value := getattr(self, key)) is not None}
+        values: dict[str, Any] = {key: getattr(self, key) for key in (*SETTINGS, *LISTED, *NAMED)}
+        given = {key: value for key, value in values.items() if value is not None}
+        given |= {key: _listed(given[key]) for key in LISTED if key in given}
+        given |= {key: dict(given[key]) for key in NAMED if key in given}
         in_arena = (self.kind or "").replace("-", "_") == "path" and KEY in data.attrs
         return View(data[self.variable], **given, world=world_of(data) if in_arena else None)
 
 
 @dc.dataclass(frozen=True, repr=False)
-class FigureFile(Summarised):
+class FigureFile(Summarised, Part):
     """A figure as data: panels, ranges, labels and sizes, in a file that a person can edit.
 
     `FigureFile.read("figure.toml").draw()` and `deodar plot figure.toml` draw the same figure:
@@ -129,27 +147,58 @@ class FigureFile(Summarised):
         folder: the folder in which paths of records begin.
 
     Raises:
-        FigureError: a value is invalid; the message lists every problem.
+        ParameterError: a value is invalid; the message lists every problem.
     """
 
     panels: Sequence[FigurePanel]
     record: str | None = None
-    journal: str | None = None
+    journal: Annotated[str | None, Recompile(choices=tuple(_journals.COLUMNS))] = None
     width: float | str | None = None
-    height: float | None = None
+    height: Annotated[float | None, Recompile("mm", lower=_journals.SMALLEST, upper=_journals.LARGEST)] = None
     font: str | None = None
-    font_size: float | None = None
-    columns: int | None = None
+    font_size: Annotated[float | None, Recompile("points", lower=SMALLEST_TYPE, upper=LARGEST_TYPE)] = None
+    columns: Annotated[int | None, Recompile(lower=1, upper=MOST_PANELS)] = None
     grid: Sequence[str] | None = None
-    column_widths: Sequence[float] | None = None
-    row_heights: Sequence[float] | None = None
-    letters: str | None = None
+    column_widths: Shares = None
+    row_heights: Shares = None
+    letters: Annotated[str | None, Recompile(choices=tuple(LETTERS))] = None
     folder: str | Path = ""
 
     def __post_init__(self) -> None:
-        problems = list(_faults(self))
-        if problems:
-            raise FigureError(problems)
+        object.__setattr__(self, "folder", str(self.folder))
+        super().__post_init__()
+
+    def validate(self) -> Iterator[tuple[str, str]]:
+        n = len(self.panels)
+        if n > MOST_PANELS:
+            yield "panels", f"are {n}, too many for one figure; name at most {MOST_PANELS}"
+        yield from self._width_faults()
+        if self.font is not None and not _style.installed(self.font):
+            yield "font", f"{self.font!r} is not installed; leave it out for DejaVu Sans"
+        if self.grid is not None:
+            yield from (("grid", fault) for fault in _grid_faults(self.grid, n))
+            if self.columns is not None:
+                yield "columns", "is given beside grid; leave out one of them"
+        shape = self.grid and (len(self.grid), max(map(len, self.grid)))
+        across = self.columns or 1
+        rows, columns = shape or (-(-n // across), across)
+        for key, count, what in (("column_widths", columns, "columns"), ("row_heights", rows, "rows")):
+            shares = _listed(getattr(self, key))
+            if shares and len(shares) != count:
+                yield key, f"has {len(shares)} numbers, and the figure {count} {what}"
+
+    def _width_faults(self) -> Iterator[tuple[str, str]]:
+        if isinstance(self.width, str):
+            known = _journals.COLUMNS[self.journal or _journals.DEFAULT]
+            if self.width not in known:
+                yield "width", f"there is no column {self.width!r}. {did_you_mean(self.width, known)}"
+            return
+        number = None if self.width is None else real(self.width)
+        low, high = _journals.SMALLEST, _journals.LARGEST
+        if self.width is not None and (number is None or not low <= number <= high):
+            yield "width", f"is {show(self.width)}; expected {low:g} to {high:g} mm, or a column"
+        if self.journal is not None:
+            yield "journal", 'gives the width of a column, and width names none. For example width = "single"'
 
     # -------------------------------------------------------------------------------------------------- files
 
@@ -180,29 +229,25 @@ class FigureFile(Summarised):
         except tomllib.TOMLDecodeError as error:
             raise FigureError(f"is not TOML: {error}") from None
         problems: list[Problem] = []
-        given = _checked(data, FIGURE_KEYS, "", problems)
-        panels = given.pop("panel", [])
-        made = [_checked(panel, PANEL_KEYS, f"panel {n}", problems) for n, panel in enumerate(panels, 1)]
-        for n, panel in enumerate(made, 1):
-            if "variable" not in panel and not any(p.where.startswith(f"panel {n}") for p in problems):
-                problems.append(
-                    Problem(f"panel {n}", "states no variable", 'For example: variable = "u.activation"')
-                )
+        tables: Any = data.pop("panel", [])
+        if not isinstance(tables, list):
+            problems.append(Problem("panel", 'expected tables, each under a line "[[panel]]"'))
+            tables = []
+        panels = [
+            made(FigurePanel, table, f"panel {n}", {}, problems, "panel") for n, table in enumerate(tables, 1)
+        ]
+        # with a panel in place of each wrong one, the other problems of the figure are stated too
+        preset = {"panels": [panel or FigurePanel("") for panel in panels], "folder": folder}
+        figure = made(cls, data, "", preset, problems, "figure")
         if problems:
             raise FigureError(problems)
-        return cls([FigurePanel(**panel) for panel in made], **given, folder=Path(folder))
+        return figure
 
     def text(self) -> str:
         """Return the figure in TOML; `parse` gives the same figure."""
-        own = {
-            key: value for key in FIGURE_KEYS if key != "panel" and (value := getattr(self, key)) is not None
-        }
-        lines = [f"{key} = {_toml(value)}" for key, value in own.items()]
+        lines = _toml_lines(self, ("panels", "folder"))
         for panel in self.panels:
-            lines += ["", "[[panel]]"]
-            lines += [
-                f"{key} = {_toml(value)}" for key in PANEL_KEYS if (value := getattr(panel, key)) is not None
-            ]
+            lines += ["", "[[panel]]", *_toml_lines(panel)]
         return "\n".join(lines).lstrip("\n") + "\n"
 
     def save(self, path: str | Path, force: bool = False) -> Path:
@@ -358,8 +403,8 @@ class FigureFile(Summarised):
             width = _tenths(grid.widths)
         height = self.height if self.height is not None else _tenths(grid.heights)
         return _panels.Tracks(
-            _shared(width / _journals.INCH, self.column_widths or grid.widths),
-            _shared(height / _journals.INCH, self.row_heights or grid.heights),
+            _shared(width / _journals.INCH, _listed(self.column_widths) or grid.widths),
+            _shared(height / _journals.INCH, _listed(self.row_heights) or grid.heights),
         )
 
     def _summary(self) -> Summary:
@@ -367,204 +412,26 @@ class FigureFile(Summarised):
         return Summary(f"FigureFile of {counted(len(rows), 'panel')}", rows)
 
 
-# ----------------------------------------------------------------------------------------------------- checks
-
-Check = Callable[[Any], Any]
-"""Returns the value of a key; raises a ValueError that says what it expects."""
-
-
-def _text(value: Any) -> str:
-    if not isinstance(value, str):
-        raise ValueError('a text in quotes, "like this"')
-    return value
+def _listed(values: Any) -> tuple[Any, ...]:
+    """Return values of a list, of a single value in place of a list of one, or of None: none."""
+    return () if values is None else tuple(values) if isinstance(values, list | tuple) else (values,)
 
 
-def _number(value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < float("inf"):
-        raise ValueError("a number")
-    return value
-
-
-def _whole(value: Any) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-        raise ValueError("a whole number, 0 or above")
-    return value
-
-
-def _list(of: Check, example: str) -> Check:
-    def check(value: Any) -> list[Any]:
-        if not isinstance(value, list):
-            raise ValueError(f"a list such as {example}")
-        try:
-            return [of(v) for v in value]
-        except ValueError:
-            raise ValueError(f"a list such as {example}") from None
-
-    return check
-
-
-def _or(number: Check, listed: Check) -> Check:
-    """Accept a single value in place of a list of one."""
-    return lambda value: listed(value) if isinstance(value, list) else [number(value)]
-
-
-def _place(value: Any) -> Any:
-    return [_number(v) for v in value] if isinstance(value, list) else _number(value)
-
-
-def _range(value: Any) -> list[float]:
-    if not isinstance(value, list) or len(value) != 2:
-        raise ValueError("two numbers, for example [0, 500]")
-    low, high = map(_number, value)
-    if not low < high:
-        raise ValueError("a smaller and a larger number, for example [0, 500]")
-    return [low, high]
-
-
-def _table(of: Check, example: str) -> Check:
-    def check(value: Any) -> dict[str, Any]:
-        if not isinstance(value, dict):
-            raise ValueError(f"a table such as {example}")
-        try:
-            return {k: of(v) for k, v in value.items()}
-        except ValueError:
-            raise ValueError(f"a table such as {example}") from None
-
-    return check
-
-
-def _choice(known: Sequence[str]) -> Check:
-    def check(value: Any) -> str:
-        if value not in known:
-            hint = f". {did_you_mean(value, known)}" if isinstance(value, str) else ""
-            raise ValueError(f"one of {', '.join(map(repr, known))}{hint}")
-        return value
-
-    return check
-
-
-def _between(low: float, high: float, unit: str) -> Check:
-    def check(value: Any) -> float:
-        if not low <= _number(value) <= high:
-            raise ValueError(f"{low:g} to {high:g} {unit}")
-        return value
-
-    return check
-
-
-def _width(value: Any) -> float | str:
-    if isinstance(value, str):
-        return _choice(list(_journals.COLUMNS[_journals.DEFAULT]))(value)
-    return _between(_journals.SMALLEST, _journals.LARGEST, "mm")(value)
-
-
-def _panel_list(value: Any) -> list[dict[str, Any]]:
-    if not isinstance(value, list) or not all(isinstance(v, dict) for v in value):
-        raise ValueError('tables, each under a line "[[panel]]"')
-    return value
-
-
-FIGURE_KEYS: dict[str, Check] = {
-    "record": _text,
-    "journal": _choice(list(_journals.COLUMNS)),
-    "width": _width,
-    "height": _between(_journals.SMALLEST, _journals.LARGEST, "mm"),
-    "font": _text,
-    "font_size": _between(SMALLEST_TYPE, LARGEST_TYPE, "points"),
-    "columns": _between(1, MOST_PANELS, "columns"),
-    "grid": _list(_text, '["aab", "ccb"]'),
-    "column_widths": _list(_between(1e-3, 1e3, ""), "[2, 1]"),
-    "row_heights": _list(_between(1e-3, 1e3, ""), "[2, 1]"),
-    "letters": _choice(list(LETTERS)),
-    "panel": _panel_list,
-}
-"""The keys of the file, in the order in which they are written, and what each one holds."""
-
-PANEL_KEYS: dict[str, Check] = {
-    "variable": _text,
-    "record": _text,
-    "kind": _text,
-    "title": _text,
-    "legend": _choice(LEGENDS),
-    "at": _or(_number, _list(_number, "[50, 250]")),
-    "places": _or(_number, _list(_place, "[35, 70] or [[30, 5], [60, 5]]")),
-    "trial": _whole,
-    "where": _table(_number, '{ "s.amplitude" = 4 }'),
-    "axes": _list(_text, '["x", "y"]'),
-    "reduce": _choice(REDUCTIONS),
-    "time_range": _range,
-    "every": _number,
-    "value_range": _range,
-    "colors": _text,
-    "labels": _table(_text, '{ time = "time (ms)", value = "activation" }'),
-}
-"""The keys of a panel."""
-
-
-def _checked(
-    data: Mapping[str, Any], keys: Mapping[str, Check], where: str, problems: list[Problem]
-) -> dict[str, Any]:
-    """Return the valid entries of a table; add a problem for each of the others."""
-    found: dict[str, Any] = {}
-    for key, value in data.items():
-        if key not in keys:
-            problems.append(Problem(where, f"unknown key {key!r}", did_you_mean(key, keys)))
-            continue
-        try:
-            found[key] = keys[key](value)
-        except ValueError as error:
-            problems.append(
-                Problem(f"{where}, {key}" if where else key, f"expected {error}, got {show(value)}")
-            )
-    return found
-
-
-def _faults(figure: FigureFile) -> Iterator[Problem]:
-    """Yield what is wrong with the values of a figure together."""
-    n = len(figure.panels)
-    if n > MOST_PANELS:
-        yield Problem("", f"{n} panels are too many for one figure", f"Name at most {MOST_PANELS}")
-    for key in FIGURE_KEYS:
-        value = getattr(figure, key, None)
-        if value is not None:
-            try:
-                FIGURE_KEYS[key](list(value) if isinstance(value, tuple) else value)
-            except ValueError as error:
-                yield Problem(key, f"expected {error}, got {show(value)}")
-    if figure.journal is not None and not isinstance(figure.width, str):
-        yield Problem(
-            "journal", "gives the width of a column, and width names none", 'For example width = "single"'
-        )
-    if figure.font is not None and not _style.installed(figure.font):
-        yield Problem("font", f"{figure.font!r} is not installed", "Leave it out for DejaVu Sans")
-    if figure.grid is not None:
-        yield from _grid_faults(figure.grid, n)
-        if figure.columns is not None:
-            yield Problem("columns", "is given beside grid", "Leave out one of them")
-    shape = figure.grid and (len(figure.grid), max(map(len, figure.grid)))
-    across = figure.columns or 1
-    rows, columns = shape or (-(-n // across), across)
-    for key, count, what in (("column_widths", columns, "columns"), ("row_heights", rows, "rows")):
-        given = getattr(figure, key)
-        if given is not None and len(given) != count:
-            yield Problem(key, f"has {len(given)} numbers, and the figure {count} {what}")
-
-
-def _grid_faults(grid: Sequence[str], panels: int) -> Iterator[Problem]:
+def _grid_faults(grid: Sequence[str], panels: int) -> Iterator[str]:
     known = string.ascii_lowercase[:panels]
     if len(set(map(len, grid))) != 1 or not grid[0]:
-        yield Problem("grid", "its rows have different numbers of letters", "Write . where no panel is")
+        yield "its rows have different numbers of letters; write . where no panel is"
         return
     for letter in dict.fromkeys("".join(grid)):
         if letter != "." and letter not in known:
-            yield Problem("grid", f"{letter!r} is not a panel; there are {panels}", "a is the first panel")
+            yield f"{letter!r} is not a panel; there are {panels}, and a is the first"
     for letter in known:
         if letter not in "".join(grid):
-            yield Problem("grid", f"panel {letter} has no position")
+            yield f"panel {letter} has no position"
             continue
         (top, below), (left, right) = _span(grid, letter)
         if any(set(row[left:right]) != {letter} for row in grid[top:below]):
-            yield Problem("grid", f"the positions of panel {letter} are not a rectangle")
+            yield f"the positions of panel {letter} are not a rectangle"
 
 
 def _span(grid: Sequence[str], letter: str) -> tuple[tuple[int, int], tuple[int, int]]:
@@ -589,6 +456,13 @@ def _relative(path: Path, folder: Path) -> str:
         return Path(os.path.relpath(path, folder)).as_posix()
     except ValueError:
         return path.resolve().as_posix()
+
+
+def _toml_lines(part: Part, without: Sequence[str] = ()) -> list[str]:
+    """Return a line for each parameter that has a value."""
+    values = {p.name: getattr(part, p.name) for p in parameters(type(part)) if p.name not in without}
+    tables = {key: dict(values[key]) for key in NAMED if values.get(key) is not None}
+    return [f"{key} = {_toml(value)}" for key, value in (values | tables).items() if value is not None]
 
 
 def _toml(value: Any) -> str:

@@ -12,7 +12,8 @@ from deodar.declarations import Needed
 from deodar.errors import Fix, ParameterError, Problem, UnknownName, did_you_mean
 from deodar.leaves import get, parameter_values
 from deodar.numerics.axes import Axis
-from deodar.parameters import PLAIN, FrozenArray, Parameter, Part, an, normal, parameter, parameters, show
+from deodar.parameters import FrozenArray, Parameter, Part, an, parameter, parameters, show
+from deodar.part_data import faulty_values
 
 
 def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
@@ -158,7 +159,7 @@ def _from_json(
                 Problem(f"{where}.{p.name}", f"{cls.__name__} needs {p.name}", _to_write(p, p.default, axes))
             )
     if faults:
-        problems += [*faults, *_faulty_values(declared, values, where)]
+        problems += [*faults, *faulty_values(declared, values, where)]
         return None
     try:
         return cls(**values)
@@ -233,18 +234,6 @@ def _value(
             return arrays[key]
         case _:
             return value
-
-
-def _faulty_values(
-    declared: Mapping[str, Parameter], values: Mapping[str, Any], where: str
-) -> Iterator[Problem]:
-    """Return the other problems of the values that do not depend on the parts that failed."""
-    for name, value in values.items():
-        if name in declared and declared[name].form in PLAIN:
-            try:
-                normal(declared[name], value)
-            except ValueError as error:
-                yield Problem(f"{where}.{name}", str(error))
 
 
 def _to_write(p: Parameter, needed: Needed, axes: Mapping[str, Any]) -> str:

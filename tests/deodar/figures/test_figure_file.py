@@ -11,7 +11,7 @@ import pytest
 import xarray
 
 import deodar as dd
-from deodar.errors import FigureError, RecordError, UnknownName
+from deodar.errors import FigureError, ParameterError, RecordError, UnknownName
 from deodar.figures import FigureFile, FigurePanel
 from tests.deodar.recording.models import record
 
@@ -68,7 +68,7 @@ def wrong(text: str) -> list[str]:
 def test_every_key_of_a_file_is_read_and_written_again(tmp_path: Path) -> None:
     figure = FigureFile.parse(EVERYTHING, tmp_path)
     assert figure.width == "single" and figure.panels[0].title == 'two "times" of u, τ'
-    assert figure.panels[1].where == {"s.amplitude": 4} and figure.panels[2].reduce == "integral"
+    assert figure.panels[1].where == (("s.amplitude", 4),) and figure.panels[2].reduce == "integral"
     assert FigureFile.parse(figure.text(), tmp_path) == figure
     (tmp_path / "below").mkdir()
     figure.save(tmp_path / "below" / "moved.toml")
@@ -79,13 +79,13 @@ def test_every_key_of_a_file_is_read_and_written_again(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("widht = 80", "unknown key 'widht'. Did you mean 'width'?"),
-        ("width = 5", "width: expected 10 to 1000 mm, got 5"),
+        ("widht = 80", "widht: figure has no such parameter. Did you mean 'width'?"),
+        ("width = 5", "width: is 5; expected 10 to 1000 mm"),
         ('width = "singel"', "Did you mean 'single'?"),
-        ("font_size = true", "font_size: expected a number, got True"),
+        ("font_size = true", "font_size: needs a number, not True"),
         ('font = "No Such Font"', "font: 'No Such Font' is not installed"),
         ('journal = "nature"', 'For example width = "single"'),
-        ("letters = 1", "letters: expected one of 'none', 'a'"),
+        ("letters = 1", "letters: needs text, not 1"),
         ('grid = ["ab", "c"]', "grid: its rows have different numbers of letters"),
         ('[[panel]]\nvariable = "u"\n', None),
         ('grid = ["ab"]\n[[panel]]\nvariable = "u"', "grid: 'b' is not a panel"),
@@ -95,26 +95,30 @@ def test_every_key_of_a_file_is_read_and_written_again(tmp_path: Path) -> None:
             'row_heights = [1, 2]\n[[panel]]\nvariable = "u"',
             "row_heights: has 2 numbers, and the figure 1 rows",
         ),
-        ("[[panel]]\nkind = 'snapshot'", "panel 1: states no variable"),
-        ("[[panel]]\nvariable = 3", "panel 1, variable: expected a text in quotes"),
+        ("[[panel]]\nkind = 'snapshot'", "panel 1: a panel needs 'variable'"),
+        ("[[panel]]\nvariable = 3", "panel 1.variable: needs text, not 3"),
         (
             "[[panel]]\nvariable = 'u'\nat = ['a']",
-            "panel 1, at: expected a list such as [50, 250], got ['a']",
+            "panel 1.at: needs a number, not 'a'",
         ),
         (
             "[[panel]]\nvariable = 'u'\ntime_range = [5, 5]",
-            "panel 1, time_range: expected a smaller and a larger",
+            "panel 1.time_range: is [5.0, 5.0]; expected a smaller and a larger",
         ),
         (
             "[[panel]]\nvariable = 'u'\ntrial = -1",
-            "panel 1, trial: expected a whole number, 0 or above, got -1",
+            "panel 1.trial: is -1, below its lower bound 0",
         ),
         (
             "[[panel]]\nvariable = 'u'\nreduce = 'max'",
-            "panel 1, reduce: expected one of 'maximum', 'integral'",
+            "panel 1.reduce: is 'max'; expected one of maximum, integral",
         ),
-        ("[[panel]]\nvariable = 'u'\nlabels = ['t']", "panel 1, labels: expected a table such as"),
-        ("[[panel]]\nvariable = 'u'\nplace = 3", "panel 1: unknown key 'place'. Did you mean 'places'?"),
+        ("[[panel]]\nvariable = 'u'\nlabels = ['t']", "panel 1.labels: needs a mapping from names to names"),
+        (
+            "[[panel]]\nvariable = 'u'\nplace = 3",
+            "panel has no such parameter. Did you mean 'places'?",
+        ),
+        ("[[panel]]\nvariable = 'u'\nplaces = [[3, 'b']]", "panel 1.places: is [[3, 'b']]; expected such as"),
         ("panel = 3", "panel: expected tables, each under a line"),
         ("width = ", "is not TOML"),
     ],
@@ -128,10 +132,12 @@ def test_a_wrong_entry_is_named_with_its_panel_and_key(text: str, says: str | No
 
 def test_all_problems_of_a_file_are_listed_with_its_path(tmp_path: Path) -> None:
     path = tmp_path / "bad.toml"
-    path.write_text("width = 5\nheigth = 3\n[[panel]]\nat = 'x'\n")
+    path.write_text("height = 5\nwidht = 3\n[[panel]]\nat = 'x'\n")
     with pytest.raises(FigureError) as caught:
         FigureFile.read(path)
-    assert [p.where for p in caught.value.problems] == [f"{path}, width", str(path), f"{path}, panel 1, at"]
+    assert [p.where for p in caught.value.problems] == [
+        f"{path}, {place}" for place in ("panel 1", "panel 1.at", "widht", "height")
+    ]
     for missing in (tmp_path / "none.toml", tmp_path):
         with pytest.raises(FigureError, match="cannot be read"):
             FigureFile.read(missing)
@@ -164,7 +170,7 @@ def test_a_figure_without_panel_or_record_is_an_error(recorded: xarray.Dataset) 
         FigureFile([]).draw(recorded)
     with pytest.raises(FigureError, match=r'record = "run\.zarr"'):
         FigureFile([FigurePanel("n.activation")]).draw()
-    with pytest.raises(FigureError, match="27 panels are too many"):
+    with pytest.raises(ParameterError, match="are 27, too many"):
         FigureFile([FigurePanel("n.activation")] * 27)
 
 
