@@ -54,6 +54,8 @@ NAMED = ("where", "labels")
 class FigurePanel(Part):
     """One panel of a figure: a variable, the selected part of it, and its title.
 
+    From `at` on, None has the meaning that it has in `View`.
+
     Attributes:
         variable: path of the variable in the record.
         kind: a kind of figure, such as time_course, space_time or path, or one of a package. None: the one
@@ -72,8 +74,6 @@ class FigurePanel(Part):
         value_range: smallest and largest value of the scale.
         colors: name of a colour map of matplotlib.
         labels: labels by name of an axis, `time` or `value`.
-
-    What is None is as in `View`.
     """
 
     variable: str
