@@ -8,9 +8,9 @@ An element may rely on these rules:
 
 * a step reads every output at time t, then commits all new states together;
 * all connections into one port are summed, in the port's axes;
-* `prepare` may use parameters that rebuild (and arrays), not live ones; its result is passed to `hoist`,
-  which may use all parameters and is computed once per chunk; the result of `hoist` is passed to `output` and
-  `advance`.
+* `prepare` may use parameters that rebuild (and arrays), not live ones; `hoist` reads its result as
+  `at.constants`, may use all parameters, and is computed once per chunk; `output` and `advance` read the
+  result of `hoist` as `at.constants`.
 """
 
 from __future__ import annotations
@@ -35,6 +35,15 @@ from deodar.numerics.signs import Sign
 from deodar.parameters import ArrayLike, FrozenArray, Part, Recompile
 
 Arrays = dict[str, Array]
+
+Ports = Mapping[str, Axes]
+"""The axes of ports, by their names."""
+
+Bounds = Mapping[str, Interval]
+"""The smallest and the largest value at ports, by their names."""
+
+PortUnits = Mapping[str, PositionUnits]
+"""The units of the numbers at ports that are positions, by the names of the ports."""
 
 
 @dc.dataclass(frozen=True)
@@ -106,6 +115,10 @@ class Time:
         return self.since(0.0)
 
 
+BEFORE = Time(Exact(np.nan, np.nan), np.uint32(0), Exact(np.nan, np.nan))
+"""The time outside of a step, not a number: `prepare` and `init` do not depend on the time."""
+
+
 @dc.dataclass(frozen=True)
 class Convolution:
     """The declaration of the port that an element convolves with its `kernels`, and of the port that uses it.
@@ -133,18 +146,30 @@ def _undeclared(y: Array) -> NoReturn:
 
 @dc.dataclass(frozen=True)
 class Setting:
-    """The context of an element: the axes of its ports, the precision of the model, and its convolution.
+    """The context of an element: the axes of its ports, the precision of the model, and what a step reads.
+
+    `init` and `prepare` use the axes and the precision alone, `hoist` the constants too.
 
     Attributes:
         ins, outs: axes of the ports.
         dtype: working precision.
+        state: the state at time t.
+        inputs: sums at the input ports.
+        constants: in `hoist` the result of `prepare`, then the result of `hoist`.
+        time: the time t.
+        noise: standard normal deviates over `Element.noise_axes`, or None.
         convolve: function of an array over the axes of the port that `Element.convolution` declares: the
             integral of the kernels times it, over the same axes. In `output` and `advance` only.
     """
 
-    ins: Mapping[str, Axes]
-    outs: Mapping[str, Axes]
+    ins: Ports
+    outs: Ports
     dtype: DTypeLike
+    state: Arrays = dc.field(default_factory=dict[str, Array])
+    inputs: Arrays = dc.field(default_factory=dict[str, Array])
+    constants: Any = None
+    time: Time = BEFORE
+    noise: Array | None = None
     convolve: Callable[[Array], Array] = _undeclared
 
     def full(self, axes: Axes, value: Scalar) -> Array:
@@ -225,7 +250,7 @@ class Element(Part):
         axes: Axes | None = getattr(self, "axes", None)
         return axes
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         """Return the axes of every output port; the first is the default port.
 
         Elements whose outputs are states ignore `ins`.
@@ -251,23 +276,21 @@ class Element(Part):
         """Return the external code; different code compiles a different program."""
         return None
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         """Check the parameters against the axes of the ports.
 
         Yield the problem, or (problem, fix) if the fix is not another connection.
         """
         return iter(())
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         """Yield probable mistakes that do not prevent a run: (problem and reason, fix).
 
         Called only if `validate_axes` yields nothing.
         """
         return iter(())
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         """Return the smallest and largest value of output ports, for checks.
 
         `inputs` are the bounds of the inputs, `before` is the previous result (empty at first). An output
@@ -297,9 +320,7 @@ class Element(Part):
         """Return the name of the world's motor that the element's input drives, or ""."""
         return ""
 
-    def position_units(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
-    ) -> Mapping[str, PositionUnits]:
+    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         """Return the units of the numbers at output ports that are positions, for checks against a world.
 
         `inputs` holds the units at each input port, and under `external` those of the reading of a sensor:
@@ -307,7 +328,7 @@ class Element(Part):
         """
         return {}
 
-    def position_codes(self, ins: Mapping[str, Axes]) -> Mapping[str, PositionCode]:
+    def position_codes(self, ins: Ports) -> Mapping[str, PositionCode]:
         """Return the input ports whose numbers are used as positions on axes, for checks against a world."""
         return {}
 
@@ -335,25 +356,20 @@ class Element(Part):
         """Return constants that depend on axes and on parameters that rebuild."""
         return {}
 
-    def hoist(self, at: Setting, constants: Any) -> Any:
+    def hoist(self, at: Setting) -> Any:
         """Compute, once per chunk, values that depend on live parameters but not on the state.
 
-        `constants` is the result of `prepare`; `output` and `advance` receive the result of `hoist` in its
-        place.
+        `at.constants` is the result of `prepare`; in `output` and `advance` it is the result of `hoist`.
         """
-        return constants
+        return at.constants
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         """Return the value of every output port at time t."""
         raise NotImplementedError
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
-    ) -> Arrays:
-        """Return the state at t + dt; `noise` has standard normal deviates over `noise_axes`, or is None."""
-        return state
+    def advance(self, at: Setting) -> Arrays:
+        """Return the state at t + dt."""
+        return at.state
 
     def undefined(self) -> Sequence[str]:
         """Return the output ports that are NaN where they have no value yet; only these may be NaN in a
@@ -403,7 +419,7 @@ class Coupling(Element):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": ins["input"]}
 
     @classmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Callable, Sequence
 
@@ -10,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from deodar.compiler.functions import Functions, StepArguments
+from deodar.compiler.functions import Functions
 from deodar.element import Setting, Time
 from deodar.errors import TooLarge
 from deodar.model.resolve import Node
@@ -34,14 +35,13 @@ def element_matrix(node: Node, port: str) -> WeightMatrix:
     """
     ins, outs, element = node.ins["input"], node.outs[port], node.element
     with on_cpu(), jax.enable_x64(True):
-        at = Setting(node.ins, node.outs, np.dtype("float64"))
-        functions = Functions(node, {})
-        constants = functions.hoist(element, at, functions.prepare(element, at))
-        time = Time.at(0.0, 1.0, at.dtype)
+        dtype, functions = np.dtype("float64"), Functions(node, {})
+        at = Setting(node.ins, node.outs, dtype, time=Time.at(0.0, 1.0, dtype))
+        at = dc.replace(at, constants=functions.prepare(element, at))
+        at = dc.replace(at, constants=functions.hoist(element, at))
 
         def output(x: Array) -> Array:
-            read = StepArguments({}, {"input": x}, constants, None)
-            return jnp.asarray(functions.output(element, at, read, time)[port], at.dtype)
+            return jnp.asarray(functions.output(element, dc.replace(at, inputs={"input": x}))[port], dtype)
 
         return _matrix(output, ins, outs)
 

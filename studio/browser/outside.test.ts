@@ -7,9 +7,9 @@ import { shot, startStudio } from "./studio";
 const MODULE = `
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Element, Setting
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.integrators import euler
 from deodar.parameters import Live, Recompile
@@ -51,16 +51,12 @@ class LeakyCounter(Element):
     def init(self, at: Setting) -> Arrays:
         return {"z": at.full(tuple(self.axes), 0.0)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
-    ) -> Arrays:
-        return {"count": state["z"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"count": at.state["z"]}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Any
-    ) -> Arrays:
-        z = state["z"]
-        return {"z": euler(z, -z + self.rate + inputs["input"], self.tau, time.dt)}
+    def advance(self, at: Setting) -> Arrays:
+        z = at.state["z"]
+        return {"z": euler(z, -z + self.rate + at.inputs["input"], self.tau, at.time.dt)}
 `;
 
 const DOCUMENT = {

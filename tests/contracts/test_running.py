@@ -8,7 +8,7 @@ import jax
 import numpy as np
 import pytest
 
-from deodar.compiler.functions import Functions, StepArguments
+from deodar.compiler.functions import Functions
 from deodar.couplings.learning import RewardGate
 from deodar.element import Setting, Time
 from deodar.leaves import leaves
@@ -64,18 +64,17 @@ def test_one_copy_has_exactly_the_declared_outputs(kind, precision):
             zeros[element.external] = np.zeros(shape(resolved.outs["output"]), at.dtype)
         zeros |= {p: np.zeros(shape(resolved.outs[p]), at.dtype) for p in element.reads_own_output}
         noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
-        time = Time.at(0.0, 1.0, at.dtype)
-        state = element.init(at)
-        functions = Functions(resolved, {})
-        constants = functions.hoist(element, at, functions.prepare(element, at))
-        read = StepArguments(state, zeros, constants, noise)
-        out = jax.eval_shape(lambda: functions.output(element, at, read, time))
+        state, functions = element.init(at), Functions(resolved, {})
+        at = dc.replace(at, constants=functions.prepare(element, at))
+        at = dc.replace(at, constants=functions.hoist(element, at), time=Time.at(0.0, 1.0, at.dtype))
+        at = dc.replace(at, state=state, inputs=zeros, noise=noise)
+        out = jax.eval_shape(lambda: functions.output(element, at))
         assert {port: np.shape(v) for port, v in out.items()} == {
             port: shape(axes) for port, axes in resolved.outs.items()
         }
         assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(resolved.outs, at.dtype)
         assert element.stateful == bool(state)
-        new = jax.eval_shape(lambda: functions.advance(element, at, read, time))
+        new = jax.eval_shape(lambda: functions.advance(element, at))
         assert {k: (np.shape(v), v.dtype) for k, v in new.items()} == {
             k: (np.shape(v), v.dtype) for k, v in state.items()
         }

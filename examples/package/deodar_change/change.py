@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 
@@ -45,12 +45,8 @@ class Change(dd.Element):
     def init(self, at: dd.Setting) -> dd.Arrays:
         return {"z": at.full(tuple(self.axes), 0.0)}
 
-    def output(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        return {"output": jnp.maximum(0.0, inputs["input"] - state["z"])}
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": jnp.maximum(0.0, at.inputs["input"] - at.state["z"])}
 
-    def advance(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        return {"z": dd.euler(state["z"], -state["z"] + inputs["input"], self.tau, time.dt)}
+    def advance(self, at: dd.Setting) -> dd.Arrays:
+        return {"z": dd.euler(at.state["z"], -at.state["z"] + at.inputs["input"], self.tau, at.time.dt)}

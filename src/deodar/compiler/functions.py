@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from jax import Array
 
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Element, Setting
 from deodar.model.resolve import Node
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
@@ -48,24 +48,10 @@ class Constants(NamedTuple):
     own: Any
 
 
-class StepArguments(NamedTuple):
-    """What an element reads in one step; a JAX PyTree.
-
-    Attributes:
-        state: state of the element.
-        inputs: sums at the input ports.
-        constants: constants between steps.
-        noise: standard normal deviates, or None.
-    """
-
-    state: Arrays
-    inputs: Arrays
-    constants: Constants
-    noise: Array | None
-
-
 class Functions:
     """The functions of the elements of a group, each convolving on its own.
+
+    The constants of a setting that they read are `Constants`.
 
     Attributes:
         axes: axes of what is convolved.
@@ -95,29 +81,29 @@ class Functions:
         weights = interaction.prepare(element.kernels(), self.axes, at.dtype, self.choices)
         return Constants(weights, element.prepare(at))
 
-    def hoist(self, element: Element, at: Setting, constants: Constants) -> Constants:
+    def hoist(self, element: Element, at: Setting) -> Constants:
         """Return values that are constant during a chunk although they depend on live parameters."""
-        hoisted = element.hoist(at, constants.own)
+        hoisted = element.hoist(own(at))
         if not self.convolves:
             return Constants((), hoisted)
         return Constants(
-            interaction.mix(element.kernels(), self.axes, constants.kernels, self.apart), hoisted
+            interaction.mix(element.kernels(), self.axes, at.constants.kernels, self.apart), hoisted
         )
 
-    def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
+    def output(self, element: Element, at: Setting) -> Arrays:
         """Every output port at time t."""
-        return run_output(element, self.convolving(at, read.constants), read, time)
+        return element.output(self.convolving(at))
 
-    def advance(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
+    def advance(self, element: Element, at: Setting) -> Arrays:
         """The state at t + dt."""
-        return run_advance(element, self.convolving(at, read.constants), read, time)
+        return element.advance(self.convolving(at))
 
-    def convolving(self, at: Setting, constants: Constants) -> Setting:
-        """The setting in which `convolve` applies the mixed kernels."""
+    def convolving(self, at: Setting) -> Setting:
+        """The setting of an element in which `convolve` applies the mixed kernels."""
         if not self.convolves:
-            return at
-        mixture = constants.kernels
-        return dc.replace(
+            return own(at)
+        mixture = at.constants.kernels
+        return own(
             at,
             convolve=lambda y: interaction.apply(
                 mixture, self.axes, y, self.choices, kernels=self.kernels, tapped=self.tapped
@@ -131,11 +117,6 @@ def convolved_axes(node: Node) -> Axes:
     return node.axes(convolution.of) if convolution is not None else ()
 
 
-def run_output(element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
-    """Call `output` of an element."""
-    return element.output(at, read.state, read.inputs, read.constants.own, time, read.noise)
-
-
-def run_advance(element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
-    """Call `advance` of an element."""
-    return element.advance(at, read.state, read.inputs, read.constants.own, time, read.noise)
+def own(at: Setting, **changes: Any) -> Setting:
+    """Return the setting that an element reads, with its own constants alone."""
+    return dc.replace(at, constants=at.constants.own, **changes)

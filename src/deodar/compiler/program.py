@@ -21,11 +21,11 @@ from jax import Array, lax
 
 from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
 from deodar.compiler.body import Body
-from deodar.compiler.functions import Constants, Replacements, StepArguments
+from deodar.compiler.functions import Constants, Replacements
 from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.compiler.traffic import scope
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import BEFORE, Arrays, Element, Setting, Time
 from deodar.leaves import bind, leaves, parameter_values
 from deodar.numerics.axes import shape
 from deodar.numerics.derivatives import without_derivative
@@ -205,7 +205,8 @@ class Program:
     def hoist(self, values: ProgramValues, constants: list[Constants]) -> list[Constants]:
         """Return the values that groups compute from constants and live parameters once per chunk."""
         return [
-            self._each(g, self.functions[g].hoist, values, constants[g]) for g in range(len(self.plan.groups))
+            self._each(g, self.functions[g].hoist, values, {"constants": constants[g]})
+            for g in range(len(self.plan.groups))
         ]
 
     def steady(
@@ -388,8 +389,7 @@ class Program:
 
                 def run(g: int = call.group, inputs: Arrays = inputs, time: Time = time) -> Arrays:
                     noise = self._noise(g, chunk.keys, tick, drawn.get(str(g)))
-                    read = StepArguments(old[g], inputs, chunk.constants[g], noise)
-                    return self._advance(g, chunk.values, read, time)
+                    return self._advance(g, chunk, old[g], inputs, noise, time)
 
                 new[call.group] = self._gated(call.group, run, old, coming, tick)
         if self.body is None:
@@ -468,27 +468,27 @@ class Program:
         if port := group.like.element.external:
             inputs[port] = jnp.asarray(chunk.sensed[group.like.id], self.dtype)[None]
         noise = None if group.like.element.stateful else self._noise(g, chunk.keys, tick)
-        out = self._each(
-            g,
-            lambda e, at, read: self.functions[g].output(e, at, read, time),
-            chunk.values,
-            self._refusing(g, StepArguments(state, inputs, chunk.constants[g], noise)),
-        )
+        read = self._reading(g, chunk, state, inputs, noise)
+        out = self._each(g, self.functions[g].output, chunk.values, read, time)
         for port, axes in group.like.outs.items():
             buffers[g, port, call.instant] = jnp.broadcast_to(
                 jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes))
             )
 
-    def _advance(self, g: int, values: ProgramValues, read: StepArguments, time: Time) -> Arrays:
-        read = self._refusing(g, read)
-        new = self._each(g, lambda e, at, read: self.functions[g].advance(e, at, read, time), values, read)
-        return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read.state)
+    def _advance(
+        self, g: int, chunk: Chunk, state: Arrays, inputs: Arrays, noise: Array | None, time: Time
+    ) -> Arrays:
+        read = self._reading(g, chunk, state, inputs, noise)
+        new = self._each(g, self.functions[g].advance, chunk.values, read, time)
+        return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read["state"])
 
-    def _refusing(self, g: int, read: StepArguments) -> StepArguments:
-        """Return what an element reads, so that gradients through its jumps are refused."""
-        if not self.jumps[g]:
-            return read
-        return read._replace(state=self._refused(g, read.state), inputs=self._refused(g, read.inputs))
+    def _reading(
+        self, g: int, chunk: Chunk, state: Arrays, inputs: Arrays, noise: Array | None
+    ) -> dict[str, Any]:
+        """Return what the rows of a group read in a step, so that gradients through jumps are refused."""
+        if self.jumps[g]:
+            state, inputs = self._refused(g, state), self._refused(g, inputs)
+        return {"state": state, "inputs": inputs, "constants": chunk.constants[g], "noise": noise}
 
     def _refused(self, g: int, arrays: Arrays) -> Arrays:
         node, names = self.plan.groups[g].like, self.jumps[g]
@@ -571,20 +571,31 @@ class Program:
         rows = buffers[p.group, p.name, 0] if is_output else self._sum(p.group, p.name, buffers, present=True)
         return rows if p.row is None else rows[p.row]
 
-    def _each(self, g: int, fn: Callable[..., T], values: ProgramValues, *args: Any, only: str = "") -> T:
-        """fn(element, setting, *args) over the rows of a group, the element bound to its row's parameters."""
-        group, at = self.plan.groups[g], self.settings[g]
+    def _each(
+        self,
+        g: int,
+        fn: Callable[[Element, Setting], T],
+        values: ProgramValues,
+        read: Mapping[str, Any] | None = None,
+        time: Time = BEFORE,
+        only: str = "",
+    ) -> T:
+        """fn(element, setting) over the rows of a group, the element bound to its row's parameters, and the
+        setting with the row of each value in `read`.
+        """
+        group, at = self.plan.groups[g], dc.replace(self.settings[g], time=time)
         if self.plan.shards is not None:
             fn = jax.named_scope(scope(group.like.id))(fn)
         parameters = self._leaves(g, values)
 
-        def of_row(parameters: Arrays, *args: Any) -> T:
-            return fn(bind(group.like.element, self._value(g, parameters, only)), at, *args)
+        def of_row(parameters: Arrays, read: Mapping[str, Any]) -> T:
+            element = bind(group.like.element, self._value(g, parameters, only))
+            return fn(element, dc.replace(at, **read))
 
         if group.rows == 1:
-            out = of_row(*jax.tree.map(lambda a: a[0], (parameters, *args)))
+            out = of_row(*jax.tree.map(lambda a: a[0], (parameters, read or {})))
             return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
-        return jax.vmap(of_row, axis_size=group.rows)(parameters, *args)
+        return jax.vmap(of_row, axis_size=group.rows)(parameters, read or {})
 
     def _value(
         self, g: int, leaves_of_row: Arrays, only: str = ""

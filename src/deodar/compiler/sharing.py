@@ -13,9 +13,9 @@ import dataclasses as dc
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from deodar.compiler.functions import Functions, StepArguments, TappedOver, run_advance, run_output
+from deodar.compiler.functions import Functions, TappedOver, own
 from deodar.compiler.strategies import EXACT, Strategy, acted_axes, role
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Element, Setting
 from deodar.errors import ModelError
 from deodar.model.resolve import Node, Slot
 from deodar.numerics import interaction
@@ -146,21 +146,21 @@ class SharingSource(_Sharing):
     as waves is added before the one transform back.
     """
 
-    def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
-        out = super().output(element, at, read, time)
+    def output(self, element: Element, at: Setting) -> Arrays:
+        out = super().output(element, at)
         return out | {"output" + WAVES: to_waves(self.waves, out["output"], self.kernels)}
 
-    def advance(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
-        ports, calls = read.inputs, list[Any]()
+    def advance(self, element: Element, at: Setting) -> Arrays:
+        ports, calls = at.inputs, list[Any]()
 
         def convolve(y: Array) -> Array:
             calls.append(y)
             modes = interaction.SharedModes(self.key, ports["output" + WAVES], ports["input" + WAVES])
-            mixture, shared_parts = read.constants.kernels, (modes, self.kernels, self.tapped)
+            mixture, shared_parts = at.constants.kernels, (modes, self.kernels, self.tapped)
             return interaction.apply(mixture, self.axes, y, self.choices, *shared_parts)
 
         inputs = plain_ports(ports) | {"input": ports["input" + REST]}
-        new = run_advance(element, dc.replace(at, convolve=convolve), read._replace(inputs=inputs), time)
+        new = element.advance(own(at, convolve=convolve, inputs=inputs))
         if len(calls) != 1:
             raise ModelError(
                 f"{type(element).__name__} declares a convolution that `advance` adds to its input, and calls"
@@ -175,11 +175,11 @@ class SharingFilter(_Sharing):
     convolution is a product.
     """
 
-    def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
-        arriving = read.inputs["input" + WAVES]
+    def output(self, element: Element, at: Setting) -> Arrays:
+        arriving = at.inputs["input" + WAVES]
         if self.convolves:
-            arriving = arriving + to_waves(self.waves, read.inputs["input" + REST], self.kernels)
-            gains = read.constants.kernels["waves"][self.key]
+            arriving = arriving + to_waves(self.waves, at.inputs["input" + REST], self.kernels)
+            gains = at.constants.kernels["waves"][self.key]
             at = dc.replace(at, convolve=lambda y: gains * y)
-        out = run_output(element, at, read._replace(inputs={"input": arriving}), time)["output"]
+        out = element.output(own(at, inputs={"input": arriving}))["output"]
         return {"output": from_waves(self.waves, out, self.kernels), "output" + WAVES: out}

@@ -9,10 +9,8 @@ from typing import Annotated, ClassVar
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.element import Arrays, Coupling, Setting, Time
-from deodar.numerics.axes import Axes
-from deodar.numerics.intervals import ZERO, Interval, hull, times
-from deodar.numerics.positions import PositionUnits
+from deodar.element import Arrays, Bounds, Coupling, Ports, PortUnits, Setting
+from deodar.numerics.intervals import ZERO, hull, times
 from deodar.numerics.sigmoids import Logistic, SigmoidFunction
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, Recompile
@@ -40,20 +38,14 @@ class Sum(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": inputs["input"]}
 
-    def position_units(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
-    ) -> Mapping[str, PositionUnits]:
+    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         return {"output": inputs["input"]}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": inputs["input"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.inputs["input"]}
 
 
 @register
@@ -82,15 +74,11 @@ class Product(Coupling):
     follows: ClassVar[Mapping[str, str]] = {"factor": "input"}
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "factor")}
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": times(inputs["input"], inputs["factor"])}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": inputs["input"] * inputs["factor"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.inputs["input"] * at.inputs["factor"]}
 
 
 @register
@@ -125,11 +113,9 @@ class Quotient(Coupling):
     def jumps_at(self) -> Sequence[str]:
         return ("least",)
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        d = inputs["divisor"]
-        return {"output": inputs["input"] / jnp.where(jnp.abs(d) >= self.least, d, self.least)}
+    def output(self, at: Setting) -> Arrays:
+        d = at.inputs["divisor"]
+        return {"output": at.inputs["input"] / jnp.where(jnp.abs(d) >= self.least, d, self.least)}
 
 
 @register
@@ -156,23 +142,17 @@ class Gain(Coupling):
     linear: ClassVar[bool] = True
     scaled_by: ClassVar[str] = "factor"
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {} if self.factor == 0 else {"output": times((self.factor, self.factor), inputs["input"])}
 
-    def position_units(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
-    ) -> Mapping[str, PositionUnits]:
+    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         return {"output": tuple(p and p.scaled(self.factor) for p in inputs["input"])}
 
     def polarity(self) -> Sign:
         return sign_of(self.factor)
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": self.factor * inputs["input"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": self.factor * at.inputs["input"]}
 
 
 @register
@@ -204,17 +184,13 @@ class Envelope(Coupling):
     follows: ClassVar[Mapping[str, str]] = {"other": "input"}
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "other")}
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         (a, b), (c, d) = inputs["input"], inputs["other"]
         return {"output": (max(a, c), max(b, d)) if self.side == "upper" else (min(a, c), min(b, d))}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         choose = jnp.maximum if self.side == "upper" else jnp.minimum
-        return {"output": choose(inputs["input"], inputs["other"])}
+        return {"output": choose(at.inputs["input"], at.inputs["other"])}
 
 
 @register
@@ -243,16 +219,12 @@ class Threshold(Coupling):
     def jumps_at(self) -> Sequence[str]:
         return "input", "level"
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         low, high = inputs["input"]
         return {"output": ZERO if high <= self.level else hull(ZERO, (max(low, self.level), high))}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        x = inputs["input"]
+    def output(self, at: Setting) -> Arrays:
+        x = at.inputs["input"]
         return {"output": jnp.where(x > self.level, x, jnp.zeros_like(x))}
 
 
@@ -277,15 +249,11 @@ class Sigmoid(Coupling):
 
     sigmoid: Annotated[SigmoidFunction, Recompile(meaning="g")] = Logistic()
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": self.sigmoid.bounds(inputs["input"])}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": self.sigmoid(inputs["input"])}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": self.sigmoid(at.inputs["input"])}
 
 
 @register
@@ -316,10 +284,8 @@ class Logarithm(Coupling):
     def polarity(self) -> Sign:
         return sign_of(self.factor)
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": self.factor * jnp.log1p(jnp.maximum(inputs["input"], 0.0) / self.scale)}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": self.factor * jnp.log1p(jnp.maximum(at.inputs["input"], 0.0) / self.scale)}
 
 
 LEAST = 1e-30
@@ -361,7 +327,5 @@ class Pointwise(Coupling):
 
     function: Annotated[str, Recompile(choices=tuple(FUNCTIONS), meaning="the function")] = "abs"
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": FUNCTIONS[self.function](inputs["input"])}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": FUNCTIONS[self.function](at.inputs["input"])}

@@ -10,14 +10,14 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 
-from deodar.element import Arrays, Convolution, Coupling, Setting, Time
+from deodar.element import Arrays, Bounds, Convolution, Coupling, Ports, Setting
 from deodar.errors import did_you_mean
 from deodar.leaves import per_axis
 from deodar.numerics import interaction, resampling
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape
 from deodar.numerics.convolution import BOUNDARIES, boundaries
 from deodar.numerics.interaction import KernelWeights, Mixture
-from deodar.numerics.intervals import ZERO, Interval, hull, times, total
+from deodar.numerics.intervals import ZERO, hull, times, total
 from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.kernels.separable import Gaussian
 from deodar.numerics.positions import PositionCode
@@ -56,22 +56,18 @@ class Convolve(Coupling):
     def kernels(self) -> Sequence[Kernel]:
         return self.kernel
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         yield from validate_kernels(self.kernel, ins["input"])
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         x = inputs["input"]
         parts = [kernel.bounds(ins["input"]) for kernel in self.kernel]
         return {
             "output": total(*(times((0.0, k[1]), x) for k in parts), *(times((k[0], 0.0), x) for k in parts))
         }
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": at.convolve(inputs["input"])}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.convolve(at.inputs["input"])}
 
 
 PADDED = {"periodic": "wrap", "zero": "constant", "reflect": "symmetric", "replicate": "edge"}
@@ -119,7 +115,7 @@ class SteeredConvolve(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "kernel")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "kernel")}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         here, there = ins["input"], ins["kernel"]
         if len(here) != len(there):
             yield f"its kernel is over {describe(there)}, not one axis for each axis of the input"
@@ -132,17 +128,13 @@ class SteeredConvolve(Coupling):
                 "Give one, or one for each axis",
             )
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         size = cell(ins["kernel"]) * float(np.prod([a.samples for a in ins["kernel"]]))
         low, high = times((size, size), times(inputs["input"], inputs["kernel"]))
         return {"output": (min(low, 0.0), max(high, 0.0))}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        y, kernel = inputs["input"], inputs["kernel"]
+    def output(self, at: Setting) -> Arrays:
+        y, kernel = at.inputs["input"], at.inputs["kernel"]
         axes, places = at.ins["input"], at.ins["kernel"]
         if not axes:
             return {"output": y * kernel}
@@ -206,31 +198,23 @@ class Interaction(Coupling):
         inhibition: list[Sign] = ["-"] if self.global_inhibition > 0 else []
         return together([*(k.polarity() for k in self.kernel), *inhibition])
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": ins["input"], "total": ()}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         yield from validate_kernels(self.kernel, ins["input"])
 
     def prepare(self, at: Setting) -> dict[str, list[KernelWeights]]:
         return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype)}
 
-    def hoist(self, at: Setting, constants: dict[str, list[KernelWeights]]) -> dict[str, Mixture]:
-        return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
+    def hoist(self, at: Setting) -> dict[str, Mixture]:
+        return {"kernel": interaction.mix(self.kernel, at.ins["input"], at.constants["kernel"])}
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, Mixture],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        x, axes = inputs["input"], at.ins["input"]
+    def output(self, at: Setting) -> Arrays:
+        x, axes = at.inputs["input"], at.ins["input"]
         total = cell(axes) * jnp.sum(x)
         return {
-            "output": interaction.apply(constants["kernel"], axes, x) - self.global_inhibition * total,
+            "output": interaction.apply(at.constants["kernel"], axes, x) - self.global_inhibition * total,
             "total": total,
         }
 
@@ -261,7 +245,7 @@ class Shift(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         for a, amount in zip(ins["input"], per_axis(self.amount, ins["input"]), strict=True):
             if not a.periodic and abs(float(amount)) > a.range:
                 what = (
@@ -270,9 +254,7 @@ class Shift(Coupling):
                 )
                 yield what, f"Use an amount below {a.range:g}, or a periodic axis"
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": hull(ZERO, inputs["input"])}
 
     def prepare(self, at: Setting) -> list[tuple[Array, Array]]:
@@ -282,17 +264,9 @@ class Shift(Coupling):
             for a, amount in zip(axes, per_axis(self.amount, axes), strict=True)
         ]
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: list[tuple[Array, Array]],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        y = inputs["input"]
-        for d, (axis, (whole, part)) in enumerate(zip(at.ins["input"], constants, strict=True)):
+    def output(self, at: Setting) -> Arrays:
+        y = at.inputs["input"]
+        for d, (axis, (whole, part)) in enumerate(zip(at.ins["input"], at.constants, strict=True)):
             y = resampling.shifted(y, d, axis.periodic, whole, part)
         return {"output": y}
 
@@ -341,7 +315,7 @@ class SteeredShift(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "by" and len(self.along) == 1 else arriving
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         known, arriving = [a.name for a in ins["input"]], shape(ins["by"])
         for name in self.along:
             if name not in known:
@@ -356,16 +330,14 @@ class SteeredShift(Coupling):
                 "Connect such an input, or use several SteeredShifts in series",
             )
 
-    def position_codes(self, ins: Mapping[str, Axes]) -> Mapping[str, PositionCode]:
+    def position_codes(self, ins: Ports) -> Mapping[str, PositionCode]:
         known = {a.name: a for a in ins["input"]}
         axes = tuple(known[name] for name in self.along if name in known)
         return {"by": PositionCode(axes, (self.gain,) * len(axes))}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        y, names = inputs["input"], [a.name for a in at.ins["input"]]
-        amounts = jnp.reshape(inputs["by"], (len(self.along),))
+    def output(self, at: Setting) -> Arrays:
+        y, names = at.inputs["input"], [a.name for a in at.ins["input"]]
+        amounts = jnp.reshape(at.inputs["by"], (len(self.along),))
         for k, name in enumerate(self.along):
             d = names.index(name)
             axis = at.ins["input"][d]

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.element import Arrays, Element, Setting, Time
-from deodar.numerics.axes import Axes, Axis
+from deodar.element import Arrays, Bounds, Element, Ports, PortUnits, Setting
+from deodar.numerics.axes import Axis
 from deodar.numerics.exact import Exact, exact, wide
-from deodar.numerics.intervals import Interval, hull
-from deodar.numerics.positions import PositionUnits
+from deodar.numerics.intervals import hull
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -45,31 +44,23 @@ class Delay(Element):
 
     stateful: ClassVar[bool] = True
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": hull((self.initial, self.initial), inputs["input"])}
 
-    def position_units(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
-    ) -> Mapping[str, PositionUnits]:
+    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         return {"output": inputs["input"]}
 
     def init(self, at: Setting) -> Arrays:
         return {"held": at.full(tuple(self.axes), self.initial)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": state["held"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.state["held"]}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"held": inputs["input"]}
+    def advance(self, at: Setting) -> Arrays:
+        return {"held": at.inputs["input"]}
 
 
 NEVER = 1e30
@@ -115,12 +106,10 @@ class DelayLine(Element):
 
     stateful: ClassVar[bool] = True
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": hull((self.initial, self.initial), inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
@@ -136,14 +125,12 @@ class DelayLine(Element):
             "newest": at.full((), 0.0),
         }
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        kept, rows = state["kept"], self.slots + 2
-        first = state["newest"].astype(jnp.int32)
+    def output(self, at: Setting) -> Arrays:
+        kept, rows = at.state["kept"], self.slots + 2
+        first = at.state["newest"].astype(jnp.int32)
         with exact():
-            delay, near = wide(self.delay), NEAR * time.wide_dt
-            ages = jnp.roll(self._ages(state, time), -first)
+            delay, near = wide(self.delay), NEAR * at.time.wide_dt
+            ages = jnp.roll(self._ages(at), -first)
             younger = jnp.clip(jnp.sum(ages < delay - near) - 1, 0, rows - 1).astype(jnp.int32)
             older = jnp.minimum(younger + 1, rows - 1)
             a, b = ages[younger], ages[older]
@@ -155,27 +142,25 @@ class DelayLine(Element):
         young, old = kept[jnp.mod(first + younger, rows)], kept[jnp.mod(first + older, rows)]
         return {"output": (1 - share) * young + share * old}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        newest, now = state["newest"], time.moment
+    def advance(self, at: Setting) -> Arrays:
+        newest, now = at.state["newest"], at.time.moment
         with exact():
             due = (
-                self._ages(state, time)[newest.astype(jnp.int32)]
-                >= wide(self.delay) / self.slots - NEAR * time.wide_dt
+                self._ages(at)[newest.astype(jnp.int32)]
+                >= wide(self.delay) / self.slots - NEAR * at.time.wide_dt
             )
         newest = jnp.where(due, jnp.mod(newest - 1, self.slots + 2), newest)
         place = newest.astype(jnp.int32)
-        new = {"kept": inputs["input"], "moments": now.high, "moments_low": now.low}
+        new = {"kept": at.inputs["input"], "moments": now.high, "moments_low": now.low}
         return {"newest": newest} | {
-            name: state[name].at[place].set(jnp.where(due, value, state[name][place]))
+            name: at.state[name].at[place].set(jnp.where(due, value, at.state[name][place]))
             for name, value in new.items()
         }
 
-    def _ages(self, state: Arrays, time: Time) -> Array:
+    def _ages(self, at: Setting) -> Array:
         """The age of each stored sample in float64; call it inside `exact()`."""
         return jnp.where(
-            state["moments"] > -0.5 * NEVER,
-            time.wide - wide(Exact(state["moments"], state["moments_low"])),
+            at.state["moments"] > -0.5 * NEVER,
+            at.time.wide - wide(Exact(at.state["moments"], at.state["moments_low"])),
             NEVER,
         )

@@ -11,7 +11,7 @@ import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Coupling, Ports, Setting
 from deodar.numerics import plasticity
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape, wrong_shape
 from deodar.numerics.patches import random_weights
@@ -121,10 +121,10 @@ class Hebbian(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes), "weights": (*self.axes, *ins["input"])}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
         yield from wrong_shape("start", self.start, needed, "target and source have")
         if self.apart and ins["pre"] != ins["input"]:
@@ -144,27 +144,24 @@ class Hebbian(Coupling):
         )
         return {"weights": (scale * (drawn if self.random else jnp.sign(drawn))).reshape(*pre, *post)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)
         out = cell(at.ins["input"]) * plasticity.read(
-            self._matrix(state["weights"], pre), self._active(inputs["input"])
+            self._matrix(at.state["weights"], pre), self._active(at.inputs["input"])
         )
-        w = state["weights"]
+        w = at.state["weights"]
         return {
             "output": out.reshape(post),
             "weights": jnp.moveaxis(w, range(len(pre)), range(-len(pre), 0)) if pre else w,
         }
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        w, pre = state["weights"], shape(at.ins["input"])
-        step = time.dt * jnp.maximum(inputs["gate"], 0.0) if self.gated else jnp.asarray(time.dt, at.dtype)
-        step = plasticity.after(step, inputs["output"])
+    def advance(self, at: Setting) -> Arrays:
+        w, pre = at.state["weights"], shape(at.ins["input"])
+        dt = at.time.dt
+        step = dt * jnp.maximum(at.inputs["gate"], 0.0) if self.gated else jnp.asarray(dt, at.dtype)
+        step = plasticity.after(step, at.inputs["output"])
         most = jnp.where(self.saturation > 0, self.saturation, jnp.inf).astype(at.dtype)
-        x, z = self._active(inputs["pre" if self.apart else "input"]), self._active(inputs["post"])
+        x, z = self._active(at.inputs["pre" if self.apart else "input"]), self._active(at.inputs["post"])
         new = plasticity.learn(
             self.rule, self._matrix(w, pre), x, z, self.rate * step, self.decay * step, most
         )

@@ -11,7 +11,7 @@ import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Coupling, Ports, Setting
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.signs import Sign, sign_of
@@ -77,10 +77,10 @@ class AdaptiveWeights(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes), "weights": (*self.axes, *ins["input"])}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         needed = shape(ins["input"]) + shape(self.axes)
         yield from wrong_shape("start", self.start, needed, "source and target have")
         if self.apart and ins["pre"] != ins["input"]:
@@ -93,22 +93,18 @@ class AdaptiveWeights(Coupling):
             else at.array(self.start)
         }
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        x, w = inputs["input"], state["weights"]
+    def output(self, at: Setting) -> Arrays:
+        x, w = at.inputs["input"], at.state["weights"]
         return {
             "output": cell(at.ins["input"]) * jnp.tensordot(x, w, axes=x.ndim, precision="highest"),
             "weights": jnp.moveaxis(w, range(x.ndim), range(-x.ndim, 0)),
         }
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        x, w = inputs["pre" if self.apart else "input"], state["weights"]
-        speed = self.rate * jnp.maximum(inputs["gate"], 0.0) if self.gated else self.rate
+    def advance(self, at: Setting) -> Arrays:
+        x, w = at.inputs["pre" if self.apart else "input"], at.state["weights"]
+        speed = self.rate * jnp.maximum(at.inputs["gate"], 0.0) if self.gated else self.rate
         pre = x.reshape(x.shape + (1,) * len(self.axes))
-        return {"weights": w + time.dt * speed * (inputs["post"] - w) * pre}
+        return {"weights": w + at.time.dt * speed * (at.inputs["post"] - w) * pre}
 
     def learned_parameters(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
         return {"start": state["weights"]}
@@ -183,7 +179,7 @@ class RewardGate(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if port == "input" else ()
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": ()}
 
     def jumps_at(self) -> Sequence[str]:
@@ -192,37 +188,31 @@ class RewardGate(Coupling):
     def init(self, at: Setting) -> Arrays:
         return {"onset": at.full((), NEVER), "onset_low": at.full((), 0.0), "rewarded": at.full((), 0.0)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        reward = self._reward(at, inputs)
+    def output(self, at: Setting) -> Arrays:
+        reward = self._reward(at)
         with exact():
-            duration, passed = (
-                wide(self.duration),
-                time.wide - wide(Exact(state["onset"], state["onset_low"])),
-            )
+            duration = wide(self.duration)
+            passed = at.time.wide - wide(Exact(at.state["onset"], at.state["onset_low"]))
             # half a step of tolerance, so that rounding moves no edge
-            lasts, bounded = passed < duration - 0.5 * time.wide_dt, duration > 0
-        is_open = jnp.where(bounded, self._onset(state, reward) | lasts, reward > self.threshold)
+            lasts, bounded = passed < duration - 0.5 * at.time.wide_dt, duration > 0
+        is_open = jnp.where(bounded, self._onset(at, reward) | lasts, reward > self.threshold)
         return {"output": jnp.where(is_open, self.strength * (reward if self.graded else 1.0), 0.0)}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        reward, now = self._reward(at, inputs), time.moment
-        begins = self._onset(state, reward)
+    def advance(self, at: Setting) -> Arrays:
+        reward, now = self._reward(at), at.time.moment
+        begins = self._onset(at, reward)
         return {
-            "onset": jnp.where(begins, now.high, state["onset"]),
-            "onset_low": jnp.where(begins, now.low, state["onset_low"]),
+            "onset": jnp.where(begins, now.high, at.state["onset"]),
+            "onset_low": jnp.where(begins, now.low, at.state["onset_low"]),
             "rewarded": (reward > self.threshold).astype(at.dtype),
         }
 
-    def _reward(self, at: Setting, inputs: Arrays) -> Array:
-        reward = cell(at.ins["input"]) * jnp.sum(inputs["input"])
-        return reward * inputs["gate"] if self.gated else reward
+    def _reward(self, at: Setting) -> Array:
+        reward = cell(at.ins["input"]) * jnp.sum(at.inputs["input"])
+        return reward * at.inputs["gate"] if self.gated else reward
 
-    def _onset(self, state: Arrays, reward: Array) -> Array:
-        return (reward > self.threshold) & (state["rewarded"] == 0)
+    def _onset(self, at: Setting, reward: Array) -> Array:
+        return (reward > self.threshold) & (at.state["rewarded"] == 0)
 
     @classmethod
     def example(cls) -> RewardGate:
@@ -285,10 +275,10 @@ class GainAdaptation(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if port == "input" else ()
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": (), "value": (), "gains": ins["input"]}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("start", self.start, shape(ins["input"]), "the input has")
 
     def init(self, at: Setting) -> Arrays:
@@ -296,10 +286,8 @@ class GainAdaptation(Coupling):
             "gains": at.full(at.ins["input"], self.initial) if self.start is None else at.array(self.start)
         }
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        gains, f = state["gains"], inputs["input"] * cell(at.ins["input"])
+    def output(self, at: Setting) -> Arrays:
+        gains, f = at.state["gains"], at.inputs["input"] * cell(at.ins["input"])
         drive, whole = jnp.sum(gains * f), jnp.sum(f)
         return {
             "output": drive,
@@ -307,13 +295,11 @@ class GainAdaptation(Coupling):
             "gains": gains,
         }
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        speed = time.dt / self.tau * inputs["error"]
+    def advance(self, at: Setting) -> Arrays:
+        speed = at.time.dt / self.tau * at.inputs["error"]
         if self.gated:
-            speed = speed * jnp.maximum(inputs["gate"], 0.0)
-        return {"gains": state["gains"] + speed * inputs["input"]}
+            speed = speed * jnp.maximum(at.inputs["gate"], 0.0)
+        return {"gains": at.state["gains"] + speed * at.inputs["input"]}
 
     def learned_parameters(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
         return {"start": state["gains"]}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
@@ -10,13 +10,12 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Bounds, Coupling, Ports, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics import homography
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.colors import CHANNELS, cells, from_hues, hue_saturation_value, same_side
 from deodar.numerics.convolution import along
-from deodar.numerics.intervals import Interval
 from deodar.numerics.resampling import INTERPOLATIONS
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
@@ -67,10 +66,10 @@ class ColorSpace(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS or len(self.axes) != 3:
             yield "needs a picture (two dimensions and three channels) and gives two dimensions and hue"
@@ -87,17 +86,9 @@ class ColorSpace(Coupling):
     def prepare(self, at: Setting) -> list[Array]:
         return [cells(a, b, at.dtype) for a, b in zip(at.ins["input"][:2], self.axes[:2], strict=True)]
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: list[Array],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         hue_axis = self.axes[-1]
-        turn, saturation, value = hue_saturation_value(inputs["input"])
+        turn, saturation, value = hue_saturation_value(at.inputs["input"])
         saturation = jnp.where(value < self.darkest, 0.0, saturation)
         distance = from_hues(hue_axis, turn, at.dtype)
         if is_neutral(self.sigma):
@@ -105,7 +96,7 @@ class ColorSpace(Coupling):
         else:
             code = jnp.exp(-0.5 * (distance / self.sigma) ** 2)
         y = saturation[..., None] * code
-        for d, weights in enumerate(constants):
+        for d, weights in enumerate(at.constants):
             y = along(weights, y, d)
         return {"output": y}
 
@@ -155,10 +146,10 @@ class ColorHistogram(Coupling):
     )
     darkest: Annotated[float, Live(lower=0, upper=1, meaning="value below which a pixel has no hue")] = 0.15
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS or len(self.axes) != 2:
             yield (
@@ -180,21 +171,19 @@ class ColorHistogram(Coupling):
         kept = self._kept(at)
         return {"cells": cells(at.ins["input"][kept], self.axes[0], at.dtype)}
 
-    def hoist(self, at: Setting, constants: Arrays) -> Arrays:
+    def hoist(self, at: Setting) -> Arrays:
         if is_neutral(self.sigma):
-            return constants
+            return at.constants
         hue = self.axes[-1]
         turns = (at.points(hue) - hue.lower) / hue.range
-        return constants | {"smooth": jnp.exp(-0.5 * (from_hues(hue, turns, at.dtype) / self.sigma) ** 2)}
+        return at.constants | {"smooth": jnp.exp(-0.5 * (from_hues(hue, turns, at.dtype) / self.sigma) ** 2)}
 
     def jumps_at(self) -> Sequence[str]:
         return "input", "palest", "darkest"
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         hue = self.axes[-1]
-        turn, saturation, value = hue_saturation_value(inputs["input"])
+        turn, saturation, value = hue_saturation_value(at.inputs["input"])
         coloured = (saturation >= self.palest) & (value >= self.darkest) & (saturation > 0)
         if self._kept(at) == 1:
             turn, coloured = turn.T, coloured.T
@@ -206,8 +195,8 @@ class ColorHistogram(Coupling):
             return y + counted[:, line, None] * shares
 
         y = lax.fori_loop(0, turn.shape[1], add, jnp.zeros((turn.shape[0], hue.samples), at.dtype))
-        y = along(constants["cells"], y, 0)
-        return {"output": along(constants["smooth"], y, 1) if "smooth" in constants else y}
+        y = along(at.constants["cells"], y, 0)
+        return {"output": along(at.constants["smooth"], y, 1) if "smooth" in at.constants else y}
 
     def _kept(self, at: Setting) -> int:
         """The index of the picture's dimension that remains."""
@@ -247,20 +236,16 @@ class HueSaturationValue(Coupling):
         Smith (1978), Color gamut transform pairs, Comput. Graph. (SIGGRAPH) 12, 12-19.
     """
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS:
             yield "needs a picture: two dimensions, and a last axis with the channels red, green and blue"
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": (min(0.0, inputs["input"][0]), max(TURN, inputs["input"][1]))}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        hue, saturation, value = hue_saturation_value(inputs["input"])
+    def output(self, at: Setting) -> Arrays:
+        hue, saturation, value = hue_saturation_value(at.inputs["input"])
         return {"output": jnp.stack([TURN * hue, saturation, value], axis=-1)}
 
 
@@ -318,10 +303,10 @@ class Homography(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": (*self.axes, *ins["input"][2:])}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         if len(self.axes) != 2 or len(ins["input"]) < 2:
             yield (
                 f"maps a picture of two dimensions onto a plane of two; it has {len(self.axes)} axes, and its"
@@ -355,10 +340,8 @@ class Homography(Coupling):
         outside = -2.0  # one sample and more before the first
         return {"samples": jnp.where(visible & jnp.isfinite(seen), (seen - start) / step, outside)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        picture, position = inputs["input"], constants["samples"]
+    def output(self, at: Setting) -> Arrays:
+        picture, position = at.inputs["input"], at.constants["samples"]
         counts = np.array(shape(at.ins["input"][:2]))
         if self.interpolation == "nearest":
             return {"output": _pixel(picture, jnp.floor(position + 0.5), counts)}

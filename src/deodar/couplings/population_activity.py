@@ -8,10 +8,9 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Coupling, Ports, Setting
 from deodar.errors import ParameterError
 from deodar.leaves import per_axis
 from deodar.numerics import starting
@@ -87,10 +86,10 @@ class PopulationActivity(Coupling):
                 ),
             )
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         arriving, neurons = (
             shape(ins["input"]),
             len(self.tuning.data) if isinstance(self.tuning, FrozenArray) else 0,
@@ -108,13 +107,11 @@ class PopulationActivity(Coupling):
             tuning = jnp.where(whole == 0, 0.0, tuning / jnp.where(whole == 0, 1.0, whole))
         return {"tuning": tuning}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         return {
             "output": (
                 self.amplitude
-                * jnp.tensordot(inputs["input"], constants["tuning"], axes=1, precision="highest")
+                * jnp.tensordot(at.inputs["input"], at.constants["tuning"], axes=1, precision="highest")
             )
         }
 

@@ -11,12 +11,12 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Coupling, Ports, PortUnits, Setting
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis, cell, one_axis, shape
 from deodar.numerics.centres import centre
 from deodar.numerics.convolution import boundaries
-from deodar.numerics.positions import PositionCode, PositionUnit, PositionUnits
+from deodar.numerics.positions import PositionCode, PositionUnit
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, PeakBoundary, PerAxis, Recompile
 from deodar.registry import register
@@ -62,15 +62,13 @@ class PeakPosition(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if self.axis is None else (self.axis,)
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         yield from one_axis(ins["input"])
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": (), "strength": ()}
 
-    def position_units(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
-    ) -> Mapping[str, PositionUnits]:
+    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         axes = ins["input"]
         read = PositionUnit.of(axes[0]) if len(axes) == 1 else None
         return {} if read is None else {"output": (read,)}
@@ -78,11 +76,9 @@ class PeakPosition(Coupling):
     def jumps_at(self) -> Sequence[str]:
         return ("least",)
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         [axis] = at.ins["input"]
-        place, there, n = centre(axis, inputs["input"] * axis.step, self.least)
+        place, there, n = centre(axis, at.inputs["input"] * axis.step, self.least)
         return {"output": jnp.where(there, place, self.absent), "strength": n}
 
     @classmethod
@@ -126,18 +122,16 @@ class MaximumPosition(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         n = len(ins["input"])
         return {"output": (Axis("component", 0, n - 1, n),) if n > 1 else ()}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         if not ins["input"]:
             yield "needs an input with an axis, not one number"
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        axes, f = at.ins["input"], inputs["input"]
+    def output(self, at: Setting) -> Arrays:
+        axes, f = at.ins["input"], at.inputs["input"]
         places = jnp.unravel_index(jnp.argmax(f), f.shape)
         there = jnp.max(f) > self.least
         found = [
@@ -203,17 +197,15 @@ class RateCode(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         n = len(self.axes)
         return {"output": (Axis("component", 0, n - 1, n),) if n > 1 else (), "strength": ()}
 
     def jumps_at(self) -> Sequence[str]:
         return ("least",)
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        axes, f = tuple(self.axes), inputs["input"] * cell(self.axes)
+    def output(self, at: Setting) -> Arrays:
+        axes, f = tuple(self.axes), at.inputs["input"] * cell(self.axes)
         every = zip(axes, *(per_axis(v, axes) for v in (self.gain, self.offset, self.absent)), strict=True)
         found: list[Array] = []
         for d, (axis, gain, offset, absent) in enumerate(every):
@@ -274,14 +266,14 @@ class SpaceCode(Coupling):
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:
             yield "axes", "is empty; a peak needs at least one axis"
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
             yield (
                 f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes",
@@ -295,14 +287,12 @@ class SpaceCode(Coupling):
                 "Connect an input of that shape",
             )
 
-    def position_codes(self, ins: Mapping[str, Axes]) -> Mapping[str, PositionCode]:
+    def position_codes(self, ins: Ports) -> Mapping[str, PositionCode]:
         axes = tuple(self.axes)
         return {"input": PositionCode(axes, per_axis(self.gain, axes), per_axis(self.offset, axes))}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        axes, values = tuple(self.axes), jnp.reshape(inputs["input"], (len(self.axes),))
+    def output(self, at: Setting) -> Arrays:
+        axes, values = tuple(self.axes), jnp.reshape(at.inputs["input"], (len(self.axes),))
         ends = boundaries(self.boundary, axes)
         every = zip(
             axes,

@@ -12,11 +12,11 @@ import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Bounds, Coupling, Ports, Setting
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.convolution import along
-from deodar.numerics.intervals import ZERO, Interval, hull, times
+from deodar.numerics.intervals import ZERO, hull, times
 from deodar.parameters import Recompile
 from deodar.registry import register
 
@@ -65,10 +65,10 @@ class Project(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         source, here = self._source(ins["input"]), {a.name: a for a in self.axes}
         for old in dict(self._renames()):
             if old not in [a.name for a in ins["input"]]:
@@ -82,7 +82,7 @@ class Project(Coupling):
                     " periodicity differ"
                 )
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         here, there = [a.name for a in self.axes], self._source(ins["input"])
         if here and there and not set(here) & set(there) and self.reduce in ("integral", "sum", "mean"):
             yield (
@@ -96,9 +96,7 @@ class Project(Coupling):
                 ),
             )
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         here = {a.name for a in self.axes}
         gone = [
             a for name, a in zip(self._source(ins["input"]), ins["input"], strict=True) if name not in here
@@ -124,18 +122,16 @@ class Project(Coupling):
                 out[name] = resampling.weights(axis, here[name].points, self.interpolation, at.dtype)
         return out
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        y, keep = inputs["input"], self._source(at.ins["input"])
+    def output(self, at: Setting) -> Arrays:
+        y, keep = at.inputs["input"], self._source(at.ins["input"])
         names = [a.name for a in self.axes]
         for d in reversed(range(len(keep))):
             if keep[d] not in names:
                 y = resampling.reduce(y, d, at.ins["input"][d], self.reduce)
                 del keep[d]
         for d, name in enumerate(keep):
-            if name in constants:
-                y = along(constants[name], y, d)
+            if name in at.constants:
+                y = along(at.constants[name], y, d)
         y = jnp.transpose(y, [keep.index(name) for name in names if name in keep])
         y = y.reshape([a.samples if a.name in keep else 1 for a in self.axes])
         return {"output": jnp.broadcast_to(y, shape(self.axes))}
@@ -193,10 +189,10 @@ class Resample(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         there, here = [a.name for a in ins["input"]], [a.name for a in self.axes]
         if there != here:
             yield f"the source has the axes {there}, here are {here}; write Project to change dimensions"
@@ -205,7 +201,7 @@ class Resample(Coupling):
             if a.periodic and not (b.periodic and a.fits(b)):
                 yield f"the periodic axis {a.name!r} has other bounds here: {a} at the source, {b} here"
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         for a, b in zip(ins["input"], self.axes, strict=True):
             if a.unit != b.unit:
                 yield (
@@ -222,26 +218,16 @@ class Resample(Coupling):
                 )
                 yield what, "Give both axes bounds that overlap"
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": hull(ZERO, inputs["input"])}
 
     def prepare(self, at: Setting) -> list[Array]:
         pairs = zip(at.ins["input"], self.axes, strict=True)
         return [resampling.weights(a, b.points, self.interpolation, at.dtype) for a, b in pairs]
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: list[Array],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        y = inputs["input"]
-        for d, weights in enumerate(constants):
+    def output(self, at: Setting) -> Arrays:
+        y = at.inputs["input"]
+        for d, weights in enumerate(at.constants):
             y = along(weights, y, d)
         return {"output": y}
 
@@ -279,10 +265,10 @@ class DiagonalSum(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         given = shape(ins["input"])
         if len(given) != 2:
             yield f"needs an input of two axes, not of {len(given)}", "Put a Project before it"
@@ -295,10 +281,8 @@ class DiagonalSum(Coupling):
                 "Give one axis of these",
             )
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        x = inputs["input"]
+    def output(self, at: Setting) -> Arrays:
+        x = at.inputs["input"]
         n, m = x.shape
         # rows of n + m samples, reshaped to rows of n + m - 1: this shifts each row by one sample more
         skewed = jnp.pad(x, ((0, 0), (0, n))).reshape(-1)[: n * (n + m - 1)].reshape(n, n + m - 1)
@@ -338,10 +322,10 @@ class DiagonalExpansion(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         given, own = shape(ins["input"]), shape(self.axes)
         if len(own) != 2:
             yield f"has {len(own)} axes; a diagonal lies between two", "Give two axes"
@@ -354,11 +338,9 @@ class DiagonalExpansion(Coupling):
                 "Give it an input of these",
             )
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         n, m = shape(self.axes)
-        return {"output": inputs["input"][np.add.outer(np.arange(n), np.arange(m))]}
+        return {"output": at.inputs["input"][np.add.outer(np.arange(n), np.arange(m))]}
 
     @classmethod
     def example(cls) -> DiagonalExpansion:

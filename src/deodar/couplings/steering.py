@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Coupling, Ports, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, cell, one_axis, shape, wrong_shape
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
@@ -62,10 +62,10 @@ class AttractorVelocity(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes) if port == "input" and self.axes else arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": ins["position"]}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         axes, arriving = ins["input"], shape(ins["position"])
         wanted = len(axes)
         if wanted == 0:
@@ -84,11 +84,9 @@ class AttractorVelocity(Coupling):
                 "Connect a position of that shape",
             )
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         axes = at.ins["input"]
-        f, p = inputs["input"] * cell(axes), jnp.reshape(inputs["position"], (len(axes),))
+        f, p = at.inputs["input"] * cell(axes), jnp.reshape(at.inputs["position"], (len(axes),))
         rates: list[Array] = []
         for d, axis in enumerate(axes):
             along = jnp.sum(f, axis=tuple(k for k in range(len(axes)) if k != d))
@@ -98,7 +96,7 @@ class AttractorVelocity(Coupling):
         if not is_neutral(self.fastest):
             length = jnp.sqrt(jnp.sum(v**2))
             v = v * jnp.minimum(1.0, self.fastest / jnp.maximum(length, jnp.finfo(at.dtype).tiny))
-        return {"output": jnp.reshape(v, jnp.shape(inputs["position"]))}
+        return {"output": jnp.reshape(v, jnp.shape(at.inputs["position"]))}
 
     @classmethod
     def example(cls) -> AttractorVelocity:
@@ -153,10 +151,10 @@ class ObstacleRepulsion(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": ()}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         yield from one_axis(ins["input"])
         if len(ins["input"]) == 1:
             yield from wrong_shape("angles", self.angles, shape(ins["input"]), "the input has")
@@ -167,10 +165,8 @@ class ObstacleRepulsion(Coupling):
     def prepare(self, at: Setting) -> Arrays:
         return {"angles": at.array(self.angles)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        angles, distances = constants["angles"], inputs["input"]
+    def output(self, at: Setting) -> Arrays:
+        angles, distances = at.constants["angles"], at.inputs["input"]
         strength = self.strength * jnp.exp(-distances / self.reach)
         half = jnp.tan(jnp.deg2rad(jnp.asarray(self.view, distances.dtype)) / 2)
         wide = jnp.rad2deg(jnp.arctan(half + self.size / (self.size + distances)))
@@ -222,12 +218,10 @@ class TurnLimit(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return ()
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"to_left": (), "to_right": ()}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        left, right = self.speed * inputs["left"], self.speed * inputs["right"]
+    def output(self, at: Setting) -> Arrays:
+        left, right = self.speed * at.inputs["left"], self.speed * at.inputs["right"]
         share = self.limit / jnp.maximum(jnp.abs(left - right), self.limit)
         return {"to_left": share * left, "to_right": share * right}

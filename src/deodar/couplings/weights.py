@@ -10,14 +10,13 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 import numpy as np
 import numpy.typing as npt
-from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Bounds, Coupling, Ports, PortUnits, Setting
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
 from deodar.numerics.convolution import along
-from deodar.numerics.intervals import Interval, times, total
+from deodar.numerics.intervals import times, total
 from deodar.numerics.positions import PositionUnit, PositionUnits
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
@@ -66,32 +65,28 @@ class Weights(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
         yield from wrong_shape("weights", self.weights, needed, "target and source have")
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         if isinstance(self.weights, FrozenArray) and not self.weights.data.any():
             yield (
                 "its weights are all zero, so nothing passes",
                 "Give it the weights of the map, or remove it",
             )
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         if not isinstance(self.weights, FrozenArray):
             return {}
         rows = self.weights.data.reshape(math.prod(shape(self.axes)), -1) * cell(ins["input"])
         up, down = float(np.maximum(rows, 0).sum(axis=1).max()), float(np.minimum(rows, 0).sum(axis=1).min())
         return {"output": total(times((0.0, up), inputs["input"]), times((down, 0.0), inputs["input"]))}
 
-    def position_units(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
-    ) -> Mapping[str, PositionUnits]:
+    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         arriving = inputs["input"]
         if not arriving or not isinstance(self.weights, FrozenArray):
             return {}
@@ -101,11 +96,9 @@ class Weights(Coupling):
     def prepare(self, at: Setting) -> Arrays:
         return {"weights": at.array(self.weights) * cell(at.ins["input"])}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        x = inputs["input"]
-        return {"output": jnp.tensordot(constants["weights"], x, axes=x.ndim, precision="highest")}
+    def output(self, at: Setting) -> Arrays:
+        x = at.inputs["input"]
+        return {"output": jnp.tensordot(at.constants["weights"], x, axes=x.ndim, precision="highest")}
 
     @classmethod
     def example(cls) -> Weights:
@@ -162,10 +155,10 @@ class AxisWeights(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axis if a.name == self._name else a for a in ins["input"])}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         found = next((a for a in ins["input"] if a.name == self._name), None)
         if found is None:
             given = ", ".join(repr(a.name) for a in ins["input"]) or "none"
@@ -180,9 +173,7 @@ class AxisWeights(Coupling):
             "weights", self.weights, (self.axis.samples, found.samples), "the new axis and the old one have"
         )
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         if not isinstance(self.weights, FrozenArray):
             return {}
         w, x = self.weights.data, inputs["input"]
@@ -192,11 +183,9 @@ class AxisWeights(Coupling):
     def prepare(self, at: Setting) -> Arrays:
         return {"weights": at.array(self.weights)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         d = next(k for k, a in enumerate(at.ins["input"]) if a.name == self._name)
-        return {"output": along(constants["weights"], inputs["input"], d)}
+        return {"output": along(at.constants["weights"], at.inputs["input"], d)}
 
     @property
     def _name(self) -> str:
@@ -245,19 +234,17 @@ class Weighting(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("weights", self.weights, shape(self.axes))
 
     def prepare(self, at: Setting) -> Arrays:
         return {"weights": at.array(self.weights)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": constants["weights"] * inputs["input"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.constants["weights"] * at.inputs["input"]}
 
     @classmethod
     def of(cls, function: Callable[..., npt.ArrayLike], axes: Sequence[Axis]) -> Weighting:
@@ -307,17 +294,15 @@ class PseudoInverse(Coupling):
     def polarity(self) -> Sign:
         return "±"
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": ins["input"][::-1]}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         if len(ins["input"]) not in (1, 2):
             yield f"needs an input of one or two axes, not of {len(ins['input'])}", "Put a Project before it"
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        x = inputs["input"]
+    def output(self, at: Setting) -> Arrays:
+        x = at.inputs["input"]
         left, sizes, right = jnp.linalg.svd(x.reshape(x.shape[0], -1), full_matrices=False)
         counts = (sizes > self.least * sizes[0]) & (sizes > 0)
         strength = jnp.where(counts, sizes, 0.0) / jnp.where(counts, sizes**2 + self.damping**2, 1.0)

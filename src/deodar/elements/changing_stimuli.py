@@ -12,7 +12,7 @@ import numpy.typing as npt
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Element, Ports, Setting
 from deodar.elements.stimuli import Stimulus, array_strength
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import noise as noises
@@ -111,17 +111,9 @@ class MovingGaussian(Stimulus):
     def prepare(self, at: Setting) -> dict[str, Exact]:
         return {} if self.waypoints is None else {"waypoints": at.exact(self.waypoints)}
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, Exact],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        y = self.amplitude * gate(self.windows, time, at.dtype) * jnp.ones((), at.dtype)
-        places = self._places(at, constants, time)
+    def output(self, at: Setting) -> Arrays:
+        y = self.amplitude * gate(self.windows, at.time, at.dtype) * jnp.ones((), at.dtype)
+        places = self._places(at)
         for axis, place, sigma in zip(self.axes, places, per_axis(self.sigma, self.axes), strict=True):
             distance = at.points(axis) - place
             if axis.periodic:
@@ -129,7 +121,7 @@ class MovingGaussian(Stimulus):
             y = y[..., None] * jnp.exp(-0.5 * (distance / sigma) ** 2)
         return {"output": y}
 
-    def _places(self, at: Setting, constants: dict[str, Exact], time: Time) -> list[Array]:
+    def _places(self, at: Setting) -> list[Array]:
         """The centre along each axis.
 
         On a periodic axis whole periods are subtracted in float64, before the cast to the model's
@@ -140,11 +132,11 @@ class MovingGaussian(Stimulus):
             for d, axis in enumerate(self.axes):
                 place = (
                     wide(per_axis(self.center, self.axes)[d])
-                    + wide(per_axis(self.velocity, self.axes)[d]) * time.wide
+                    + wide(per_axis(self.velocity, self.axes)[d]) * at.time.wide
                 )
-                if "waypoints" in constants:
-                    points = wide(constants["waypoints"])
-                    place = place + jnp.interp(time.wide, points[:, 0], points[:, 1 + d])
+                if "waypoints" in at.constants:
+                    points = wide(at.constants["waypoints"])
+                    place = place + jnp.interp(at.time.wide, points[:, 0], points[:, 1 + d])
                 if axis.periodic:
                     place = axis.lower + jnp.mod(place - axis.lower, axis.range)
                 out.append(place.astype(at.dtype))
@@ -233,7 +225,7 @@ class TimeSeries(Stimulus):
         elif (np.diff(times) <= 0).any():
             yield "times", "does not rise; each moment is later than the one before"
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
         times = self.times.shape if isinstance(self.times, FrozenArray) else ()
         yield from wrong_shape("values", self.values, times + shape(self.axes), "its times and axes have")
@@ -247,19 +239,11 @@ class TimeSeries(Stimulus):
     def prepare(self, at: Setting) -> TimeSeriesConstants:
         return {"times": at.exact(self.times), "values": at.array(self.values)}
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: TimeSeriesConstants,
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        values, last = constants["values"], len(constants["values"]) - 1
+    def output(self, at: Setting) -> Arrays:
+        values, last = at.constants["values"], len(at.constants["values"]) - 1
         hold = self.interpolation == "hold"
         with exact():
-            times, half, now = wide(constants["times"]), 0.5 * time.wide_dt, time.wide
+            times, half, now = wide(at.constants["times"]), 0.5 * at.time.wide_dt, at.time.wide
             if not is_neutral(self.period):
                 # shifted by half a step, so that rounding moves no time to the other end of the period
                 now = jnp.mod(now + half, wide(self.period)) - half
@@ -271,7 +255,7 @@ class TimeSeries(Stimulus):
             share = jnp.clip((now - times[before]) / span, 0.0, 1.0).astype(at.dtype)
             before, after = before.astype(jnp.int32), after.astype(jnp.int32)
         y = values[before] if hold else (1 - share) * values[before] + share * values[after]
-        return {"output": self.amplitude * gate(self.windows, time, at.dtype) * y}
+        return {"output": self.amplitude * gate(self.windows, at.time, at.dtype) * y}
 
     @classmethod
     def of(
@@ -341,7 +325,7 @@ class Noise(Element):
     def polarity(self) -> Sign:
         return "±"
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
     def steady(self) -> bool:
@@ -350,7 +334,7 @@ class Noise(Element):
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.amplitude) else tuple(self.axes)
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         lengths = [float(v) for v in per_axis(self.length, self.axes)]
         if any(lengths) and not all(lengths):
             yield "length is 0 on one axis and not on another; give all of them or none"
@@ -358,18 +342,8 @@ class Noise(Element):
     def prepare(self, at: Setting) -> dict[str, list[Array]]:
         return noises.prepare(tuple(self.axes), self.length, at.dtype)
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, list[Array]],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        if noise is None:
+    def output(self, at: Setting) -> Arrays:
+        if at.noise is None:
             return {"output": at.full(tuple(self.axes), 0.0)}
-        return {"output": self.amplitude / jnp.sqrt(time.dt) * self._over(noise, constants)}
-
-    def _over(self, deviates: Array, constants: dict[str, list[Array]]) -> Array:
-        return noises.over(tuple(self.axes), deviates, constants.get("noise"))
+        deviates = noises.over(tuple(self.axes), at.noise, at.constants.get("noise"))
+        return {"output": self.amplitude / jnp.sqrt(at.time.dt) * deviates}

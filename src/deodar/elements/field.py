@@ -11,13 +11,13 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from deodar.element import Arrays, Convolution, Element, Setting, Time
+from deodar.element import Arrays, Bounds, Convolution, Element, Ports, Setting
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import noise as noises
 from deodar.numerics import quadrature, starting
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
-from deodar.numerics.intervals import Interval, hull, signed, times, total
+from deodar.numerics.intervals import hull, signed, times, total
 from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.kernels.separable import Gaussian
 from deodar.numerics.sigmoids import Logistic, SigmoidFunction
@@ -109,7 +109,7 @@ class Field(Element):
             found["global inhibition"] = sign_of(-self.global_inhibition)
         return found
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         axes = tuple(self.axes)
         return {"output": axes, "activation": axes, "interaction": axes}
 
@@ -119,7 +119,7 @@ class Field(Element):
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else tuple(self.axes)
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         if len(self.axes) > MOST_AXES:
             yield f"has {len(self.axes)} axes; a field has at most {MOST_AXES}"
         yield from validate_kernels(self.kernel, tuple(self.axes))
@@ -127,7 +127,7 @@ class Field(Element):
         if any(lengths) and not all(lengths):
             yield "noise_length is 0 on one axis and not on another; give all of them or none"
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         for axis, length in zip(self.axes, per_axis(self.noise_length, self.axes), strict=True):
             if 0 < float(length) < 0.5 * axis.step:
                 yield (
@@ -146,9 +146,7 @@ class Field(Element):
                     f"Use a length far below {axis.range:g}",
                 )
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         h, u = self.resting_level, before.get("activation", (self.resting_level, self.resting_level))
         spread = (
             MARGIN
@@ -177,31 +175,15 @@ class Field(Element):
     def prepare(self, at: Setting) -> dict[str, list[Array]]:
         return noises.prepare(tuple(self.axes), self.noise_length, at.dtype)
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, list[Array]],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        u = state["activation"]
+    def output(self, at: Setting) -> Arrays:
+        u = at.state["activation"]
         g = self._output(u)
         return {"output": g, "activation": u, "interaction": self._interaction(at, g)}
 
-    def advance(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, list[Array]],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        u, h, s = state["activation"], self.resting_level, inputs["input"]
+    def advance(self, at: Setting) -> Arrays:
+        u, h, s = at.state["activation"], self.resting_level, at.inputs["input"]
         change = -u + h + s + self._interaction(at, self._output(u))
-        return {"activation": euler(u, change, self.tau, time.dt, self._noise(noise, constants))}
+        return {"activation": euler(u, change, self.tau, at.time.dt, self._noise(at))}
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
@@ -232,7 +214,7 @@ class Field(Element):
         inhibition = self.global_inhibition * cell(tuple(self.axes)) * jnp.sum(g)
         return at.convolve(g) - inhibition
 
-    def _noise(self, deviates: Array | None, constants: dict[str, list[Array]]) -> Array | None:
-        if deviates is None:
+    def _noise(self, at: Setting) -> Array | None:
+        if at.noise is None:
             return None
-        return self.noise * noises.over(tuple(self.axes), deviates, constants.get("noise"))
+        return self.noise * noises.over(tuple(self.axes), at.noise, at.constants.get("noise"))

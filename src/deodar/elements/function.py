@@ -12,9 +12,9 @@ import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Element, Ports, Setting, Time
 from deodar.errors import DeodarError, ModelError, UnknownName, first_line
-from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.axes import Axis
 from deodar.numerics.scalar import Scalar
 from deodar.parameters import Live, Recompile, show
 from deodar.registry import register
@@ -78,23 +78,19 @@ class Function(Element):
     def ports(self) -> tuple[str, ...]:
         return tuple(self.ports_in)
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
     def init(self, at: Setting) -> Arrays:
         return {"state": at.full(tuple(self.axes), self.initial)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": state["state"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.state["state"]}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        function, here = self.load(), state["state"].shape
+    def advance(self, at: Setting) -> Arrays:
+        function, here = self.load(), at.state["state"].shape
         try:
-            new = jnp.asarray(function(state["state"], inputs, time, **dict(self.values)))
+            new = jnp.asarray(function(at.state["state"], at.inputs, at.time, **dict(self.values)))
         except DeodarError:
             raise
         except Exception as error:

@@ -11,10 +11,10 @@ import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Bounds, Element, Ports, Setting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
-from deodar.numerics.intervals import ZERO, Interval, hull
+from deodar.numerics.intervals import ZERO, hull
 from deodar.numerics.sigmoids import SigmoidFunction
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
@@ -99,19 +99,17 @@ class MemoryTrace(Element):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "gate" else tuple(self.axes)
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("start", self.start, shape(self.axes))
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if self.graded and self.activity is not None:
             yield "activity", "is a sigmoid, and graded takes the input itself; give one of them"
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes), "active": tuple(self.axes)}
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         first = (
             ZERO
             if not isinstance(self.start, FrozenArray)
@@ -127,15 +125,11 @@ class MemoryTrace(Element):
         trace = at.full(tuple(self.axes), 0.0) if self.start is None else at.array(self.start)
         return {"trace": trace, "active": at.full(tuple(self.axes), 0.0)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": state["trace"], "active": state["active"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.state["trace"], "active": at.state["active"]}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        p, x = state["trace"], inputs["input"]
+    def advance(self, at: Setting) -> Arrays:
+        p, x = at.state["trace"], at.inputs["input"]
         active = x > self.threshold
         if self.activity is not None:
             a = self.activity(x)
@@ -148,8 +142,8 @@ class MemoryTrace(Element):
         if not self.fades and self.activity is None:
             rate = jnp.where(jnp.any(active), rate, 0.0)
         if self.gated:
-            rate = jnp.maximum(inputs["gate"], 0.0) * rate
-        return {"trace": p + time.dt * rate, "active": active.astype(p.dtype)}
+            rate = jnp.maximum(at.inputs["gate"], 0.0) * rate
+        return {"trace": p + at.time.dt * rate, "active": active.astype(p.dtype)}
 
     def learned_parameters(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
         return {"start": state["trace"]}
@@ -200,10 +194,10 @@ class History(Element):
 
     stateful: ClassVar[bool] = True
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": (self.slots, *self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         if self.slots.name in [a.name for a in self.axes]:
             yield (
                 f"the slots are called {self.slots.name!r} like an axis of the input",
@@ -213,37 +207,31 @@ class History(Element):
     def undefined(self) -> Sequence[str]:
         return ("output",) if self.empty == "nan" else ()
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": hull(ZERO, inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
         state = {"kept": at.full((self.slots, *self.axes), 0.0), "newest": at.full((), 0.0)}
         return state | ({"count": at.full((), 0.0)} if self.empty == "nan" else {})
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        kept = jnp.roll(state["kept"], -state["newest"].astype(int), axis=0)
+    def output(self, at: Setting) -> Arrays:
+        kept = jnp.roll(at.state["kept"], -at.state["newest"].astype(int), axis=0)
         if self.empty == "nan":  # only the output has NaN; the state is finite
-            there = jnp.arange(self.slots.samples) < state["count"]
+            there = jnp.arange(self.slots.samples) < at.state["count"]
             kept = jnp.where(there.reshape(-1, *(1 for _ in self.axes)), kept, jnp.nan)
         return {"output": kept}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def advance(self, at: Setting) -> Arrays:
         # a ring buffer: a step writes one row, whatever the number of slots
-        kept, newest = state["kept"], state["newest"]
+        kept, newest = at.state["kept"], at.state["newest"]
         with exact():
-            coming, interval = time.wide + time.wide_dt, wide(self.interval)
-            due = jnp.abs(coming - interval * jnp.round(coming / interval)) < 0.5 * time.wide_dt
+            coming, interval = at.time.wide + at.time.wide_dt, wide(self.interval)
+            due = jnp.abs(coming - interval * jnp.round(coming / interval)) < 0.5 * at.time.wide_dt
         newest = jnp.where(due, jnp.mod(newest - 1, self.slots.samples), newest)
         place = newest.astype(int)
-        new = {"kept": kept.at[place].set(jnp.where(due, inputs["input"], kept[place])), "newest": newest}
+        new = {"kept": kept.at[place].set(jnp.where(due, at.inputs["input"], kept[place])), "newest": newest}
         if self.empty == "nan":
-            new["count"] = jnp.minimum(state["count"] + due, self.slots.samples)
+            new["count"] = jnp.minimum(at.state["count"] + due, self.slots.samples)
         return new
 
     @classmethod
@@ -289,10 +277,10 @@ class SampledHistory(Element):
 
     stateful: ClassVar[bool] = True
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": (self.slots, *self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         if self.slots.name in [a.name for a in self.axes]:
             yield (
                 f"the slots are called {self.slots.name!r} like an axis of the input",
@@ -314,37 +302,21 @@ class SampledHistory(Element):
     def init(self, at: Setting) -> Arrays:
         return {"kept": at.full((self.slots, *self.axes), 0.0), "stored": at.full((self.slots,), 0.0)}
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, Exact],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        kept = state["kept"]
+    def output(self, at: Setting) -> Arrays:
+        kept = at.state["kept"]
         return {
-            "output": jnp.where(self._each(state["stored"]) > 0, kept, jnp.nan)
+            "output": jnp.where(self._each(at.state["stored"]) > 0, kept, jnp.nan)
             if self.empty == "nan"
             else kept
         }
 
-    def advance(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, Exact],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
+    def advance(self, at: Setting) -> Arrays:
         with exact():
-            late, half = time.wide + time.wide_dt - wide(constants["times"]), 0.5 * time.wide_dt
+            late, half = at.time.wide + at.time.wide_dt - wide(at.constants["times"]), 0.5 * at.time.wide_dt
             due = (late >= -half) & (late < half)
         return {
-            "kept": jnp.where(self._each(due), inputs["input"], state["kept"]),
-            "stored": jnp.maximum(state["stored"], due.astype(at.dtype)),
+            "kept": jnp.where(self._each(due), at.inputs["input"], at.state["kept"]),
+            "stored": jnp.maximum(at.state["stored"], due.astype(at.dtype)),
         }
 
     def _each(self, values: Array) -> Array:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
-from jax import Array
-
-from deodar.element import Arrays, Element, Setting, Time
-from deodar.numerics.axes import Axes, Axis
+from deodar.element import Arrays, Element, Ports, Setting
+from deodar.numerics.axes import Axis
 from deodar.parameters import Recompile
 from deodar.registry import register
 
@@ -43,13 +41,11 @@ class Placeholder(Element):
     # stateful with a constant state, so that it may close a loop, as the missing element might
     stateful: ClassVar[bool] = True
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
     def init(self, at: Setting) -> Arrays:
         return {"nothing": at.full(tuple(self.axes), 0.0)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": state["nothing"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.state["nothing"]}

@@ -10,14 +10,14 @@ from typing import Annotated, ClassVar
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Bounds, Element, Ports, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics import interaction
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
 from deodar.numerics.interaction import KernelWeights, Mixture
-from deodar.numerics.intervals import Interval, hull, times, total
+from deodar.numerics.intervals import hull, times, total
 from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.sigmoids import Logistic, SemiLinear, SigmoidFunction
 from deodar.numerics.signs import Sign, sign_of, together
@@ -77,15 +77,13 @@ class RateNode(Element):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return ()
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": (), "activation": (), "rate": ()}
 
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else ()
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         h, u = self.resting_level, before.get("activation", (self.resting_level, self.resting_level))
         spread = 6.0 * self.noise * math.sqrt(self.tau / 2)
         own = times((self.self_excitation, self.self_excitation), self.sigmoid.bounds(u))
@@ -96,19 +94,15 @@ class RateNode(Element):
         u = at.full((), self.resting_level)
         return {"activation": u, "rate": self._rate(u, jnp.zeros_like(u))}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        u = state["activation"]
-        return {"output": self.sigmoid(u), "activation": u, "rate": state["rate"]}
+    def output(self, at: Setting) -> Arrays:
+        u = at.state["activation"]
+        return {"output": self.sigmoid(u), "activation": u, "rate": at.state["rate"]}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        u = state["activation"] + time.dt * state["rate"]
-        if noise is not None:
-            u = u + jnp.sqrt(time.dt) * self.noise * noise
-        return {"activation": u, "rate": self._rate(u, inputs["input"])}
+    def advance(self, at: Setting) -> Arrays:
+        u = at.state["activation"] + at.time.dt * at.state["rate"]
+        if at.noise is not None:
+            u = u + jnp.sqrt(at.time.dt) * self.noise * at.noise
+        return {"activation": u, "rate": self._rate(u, at.inputs["input"])}
 
     def _rate(self, u: Array, s: Array) -> Array:
         return (-u + self.resting_level + self.self_excitation * self.sigmoid(u) + s) / self.tau
@@ -156,23 +150,19 @@ class TransientDetector(Element):
     def polarity(self) -> Sign:
         return "±"
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes), "off": tuple(self.axes)}
 
     def init(self, at: Setting) -> Arrays:
         return {"slow": at.full(tuple(self.axes), self.initial)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        change = inputs["input"] - state["slow"]
+    def output(self, at: Setting) -> Arrays:
+        change = at.inputs["input"] - at.state["slow"]
         return {"output": jnp.maximum(0.0, change), "off": jnp.maximum(0.0, -change)}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        z = state["slow"]
-        return {"slow": euler(z, -z + inputs["input"], self.tau, time.dt)}
+    def advance(self, at: Setting) -> Arrays:
+        z = at.state["slow"]
+        return {"slow": euler(z, -z + at.inputs["input"], self.tau, at.time.dt)}
 
 
 @register
@@ -269,14 +259,14 @@ class SoftWinnerTakeAll(Element):
             "inhibition": sign_of(-self.inhibition),
         }
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         axes = tuple(self.axes)
         return {"output": axes, "inhibitory": (), "interaction": axes}
 
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else tuple(self.axes)
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
+    def validate_axes(self, ins: Ports) -> Iterator[str]:
         yield from validate_kernels(self.kernel, tuple(self.axes))
 
     def init(self, at: Setting) -> Arrays:
@@ -285,46 +275,30 @@ class SoftWinnerTakeAll(Element):
     def prepare(self, at: Setting) -> dict[str, list[KernelWeights]]:
         return {"kernel": interaction.prepare(self.kernel, tuple(self.axes), at.dtype)}
 
-    def hoist(self, at: Setting, constants: dict[str, list[KernelWeights]]) -> dict[str, Mixture]:
-        return {"kernel": interaction.mix(self.kernel, tuple(self.axes), constants["kernel"])}
+    def hoist(self, at: Setting) -> dict[str, Mixture]:
+        return {"kernel": interaction.mix(self.kernel, tuple(self.axes), at.constants["kernel"])}
 
-    def output(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, Mixture],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
+    def output(self, at: Setting) -> Arrays:
         return {
-            "output": state["rate"],
-            "inhibitory": state["inhibition"],
-            "interaction": self._interaction(state, constants),
+            "output": at.state["rate"],
+            "inhibitory": at.state["inhibition"],
+            "interaction": self._interaction(at),
         }
 
-    def advance(
-        self,
-        at: Setting,
-        state: Arrays,
-        inputs: Arrays,
-        constants: dict[str, Mixture],
-        time: Time,
-        noise: Array | None,
-    ) -> Arrays:
-        r, v, axes = state["rate"], state["inhibition"], tuple(self.axes)
-        u = inputs["input"] + self._interaction(state, constants) - self.threshold
+    def advance(self, at: Setting) -> Arrays:
+        r, v, axes = at.state["rate"], at.state["inhibition"], tuple(self.axes)
+        u = at.inputs["input"] + self._interaction(at) - self.threshold
         driven = self.drive * cell(axes) * jnp.sum(r) - self.threshold_inhibition
-        deviates = None if noise is None else self.noise * noises.over(axes, noise, None)
+        deviates = None if at.noise is None else self.noise * noises.over(axes, at.noise, None)
         return {
-            "rate": euler(r, -r + self.sigmoid(u), self.tau, time.dt, deviates),
-            "inhibition": euler(v, -v + self.sigmoid_inhibition(driven), self.tau_inhibition, time.dt),
+            "rate": euler(r, -r + self.sigmoid(u), self.tau, at.time.dt, deviates),
+            "inhibition": euler(v, -v + self.sigmoid_inhibition(driven), self.tau_inhibition, at.time.dt),
         }
 
-    def _interaction(self, state: Arrays, constants: dict[str, Mixture]) -> Array:
-        r = state["rate"]
-        neighbours = interaction.apply(constants["kernel"], tuple(self.axes), r) if self.kernel else 0.0
-        return self.self_excitation * r + neighbours - self.inhibition * state["inhibition"]
+    def _interaction(self, at: Setting) -> Array:
+        r = at.state["rate"]
+        neighbours = interaction.apply(at.constants["kernel"], tuple(self.axes), r) if self.kernel else 0.0
+        return self.self_excitation * r + neighbours - self.inhibition * at.state["inhibition"]
 
     @classmethod
     def example(cls) -> SoftWinnerTakeAll:

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Bounds, Element, Ports, Setting
 from deodar.leaves import per_axis
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
@@ -43,7 +43,7 @@ class Stimulus(Element):
         """The value of the stimulus over its axes while it is on."""
         raise NotImplementedError
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         for k, w in enumerate(self.windows):
             if w.stop < w.start:
                 yield (
@@ -54,7 +54,7 @@ class Stimulus(Element):
                     ),
                 )
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         for k, w in enumerate(self.windows):
             if w.stop == w.start:
                 yield (
@@ -69,9 +69,7 @@ class Stimulus(Element):
         """
         return ANY
 
-    def bounds(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
-    ) -> Mapping[str, Interval]:
+    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         found = self.strength()
         return {"output": ANY if found == ZERO else hull(ZERO, found) if self.windows else found}
 
@@ -118,13 +116,11 @@ class Stimulus(Element):
     def steady(self) -> bool:
         return not self.windows
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": self.pattern(at) * gate(self.windows, time, at.dtype)}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": self.pattern(at) * gate(self.windows, at.time, at.dtype)}
 
 
 def array_strength(values: Any, amplitude: float) -> Interval:
@@ -221,12 +217,12 @@ class GaussianStimulus(Stimulus):
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes"
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)
         yield from self.placed("sigma", boundaries(self.boundary, tuple(self.axes)))
 
@@ -287,7 +283,7 @@ class BoxStimulus(Stimulus):
         width = starting.one_or_each(tuple(2 * sigma for sigma in starting.widths(axes)))
         return {"center": starting.middle(axes), "width": width, "amplitude": starting.STRENGTH}
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)
         yield from self.placed("width", boundaries(None, tuple(self.axes)))
 
@@ -347,11 +343,11 @@ class Pattern(Stimulus):
     def polarity(self) -> Sign:
         return product(sign_of(self.values), sign_of(self.amplitude))
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
         yield from wrong_shape("values", self.values, shape(self.axes))
 
-    def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)
         if isinstance(self.values, FrozenArray) and not self.values.data.any():
             yield (

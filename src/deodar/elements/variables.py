@@ -9,12 +9,11 @@ from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
 
-from deodar.element import Arrays, Element, Setting, Time
+from deodar.element import Arrays, Element, Ports, PortUnits, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, one_axis, shape, wrong_shape
-from deodar.numerics.positions import PositionUnit, PositionUnits
+from deodar.numerics.positions import PositionUnit
 from deodar.parameters import ArrayLike, Live, Rebuild, Recompile
 from deodar.registry import register
 
@@ -55,24 +54,20 @@ class Integrator(Element):
 
     stateful: ClassVar[bool] = True
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("start", self.start, shape(self.axes))
 
     def init(self, at: Setting) -> Arrays:
         return {"x": at.full(tuple(self.axes), self.initial) if self.start is None else at.array(self.start)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": state["x"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.state["x"]}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"x": state["x"] + time.dt * self.rate * inputs["input"]}
+    def advance(self, at: Setting) -> Arrays:
+        return {"x": at.state["x"] + at.time.dt * self.rate * at.inputs["input"]}
 
     def inject(
         self, state: Mapping[str, np.ndarray], amount: np.ndarray | float, dt: float
@@ -137,18 +132,16 @@ class Attractor(Element):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if self.axis is None else (self.axis,)
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": ()}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         found = ins["input"]
         yield from one_axis(found)
         if len(found) == 1 and found[0].periodic and (self.gain != 1.0 or self.offset != 0.0):
             yield f"gain and offset have no meaning on the periodic axis {found[0].name!r}"
 
-    def position_units(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
-    ) -> Mapping[str, PositionUnits]:
+    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         axes = ins["input"]
         read = PositionUnit.of(axes[0]) if len(axes) == 1 else None
         return {} if read is None else {"output": (read.scaled(self.gain),)}
@@ -156,26 +149,22 @@ class Attractor(Element):
     def init(self, at: Setting) -> Arrays:
         return {"phi": at.full((), self.initial)}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": state["phi"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.state["phi"]}
 
-    def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
+    def advance(self, at: Setting) -> Arrays:
         [axis] = at.ins["input"]
-        phi, f, x = state["phi"], inputs["input"] * axis.step, at.points(axis)
+        phi, f, x = at.state["phi"], at.inputs["input"] * axis.step, at.points(axis)
         whole = jnp.sum(f)
         # a step longer than the relaxation time would overshoot, so its length is limited to the attractor
-        share = time.dt / jnp.maximum(self.tau, time.dt * jnp.abs(whole))
+        share = at.time.dt / jnp.maximum(self.tau, at.time.dt * jnp.abs(whole))
         if axis.periodic:
             turn = 2 * math.pi / axis.range
             move = jnp.sum(jnp.sin(turn * (x - phi)) * f) / turn * share
         else:
             move = (jnp.sum((self.gain * x + self.offset) * f) - phi * whole) * share
         if not is_neutral(self.fastest):
-            move = jnp.clip(move, -self.fastest * time.dt, self.fastest * time.dt)
+            move = jnp.clip(move, -self.fastest * at.time.dt, self.fastest * at.time.dt)
         phi = phi + move
         if axis.periodic:
             phi = axis.lower + jnp.mod(phi - axis.lower, axis.range)

@@ -6,11 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
-from jax import Array
-
-from deodar.element import Arrays, Element, Setting, Time
-from deodar.numerics.axes import Axes, Axis
-from deodar.numerics.positions import PositionUnits
+from deodar.element import Arrays, Element, Ports, PortUnits, Setting
+from deodar.numerics.axes import Axis
 from deodar.parameters import Recompile
 from deodar.registry import register
 
@@ -44,21 +41,17 @@ class Sensor(Element):
     external: ClassVar[str] = "reading"
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
     def sensor_name(self) -> str:
         return self.sensor
 
-    def position_units(
-        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
-    ) -> Mapping[str, PositionUnits]:
+    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         return {"output": inputs["reading"]}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": inputs["reading"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.inputs["reading"]}
 
 
 @register
@@ -91,13 +84,11 @@ class Motor(Element):
     inputs: ClassVar[tuple[str, ...]] = ("input",)
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
 
     def motor_name(self) -> str:
         return self.motor
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
-    ) -> Arrays:
-        return {"output": inputs["input"]}
+    def output(self, at: Setting) -> Arrays:
+        return {"output": at.inputs["input"]}

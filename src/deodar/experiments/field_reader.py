@@ -5,20 +5,19 @@ no fields.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
-from jax import Array
 
 from deodar import codec
-from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.element import Arrays, Coupling, Ports, Setting
 from deodar.experiments.observable import PLACE, REDUCES, Observable, mask
 from deodar.model import edit
 from deodar.model.document import Document
 from deodar.model.graph import graph
-from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics.axes import Axis, shape
 from deodar.numerics.peak import position
 from deodar.parameters import Recompile
 
@@ -45,14 +44,12 @@ class Reader(Coupling):
     ] = ""
     threshold: Annotated[float, Recompile("input", meaning="samples above it belong to a peak")] = 0.0
 
-    def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
+    def outputs(self, ins: Ports) -> Ports:
         count = len(ins["input"])
         return {"output": (Axis("of", 0.0, float(count), count + 1),) if self.reduce == PLACE else ()}
 
-    def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
-    ) -> Arrays:
-        axes, y = at.ins["input"], inputs["input"]
+    def output(self, at: Setting) -> Arrays:
+        axes, y = at.ins["input"], at.inputs["input"]
         inside = mask(axes, *codec.parse(self.near)) if self.near else None
         if self.reduce == PLACE:
             centroid, exists = position(y, axes, self.threshold, inside)

@@ -16,8 +16,8 @@ from deodar.registry import register
 class Doubling(Coupling):
     """Twice the input."""
 
-    def output(self, at, state, inputs, constants, time, noise):
-        return {"output": 2.0 * inputs["input"]}
+    def output(self, at):
+        return {"output": 2.0 * at.inputs["input"]}
 '''
 DOCUMENT = """{"deodar": 1, "axes": {"x": {"lower": 0, "upper": 9, "samples": 10}},
  "elements": {"b": {"kind": "Boost", "axes": ["x"], "amplitude": 1.5}, "d": {"kind": "Doubling"}},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -32,10 +32,8 @@ class Reading(dd.Element):
     def outputs(self, ins: Mapping[str, dd.Axes]) -> Mapping[str, dd.Axes]:
         return {"output": tuple(self.axes)}
 
-    def output(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        return {"output": inputs["seen"] + 1.0}
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": at.inputs["seen"] + 1.0}
 
 
 @dataclass(frozen=True)
@@ -46,10 +44,8 @@ class Mask(dd.Coupling):
     follows: ClassVar[Mapping[str, str]] = {"mask": "input"}
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "mask")}
 
-    def output(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        return {"output": inputs["input"] * (inputs["mask"] > 0)}
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": at.inputs["input"] * (at.inputs["mask"] > 0)}
 
 
 @dataclass(frozen=True)
@@ -61,10 +57,8 @@ class Strength(dd.Coupling):
     linear: ClassVar[bool] = True
     scaled_by: ClassVar[str] = "weight"
 
-    def output(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        return {"output": self.weight * inputs["input"]}
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": self.weight * at.inputs["input"]}
 
 
 def readings() -> dd.Model:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Sequence
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import jax.numpy as jnp
 import numpy as np
@@ -24,21 +24,17 @@ SQUARE = [dd.Axis(name, 0, 40, samples=40, periodic=True) for name in "xy"]
 class LinearField(dd.Field):
     """A field without lateral interaction: it approaches its input plus the resting level."""
 
-    def advance(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        u = state["activation"]
-        return {"activation": dd.euler(u, -u + self.resting_level + inputs["input"], self.tau, time.dt)}
+    def advance(self, at: dd.Setting) -> dd.Arrays:
+        u = at.state["activation"]
+        return {"activation": dd.euler(u, -u + self.resting_level + at.inputs["input"], self.tau, at.time.dt)}
 
 
 @dc.dataclass(frozen=True)
 class Halved(dd.Field):
     """A field that acts on others by half of its output, and not on itself."""
 
-    def output(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        activation = super().output(at, state, inputs, constants, time, noise)
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        activation = super().output(at)
         return activation | {"output": 0.5 * activation["output"]}
 
 
@@ -48,12 +44,10 @@ class Doubled(dd.Field):
 
     convolution: ClassVar[dd.Convolution | None] = dd.Convolution("output", into="input")
 
-    def advance(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        u = state["activation"]
-        rate = -u + self.resting_level + inputs["input"] + at.convolve(self.sigmoid(u))
-        return {"activation": dd.euler(u, 2 * rate, self.tau, time.dt)}
+    def advance(self, at: dd.Setting) -> dd.Arrays:
+        u = at.state["activation"]
+        rate = -u + self.resting_level + at.inputs["input"] + at.convolve(self.sigmoid(u))
+        return {"activation": dd.euler(u, 2 * rate, self.tau, at.time.dt)}
 
 
 @dc.dataclass(frozen=True)
@@ -62,12 +56,10 @@ class Twice(Doubled):
 
     convolution: ClassVar[dd.Convolution | None] = dd.Convolution("output", into="input")
 
-    def advance(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        u = state["activation"]
-        rate = at.convolve(self.sigmoid(u)) + at.convolve(jnp.tanh(u)) + inputs["input"]
-        return {"activation": dd.euler(u, rate, self.tau, time.dt)}
+    def advance(self, at: dd.Setting) -> dd.Arrays:
+        u = at.state["activation"]
+        rate = at.convolve(self.sigmoid(u)) + at.convolve(jnp.tanh(u)) + at.inputs["input"]
+        return {"activation": dd.euler(u, rate, self.tau, at.time.dt)}
 
 
 @dc.dataclass(frozen=True)

@@ -237,10 +237,8 @@ class Doubling(dd.Coupling):
     ) -> Mapping[str, dd.PositionUnits]:
         return {"output": tuple(p and p.scaled(self.scale) for p in inputs["input"])}
 
-    def output(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        return {"output": self.scale * inputs["input"]}
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": self.scale * at.inputs["input"]}
 
 
 @dataclass(frozen=True)
@@ -263,10 +261,8 @@ class Reading(dd.Coupling):
     ) -> Mapping[str, dd.PositionUnits]:
         return {"output": (dd.PositionUnit.of(ins["input"][0]),)}
 
-    def output(
-        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
-    ) -> dd.Arrays:
-        return {"output": inputs["input"][0]}
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": at.inputs["input"][0]}
 
 
 def test_a_kind_of_a_user_passes_positions_on() -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import importlib.util
+import re
 from collections.abc import Callable
 
 import jax
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compiler.functions import Functions, StepArguments
+from deodar.compiler.functions import Functions
 from deodar.element import Setting, Time
 from deodar.elements.changing_stimuli import MovingGaussian, TimeSeries
 from deodar.elements.memories import History
@@ -153,9 +154,8 @@ def scene(kind: str, name: str) -> Callable[..., Model] | None:
     """Return a function of the test of a kind: `timed(t0)`, a model with its element `example` and an event
     within twelve steps after t0, or `lasting(duration)`, a model whose output changes after this duration.
     """
-    module = KINDS[kind].__module__.removeprefix("deodar.")
-    folder, _, file = module.rpartition(".")
-    path = f"tests.deodar.{folder}.test_{file}"
+    folder = KINDS[kind].__module__.removeprefix("deodar.").rpartition(".")[0]
+    path = f"tests.deodar.{folder}.test_{re.sub('(?<!^)(?=[A-Z])', '_', kind).lower()}"
     return getattr(importlib.import_module(path), name, None) if importlib.util.find_spec(path) else None
 
 
@@ -189,10 +189,12 @@ def reads_time(kind: str) -> bool:
     time = Watched.at(0.0, 1.0, at.dtype)
 
     def step() -> object:
-        state, functions = element.init(at), Functions(here, {})
-        constants = functions.hoist(element, at, functions.prepare(element, at))
-        read = StepArguments(state, inputs, constants, noise)
-        return functions.output(element, at, read, time), functions.advance(element, at, read, time)
+        functions = Functions(here, {})
+        begun = dc.replace(at, constants=functions.prepare(element, at), state=element.init(at))
+        now = dc.replace(
+            begun, constants=functions.hoist(element, begun), inputs=inputs, time=time, noise=noise
+        )
+        return functions.output(element, now), functions.advance(element, now)
 
     Watched.read.clear()
     jax.eval_shape(step)
