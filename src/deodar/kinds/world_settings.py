@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import inspect
 from collections.abc import Mapping
 from typing import Any, Literal
 
@@ -12,9 +11,8 @@ from deodar.codec import Json
 from deodar.errors import WorldError, did_you_mean
 from deodar.parameters import show
 from deodar.worlds._base import World
+from deodar.worlds._settings import SettingForm, form_of, groups, settings
 from deodar.worlds.recorded_run import Recording
-
-SettingForm = Literal["file", "text", "number", "flag", "numbers"]
 
 
 @dc.dataclass(frozen=True)
@@ -29,7 +27,7 @@ class WorldSetting:
     """
 
     name: str
-    form: SettingForm
+    form: SettingForm | Literal["file"]
     meaning: str
     default: Json
 
@@ -42,23 +40,23 @@ def world_settings(cls: type, meanings: Mapping[str, str]) -> tuple[WorldSetting
     """
     if not issubclass(cls, World) or (cls.open.__func__ is World.open.__func__ and cls is not Recording):
         return ()
-    arguments = list(inspect.signature(cls.__init__).parameters.values())[1:]
-    if not arguments:
+    declared = settings(cls)
+    if not declared:
         return ()
-    first, *others = arguments
-    name = first.name
-    default = first.default if isinstance(first.default, (str, int)) else None
-    form: SettingForm = "file" if cls.opens else "text"
-    found = [WorldSetting(name, form, meanings.get(name, ""), None if default is None else str(default))]
+    name, (default, _) = next(iter(declared.items()))
+    shown = str(default) if isinstance(default, (str, int)) else None
+    first = WorldSetting(name, "file" if cls.opens else "text", meanings.get(name, ""), shown)
     if cls is Recording:
-        return tuple(found)
-    for argument in others:
-        if dc.is_dataclass(argument.default):
-            found += _fields(argument.default)
-        else:
-            meaning = meanings.get(argument.name, "")
-            found += _setting(argument.name, argument.default, str(argument.annotation), meaning)
-    return tuple(found)
+        return (first,)
+    for group in groups(cls).values():
+        parsed = docstring.parse(docstring.source(type(group)))
+        meanings = {**meanings, **parsed.entries("Attributes")}
+    others: list[WorldSetting] = []
+    for name, (default, annotation) in list(declared.items())[1:]:
+        form = form_of(default, annotation)
+        if form is not None and (default is None) == (form == "numbers"):
+            others.append(WorldSetting(name, form, meanings.get(name, ""), default))
+    return first, *others
 
 
 def require_settings(cls: type, values: Mapping[str, Any]) -> None:
@@ -71,30 +69,6 @@ def require_settings(cls: type, values: Mapping[str, Any]) -> None:
             )
         if not _FITS[known[name].form](value):
             raise WorldError(f"{name} is {show(value)}", where=cls.__name__)
-
-
-def _fields(group: Any) -> list[WorldSetting]:
-    meanings = docstring.parse(docstring.source(type(group))).entries("Attributes")
-    return [
-        setting
-        for f in dc.fields(group)
-        for setting in _setting(f.name, getattr(group, f.name), str(f.type), meanings.get(f.name, ""))
-    ]
-
-
-def _setting(name: str, default: Any, annotation: str, meaning: str) -> list[WorldSetting]:
-    form = _form(default, annotation)
-    return [] if form is None else [WorldSetting(name, form, meaning, default)]
-
-
-def _form(default: Any, annotation: str) -> SettingForm | None:
-    if isinstance(default, bool):
-        return "flag"
-    if isinstance(default, (int, float)):
-        return "number"
-    if isinstance(default, str):
-        return "text"
-    return "numbers" if default is None and "Sequence[float]" in annotation else None
 
 
 def _is_number(value: Any) -> bool:

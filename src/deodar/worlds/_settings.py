@@ -5,20 +5,36 @@ from __future__ import annotations
 import dataclasses as dc
 import inspect
 import math
+import os
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
+from deodar.declarations import Recompile
 from deodar.errors import WorldError, did_you_mean
-from deodar.parameters import real, show
+from deodar.parameters import normal, parameters, real, show
+
+SettingForm = Literal["text", "number", "flag", "numbers"]
+FLAGS = {"yes": True, "true": True, "no": False, "false": False}
 
 
-def periods(name: str, count: Any) -> int:
-    """Return a whole number of periods, or raise WorldError."""
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
-        raise WorldError(f"{name} is {show(count)}; expected a whole number of periods, at least 1")
-    return int(count)
+Above0 = Annotated[float, Recompile(lower=1e-6)]
+From0 = Annotated[float, Recompile(lower=0.0)]
+Share = Annotated[float, Recompile(lower=0.0, upper=1.0)]
+Count = Annotated[int, Recompile(lower=1)]
+
+
+@dc.dataclass(frozen=True)
+class Settings:
+    """The base class of groups of settings: frozen dataclasses, whose values are checked as they declare."""
+
+    def __post_init__(self) -> None:
+        for p in parameters(type(self)):
+            try:
+                object.__setattr__(self, p.name, normal(p, getattr(self, p.name)))
+            except ValueError as error:
+                raise WorldError(f"{p.name} {error}") from None
 
 
 def number(name: str, given: Any, above: float | None = None) -> float:
@@ -45,47 +61,75 @@ def finite_rows(name: str, given: Any, size: int) -> np.ndarray:
     return matrix
 
 
-def named(pieces: Sequence[str], names: Collection[str], where: str) -> dict[str, str]:
-    """Return the values of `NAME=VALUE` pieces of an argument by name, or raise WorldError.
-
-    Args:
-        pieces: the pieces.
-        names: all settings.
-        where: the argument, for messages.
-    """
-    settings: dict[str, str] = {}
-    for piece in pieces:
-        name, equal, value = (part.strip() for part in piece.partition("="))
-        if not equal or name not in names:
-            setting = repr(name if equal else piece)
-            raise WorldError(f"there is no setting {setting}", where=where, fix=did_you_mean(name, names))
-        settings[name] = value
-    return settings
-
-
-def numeric(name: str, value: str, where: str, counts: Collection[str] = ()) -> float | int:
-    """Return the number that a value of an argument states, or raise WorldError.
-
-    A whole number is an int if the setting is one of `counts`.
-    """
-    try:
-        given = float(value)
-    except ValueError:
-        raise WorldError(f"{name} is {value!r}; expected a number", where=where) from None
-    return int(given) if name in counts and given.is_integer() else given
-
-
 def groups(cls: type) -> dict[str, Any]:
     """Return the dataclasses among the arguments of a world's constructor, with their defaults."""
-    parameters = inspect.signature(cls.__init__).parameters.values()
+    parameters = inspect.signature(cls).parameters.values()
     return {p.name: p.default for p in parameters if dc.is_dataclass(p.default)}
 
 
-def setting_names(cls: type) -> list[str]:
-    """Return the names of the settings of a world: its arguments, of a dataclass among them the fields."""
-    parameters, nested = inspect.signature(cls.__init__).parameters, groups(cls)
-    names = [[f.name for f in dc.fields(nested[name])] if name in nested else [name] for name in parameters]
-    return [name for field_names in names for name in field_names if name not in ("self", "args", "kwargs")]
+def settings(cls: type) -> dict[str, tuple[Any, str]]:
+    """Return default and annotation of each setting of a world: its arguments, of a dataclass the fields."""
+    declared, nested = dict[str, tuple[Any, str]](), groups(cls)
+    for name, p in inspect.signature(cls).parameters.items():
+        if name in nested:
+            group = nested[name]
+            declared |= {f.name: (getattr(group, f.name), str(f.type)) for f in dc.fields(group)}
+        elif p.kind is p.POSITIONAL_OR_KEYWORD:
+            declared[name] = p.default, str(p.annotation)
+    return declared
+
+
+def form_of(default: Any, annotation: str) -> SettingForm | None:
+    """Return the form of a setting; None for one whose values are other objects."""
+    if isinstance(default, bool):
+        return "flag"
+    if isinstance(default, (int, float)) or annotation.startswith("float"):
+        return "number"
+    if isinstance(default, str) or annotation.startswith("str"):
+        return "text"
+    return "numbers" if annotation.startswith("Sequence[float]") else None
+
+
+def parse_argument(cls: type, argument: str, closed: Collection[str] = ()) -> tuple[str, dict[str, Any]]:
+    """Parse `FIRST, NAME=VALUE, ...` into its first part and arguments of a world's constructor.
+
+    An example is `z, unit=cm, goal=-27 78, place_noise=0.5`. A comma in the name of an existing file is part
+    of the name.
+
+    Args:
+        cls: the class of the world.
+        argument: the argument, as on the command line.
+        closed: settings that an argument may not state, besides the first.
+
+    Raises:
+        WorldError: a setting is unknown, or its value is invalid.
+    """
+    first, given, where = argument.strip(), dict[str, Any](), f"{cls.__name__.lower()}:{argument}"
+    known = settings(cls)
+    names = [name for name in list(known)[1:] if name not in closed and form_of(*known[name])]
+    while "," in first and not os.path.exists(first):
+        first, _, piece = (part.strip() for part in first.rpartition(","))
+        name, equal, value = (part.strip() for part in piece.partition("="))
+        if not equal or name not in names:
+            raise WorldError(f"there is no setting {name!r}", where=where, fix=did_you_mean(name, names))
+        given[name] = _value(name, value, *known[name], where)
+    return first, arguments(cls, given)
+
+
+def _value(name: str, text: str, default: Any, annotation: str, where: str) -> Any:
+    form = form_of(default, annotation)
+    try:
+        if form == "flag":
+            return FLAGS[text.lower()]
+        if form == "numbers":
+            return [float(word) for word in text.replace("x", " ").split()]
+        if form == "number":
+            number = float(text)
+            return int(number) if isinstance(default, int) and number.is_integer() else number
+    except (KeyError, ValueError):
+        expected = {"flag": "yes or no", "numbers": "numbers with spaces between"}.get(str(form), "a number")
+        raise WorldError(f"{name} is {text!r}; expected {expected}", where=where) from None
+    return text
 
 
 def arguments(cls: type, settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -19,9 +19,8 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
-from deodar.worlds._settings import number
+from deodar.worlds._settings import number, parse_argument
 from deodar_robots.event_file import aedat2, aedat4
-from deodar_robots.event_file.argument import parse_argument
 from deodar_robots.event_file.events import RecordedEvents, require_size
 from deodar_robots.event_file.filmed import FilmedEvents
 from deodar_robots.eye.event_camera import EventCamera, shares
@@ -196,7 +195,7 @@ class EventFile(World):
     @classmethod
     def open(cls, argument: str) -> EventFile:
         """Open a file, with settings after commas, such as `hand.aedat4,period=5,loop=yes`."""
-        file, settings = parse_argument(argument)
+        file, settings = parse_argument(cls, argument)
         return cls(file, **settings)
 
     @classmethod

@@ -22,7 +22,7 @@ from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody
-from deodar.worlds._settings import arguments, finite_rows, named, number, numeric, of
+from deodar.worlds._settings import arguments, finite_rows, number, of, parse_argument
 from deodar_robots.eye.event_camera import EventCamera, rate
 from deodar_robots.eye.event_picture import EventPicture
 from deodar_robots.eye.optics import CENTRE, PIXELS
@@ -47,9 +47,6 @@ moves the target.
 """
 
 PAN_TILT, SCREEN = PanTilt(), EyeScreen()
-
-SETTINGS = tuple(name for name in (*dc.asdict(PAN_TILT), *dc.asdict(SCREEN), "period") if name != "endless")
-"""Numbers that an argument of the command line may state: `--world "eye:distractors=2, speed=50"`."""
 
 TARGET, RIVAL = "target", "rival"
 EVENTS = {"events": ("on", "off"), "on": ("on",), "off": ("off",)}
@@ -343,20 +340,13 @@ class Eye(PureWorld):
 
     @classmethod
     def open(cls, argument: str) -> Eye:
-        where = f"eye:{argument}"
-        pieces = [piece.strip() for piece in argument.split(",") if piece.strip()]
-        found: dict[str, Any] = {
-            name: numeric(name, value, where, ("distractors",))
-            for name, value in named(pieces, SETTINGS, where).items()
-        }
-        return cls(**arguments(cls, found))
+        _, settings = parse_argument(cls, f",{argument}" if argument else "")
+        return cls(**settings)
 
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Eye:
-        settings = {name: described[name] for name in (*SETTINGS, "endless", "first", "pose")}
-        # records of before have no rival
-        camera, rival = EventCamera(**described["camera"]), described.get(RIVAL)
-        return cls(camera, rival=rival, **arguments(cls, settings))
+        said = {name: value for name, value in described.items() if name not in ("world", "camera")}
+        return cls(EventCamera(**described["camera"]), **arguments(cls, said))
 
     @classmethod
     def example(cls) -> Eye:

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import math
-from typing import Any
 
-from deodar.errors import WorldError
-from deodar.parameters import real, show
-from deodar.worlds._settings import number
+from deodar.worlds._settings import Above0, From0, Settings
 from deodar_robots.eye.optics import Optics
 
 
 @dc.dataclass(frozen=True)
-class PanTilt(Optics):
+class PanTilt(Settings, Optics):
     """A camera on two servo motors.
 
     Attributes:
@@ -23,21 +19,7 @@ class PanTilt(Optics):
         lag: time constant of the servo motors, ms; 0: they follow at once.
     """
 
-    gain: float = 0.18
-    curvature: float = 0.12
+    gain: Above0 = 0.18
+    curvature: From0 = 0.12
     roll: float = 0.06
-    lag: float = 25.0
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "gain", number("gain", self.gain, above=0.0))
-        object.__setattr__(self, "roll", finite("roll", self.roll))
-        for name in ("curvature", "lag"):
-            object.__setattr__(self, name, number(name, getattr(self, name)))
-
-
-def finite(name: str, given: Any) -> float:
-    """Return a finite number of any sign, or raise WorldError."""
-    value = real(given)
-    if value is None or not math.isfinite(value):
-        raise WorldError(f"{name} is {show(given)}; expected a finite number")
-    return float(value)
+    lag: From0 = 25.0

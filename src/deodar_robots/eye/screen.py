@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from typing import Annotated
 
 import jax.numpy as jnp
 from jax import Array
 from jax.typing import DTypeLike
 
-from deodar.errors import WorldError
+from deodar.declarations import Recompile
 from deodar.numerics.noise import uniform, words
-from deodar.parameters import show
-from deodar.worlds._settings import number
+from deodar.worlds._settings import Above0, From0, Settings
 from deodar_robots.eye.optics import PIXELS, Optics
-from deodar_robots.eye.pan_tilt import finite
 
 CANDIDATES = 32
 """Random places from which the place of a new object is taken: the first one within the screen."""
 
 
 @dc.dataclass(frozen=True)
-class EyeScreen:
+class EyeScreen(Settings):
     """What a screen shows, and how it moves.
 
     Attributes:
@@ -36,26 +35,15 @@ class EyeScreen:
         endless: whether the screen shows another target after a gaze, when the target is lost, and after 4 s.
     """
 
-    radius: float = 4.0
+    radius: Above0 = 4.0
     contrast: float = 1.0
-    blink: float = 40.0
-    distractors: int = 0
-    speed: float = 0.0
-    drift: float = 0.0
-    reach: float = 600.0
-    wait: float = 0.0
+    blink: Above0 = 40.0
+    distractors: Annotated[int, Recompile(lower=0)] = 0
+    speed: From0 = 0.0
+    drift: From0 = 0.0
+    reach: Above0 = 600.0
+    wait: From0 = 0.0
     endless: bool = True
-
-    def __post_init__(self) -> None:
-        count = self.distractors
-        if isinstance(count, bool) or not isinstance(count, int) or count < 0:
-            raise WorldError(f"distractors is {show(count)}; expected a whole number, 0 or above")
-        object.__setattr__(self, "contrast", finite("contrast", self.contrast))
-        for name in ("radius", "blink", "reach"):
-            object.__setattr__(self, name, number(name, getattr(self, name), above=0.0))
-        for name in ("speed", "drift", "wait"):
-            object.__setattr__(self, name, number(name, getattr(self, name)))
-        object.__setattr__(self, "endless", bool(self.endless))
 
 
 def luminance(places: Array, bright: Array, radius: float, dtype: DTypeLike) -> Array:

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from typing import Annotated
 
-from deodar.errors import WorldError, did_you_mean
-from deodar.parameters import show
-from deodar.worlds._settings import number, periods
-
-RENDERS = ("rays", "egl")
+from deodar.declarations import Recompile
+from deodar.worlds._settings import Count, From0, Settings
 
 
 @dc.dataclass(frozen=True)
-class MuJoCoCameras:
+class MuJoCoCameras(Settings):
     """What the cameras of a scene see, and how often.
 
     Attributes:
@@ -23,20 +21,10 @@ class MuJoCoCameras:
             (OpenGL by the driver of this machine, where it has EGL).
     """
 
-    camera_every: int = 4
-    pixel_noise: float = 0.0
-    light: float = 1.0
-    render: str = "rays"
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "camera_every", periods("camera_every", self.camera_every))
-        for name in ("pixel_noise", "light"):
-            object.__setattr__(self, name, number(name, getattr(self, name)))
-        if self.render not in RENDERS:
-            raise WorldError(
-                f"render is {show(self.render)}; expected rays or egl",
-                fix=did_you_mean(str(self.render), RENDERS),
-            )
+    camera_every: Count = 4
+    pixel_noise: From0 = 0.0
+    light: From0 = 1.0
+    render: Annotated[str, Recompile(choices=("rays", "egl"))] = "rays"
 
 
 CAMERAS = MuJoCoCameras()

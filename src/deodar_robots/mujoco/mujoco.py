@@ -19,7 +19,7 @@ from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._scene import Scene, SceneBody, SceneBox, pair
-from deodar.worlds._settings import arguments, named, number, numeric
+from deodar.worlds._settings import arguments, number, parse_argument
 from deodar_robots.mujoco import camera as pictures
 from deodar_robots.mujoco import solids
 from deodar_robots.mujoco.cameras import CAMERAS, MuJoCoCameras
@@ -29,7 +29,6 @@ from deodar_robots.mujoco.rendering import Renderer
 from deodar_robots.mujoco.scene_file import ROBOTS, SCENES, SceneFile, compiled, is_scalar, simulator
 from deodar_robots.mujoco.visibility import visible
 
-SETTINGS = ("robot", "period", "camera_every", "pixel_noise", "tool_noise", "light", "render")
 CONTROL = 0.01
 """Interval between two commands to the joints, s, if the time step of the scene is shorter."""
 
@@ -495,13 +494,8 @@ class MuJoCo(World):
 
     @classmethod
     def open(cls, argument: str) -> MuJoCo:
-        scene, *pieces = (piece.strip() for piece in argument.split(","))
-        where = f"mujoco:{argument}"
-        found: dict[str, Any] = {
-            name: value if name in ("robot", "render") else numeric(name, value, where, ("camera_every",))
-            for name, value in named(pieces, SETTINGS, where).items()
-        }
-        return cls(scene or "table", **arguments(cls, found))
+        scene, settings = parse_argument(cls, argument)
+        return cls(scene or "table", **settings)
 
     @classmethod
     def names(cls) -> list[str]:

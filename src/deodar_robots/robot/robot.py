@@ -23,7 +23,8 @@ from deodar.worlds._address import is_address
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._outer import OuterWorld
-from deodar.worlds._settings import arguments, setting_names
+from deodar.worlds._settings import arguments
+from deodar.worlds._settings import settings as declared
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.motor_limiter import MotorLimiter
 from deodar_robots.robot import robot_file
@@ -203,7 +204,7 @@ def _world(file: RobotFile, path: Path) -> World:
     if kind is None:
         fix = did_you_mean(file.kind.casefold(), kinds)
         raise WorldError(f"there is no kind {file.kind!r} of robots", where=str(path), fix=fix)
-    known = setting_names(kind)
+    known = declared(kind)
     strange = next((name for name in file.settings if name not in known), None)
     if strange is not None:
         fix = did_you_mean(strange, known)

@@ -19,7 +19,7 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
-from deodar.worlds._settings import named, number, numeric
+from deodar.worlds._settings import number, parse_argument
 from deodar_robots.ros2.example_node import scan
 from deodar_robots.ros2.message_types import Unreadable, from_bytes, hash_of
 from deodar_robots.ros2.motor_types import commands
@@ -148,9 +148,8 @@ class ROSBag(World):
     @classmethod
     def open(cls, argument: str) -> ROSBag:
         """Make the world of a text such as `lab-bag, period=20`."""
-        name, *pieces = (piece.strip() for piece in argument.split(","))
-        found = named(pieces, ("period",), argument)
-        return cls(name, period=numeric("period", found["period"], argument) if found else None)
+        file, settings = parse_argument(cls, argument)
+        return cls(file, **settings)
 
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> ROSBag:

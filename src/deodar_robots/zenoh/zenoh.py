@@ -21,7 +21,7 @@ from deodar.numerics.axes import Axes
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._link_state import LinkState
-from deodar.worlds._settings import named, number, numeric
+from deodar.worlds._settings import number, parse_argument
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.motor_limiter import MotorLimiter
 from deodar_robots.zenoh import link
@@ -384,11 +384,8 @@ class Zenoh(World):
         """Make the world of a text such as `epuck, at=tcp/127.0.0.1:7461, patience=1`, with TLS also
         `authority=FILE`; the name `*` is the only robot there.
         """
-        name, *pieces = (piece.strip() for piece in argument.split(","))
-        settings = named(pieces, ("at", "patience", *FILES), argument)
-        patience = float(numeric("patience", settings.get("patience", "0.5"), argument))
-        files = (settings.get(file, "") for file in FILES)
-        return cls("" if name == "*" else name, settings.get("at", link.HERE), patience, False, *files)
+        name, settings = parse_argument(cls, argument, closed=("trusted",))
+        return cls("" if name == "*" else name, **settings)
 
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> Zenoh:

@@ -215,10 +215,10 @@ def test_wrong_settings_are_refused(settings, message: str) -> None:
         ("none.aedat", "none.aedat: there is no such file"),
         ("{}", "there is no such file"),
         ("one.aedat4,peroid=5", "there is no setting 'peroid'. Did you mean 'period'"),
-        ("one.aedat4,period=fast", "period is 'fast'; expected a number of ms"),
-        ("one.aedat4,size=64", "size is '64'; expected columns and rows"),
+        ("one.aedat4,period=fast", "period is 'fast'; expected a number"),
+        ("one.aedat4,size=64", r"size is \[64\.0\]; expected columns and rows"),
         ("one.aedat4,loop=perhaps", "loop is 'perhaps'; expected yes or no"),
-        ("one.aedat4,stream=x", "stream is 'x'; expected 0, 1"),
+        ("one.aedat4,stream=x", "stream is 'x'; expected a number"),
         ("a\0b.aedat", "there is no such file"),
     ],
 )

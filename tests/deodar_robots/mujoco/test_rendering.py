@@ -85,5 +85,5 @@ def test_without_the_library_the_error_names_it(monkeypatch: pytest.MonkeyPatch)
 def test_the_setting_is_part_of_the_description_and_of_the_command_line():
     world = MuJoCo.open("table, render=egl")
     assert world.cameras.render == "egl" and MuJoCo.again(world.describe()).cameras.render == "egl"
-    with pytest.raises(WorldError, match="expected rays or egl"):
+    with pytest.raises(WorldError, match="expected one of rays, egl"):
         MuJoCo("table", cameras=MuJoCoCameras(render="opengl"))

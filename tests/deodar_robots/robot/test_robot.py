@@ -115,7 +115,7 @@ def test_a_place_changes_what_it_states(written):
         ({"kind": "combined"}, "no kind 'combined' of robots"),
         ({"kind": "robot"}, "no kind 'robot' of robots"),
         ({"settings": {"layuot": "blocks"}}, "no setting 'layuot'. Did you mean 'layout'"),
-        ({"settings": {"period": "soon"}}, "period is 'soon'"),
+        ({"settings": {"period": "soon"}}, "period needs a number, not 'soon'"),
         ({"settings": {"layout": "../secret.json"}}, "outside the folder of the robot's file"),
         ({"settings": {"layout": "/etc/passwd"}}, "outside the folder of the robot's file"),
         ({"strange": 1}, "unknown field `strange`"),

@@ -28,10 +28,9 @@ from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
-from deodar.worlds._settings import arguments, of
+from deodar.worlds._settings import arguments, of, parse_argument
 from deodar.worlds.arena.arena_layout import UNITS, ArenaObject, LayoutSource, builtin, load_each
 from deodar.worlds.arena.arena_settings import NOISE, PHYSICS, PICTURE_NOISES, ArenaNoise, ArenaPhysics
-from deodar.worlds.arena.argument import parse_argument
 from deodar.worlds.arena.color_camera import picture_rays, surfaces
 from deodar.worlds.arena.contact import move
 from deodar.worlds.arena.epuck import EPUCK
@@ -604,8 +603,10 @@ class Arena(PureWorld):
 
     @classmethod
     def open(cls, argument: str) -> Arena:
-        layout, settings = parse_argument(argument)
-        return cls(layout, **arguments(cls, settings))
+        layout, settings = parse_argument(cls, argument)
+        if len(settings.get("start", ())) == 2:
+            settings["start"].append(0.0)
+        return cls(layout, **settings)
 
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Arena:

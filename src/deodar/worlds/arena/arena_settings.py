@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from typing import Annotated
 
-from deodar.errors import WorldError, did_you_mean
-from deodar.parameters import show
-from deodar.worlds._settings import number, periods
+from deodar.declarations import Recompile
+from deodar.worlds._settings import Above0, Count, From0, Settings, Share
 
-CONTACTS = ("slide", "stick")
 PICTURE_NOISES = ("pixel_noise", "hue_noise", "outliers", "clutter")
-SHARES = ("outliers", "clutter")
 
 
 @dc.dataclass(frozen=True)
-class ArenaPhysics:
+class ArenaPhysics(Settings):
     """Time and surfaces of an arena.
 
     Attributes:
@@ -27,25 +25,15 @@ class ArenaPhysics:
         camera_every: number of periods for which a picture of the camera is kept.
     """
 
-    period: float = 64.0
-    contact: str = "slide"
-    reflection: float = 0.6
-    place_every: int = 1
-    camera_every: int = 1
-
-    def __post_init__(self) -> None:
-        if self.contact not in CONTACTS:
-            raise WorldError(
-                f"contact is {show(self.contact)}", fix=did_you_mean(str(self.contact), CONTACTS)
-            )
-        for name in ("period", "reflection"):
-            object.__setattr__(self, name, number(name, getattr(self, name), above=0.0))
-        for name in ("place_every", "camera_every"):
-            object.__setattr__(self, name, periods(name, getattr(self, name)))
+    period: Above0 = 64.0
+    contact: Annotated[str, Recompile(choices=("slide", "stick"))] = "slide"
+    reflection: Above0 = 0.6
+    place_every: Count = 1
+    camera_every: Count = 1
 
 
 @dc.dataclass(frozen=True)
-class ArenaNoise:
+class ArenaNoise(Settings):
     """Noise of the sensors and wheels of a vehicle in an arena.
 
     Attributes:
@@ -62,20 +50,14 @@ class ArenaNoise:
             and its rows are drawn once in each trial.
     """
 
-    place_noise: float = 0.0
-    infrared_noise: float = 1.0
-    slip: float = 0.0
-    encoder_noise: float = 0.0
-    pixel_noise: float = 0.0
-    hue_noise: float = 0.0
-    outliers: float = 0.0
-    clutter: float = 0.0
-
-    def __post_init__(self) -> None:
-        for name, share in dc.asdict(self).items():
-            object.__setattr__(self, name, number(name, share))
-            if name in SHARES and getattr(self, name) > 1:
-                raise WorldError(f"{name} is {show(share)}; expected a share, from 0 to 1")
+    place_noise: From0 = 0.0
+    infrared_noise: From0 = 1.0
+    slip: From0 = 0.0
+    encoder_noise: From0 = 0.0
+    pixel_noise: From0 = 0.0
+    hue_noise: From0 = 0.0
+    outliers: Share = 0.0
+    clutter: Share = 0.0
 
     @property
     def in_pictures(self) -> tuple[str, ...]:

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from deodar.errors import WorldError
+from deodar.worlds._settings import parse_argument
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.arena_settings import ArenaNoise, ArenaPhysics
-from deodar.worlds.arena.argument import parse_argument
 from deodar.worlds.arena.khepera import KHEPERA
 
 
 def test_an_argument_may_name_only_the_layout():
-    assert parse_argument("z") == ("z", {})
+    assert parse_argument(Arena, "z") == ("z", {})
 
 
 def test_settings_of_the_argument_are_passed_to_the_arena():
@@ -57,8 +57,8 @@ def test_an_arena_with_a_vehicle_of_your_own_is_not_opened_again():
     [
         ("z, gaol=1 2", "no setting 'gaol'. Did you mean 'goal'"),
         ("z, goal", "no setting 'goal'"),
-        ("z, goal=1", "goal is '1'; expected x and y"),
-        ("z, start=1 2 3 4", "start is '1 2 3 4'"),
+        ("z, goal=1", r"goal: is \[1\.0\]; expected 2 finite numbers"),
+        ("z, start=1 2 3 4", r"start: is \[1\.0, 2\.0, 3\.0, 4\.0\]; expected 3 finite numbers"),
         ("z, slip=much", "slip is 'much'; expected a number"),
         ("z, place_noise=-1", "place_noise is -1"),
         ("z, vehicle=kephera", "no vehicle 'kephera'. Did you mean 'khepera'"),
