@@ -10,7 +10,7 @@ import dataclasses as dc
 import math
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from deodar import codec
 from deodar.codec import Json
@@ -22,6 +22,8 @@ from deodar.model.document import READS, Connection, Document, DocumentParameter
 from deodar.model.paths import PathNames, display, stored_id
 from deodar.numerics.axes import Axis
 from deodar.parameters import Reference, is_text, parameters, real, show
+
+T = TypeVar("T")
 
 TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|ms|s|min))$")
 
@@ -480,7 +482,7 @@ def arrange(doc: Document, layout: Mapping[str, Json]) -> Document:
     return dc.replace(doc, layout=dict(layout))
 
 
-def arrange_everywhere(history: UndoHistory, layout: Mapping[str, Json]) -> None:
+def arrange_everywhere(history: UndoHistory[Document], layout: Mapping[str, Json]) -> None:
     """Change keys of the layout in all documents of a history; None removes a key.
 
     Of a list (folded groups) the other documents take over what was added and removed, because groups may
@@ -505,22 +507,22 @@ def arrange_everywhere(history: UndoHistory, layout: Mapping[str, Json]) -> None
     history.change_all(with_layout)
 
 
-class UndoHistory:
-    """A sequence of documents, with undo and redo."""
+class UndoHistory(Generic[T]):
+    """A sequence of documents, or of the plain data of an experiment, with undo and redo."""
 
-    def __init__(self, document: Document) -> None:
-        self._past: list[Document] = []
-        self._future: list[Document] = []
+    def __init__(self, document: T) -> None:
+        self._past: list[T] = []
+        self._future: list[T] = []
         self.document = document
 
-    def __copy__(self) -> UndoHistory:
+    def __copy__(self) -> UndoHistory[T]:
         """Return an independent history of the same documents."""
         history = UndoHistory(self.document)
         history._past, history._future = list(self._past), list(self._future)
         return history
 
     @property
-    def documents(self) -> tuple[Document, ...]:
+    def documents(self) -> tuple[T, ...]:
         """All stored documents: the past ones, the present one, and those that were undone."""
         return (*self._past, self.document, *self._future)
 
@@ -529,7 +531,7 @@ class UndoHistory:
         """Number of changes that can be undone."""
         return len(self._past)
 
-    def commit(self, document: Document) -> None:
+    def commit(self, document: T) -> None:
         """Add a new document; documents that were undone are discarded."""
         if document is self.document:
             return
@@ -537,7 +539,7 @@ class UndoHistory:
         self._future.clear()
         self.document = document
 
-    def amend(self, document: Document) -> None:
+    def amend(self, document: T) -> None:
         """Replace the present document by a new one without a new step of the history.
 
         For a change that is made in many small ones.
@@ -545,7 +547,7 @@ class UndoHistory:
         self.document = document
         self._future.clear()
 
-    def change_all(self, edited: Callable[[Document], Document]) -> None:
+    def change_all(self, edited: Callable[[T], T]) -> None:
         """Apply a function to all documents, also those that were undone."""
         self._past = [edited(doc) for doc in self._past]
         self._future = [edited(doc) for doc in self._future]

@@ -24,10 +24,10 @@ from deodar.experiments.results import EXPERIMENT, ROWS
 from deodar.experiments.setup import Setup
 from deodar.model.document import Document
 from deodar.model.document_files import MOST_BYTES
+from deodar.model.edit import UndoHistory
 from deodar.model.model import Model
 from deodar.recording import places
 from deodar_studio.catalogue import gallery
-from deodar_studio.experiment.data_history import DataHistory
 from deodar_studio.experiment.experiment_run import ExperimentRun
 from deodar_studio.experiment.run_place import SLURM, RunPlace
 from deodar_studio.files import content
@@ -70,7 +70,6 @@ class OpenExperiment:
         private: whether pages may name any cluster (see `RunPlace`).
 
     Attributes:
-        data: the plain data without its version and model; None: no experiment is open.
         version: number of changes that pages must receive.
         file: the file of the experiment.
         problems: what prevents its run.
@@ -91,7 +90,6 @@ class OpenExperiment:
     ) -> None:
         self._project, self._workspace, self._store, self._changed = project, workspace, store, changed
         self._private, self._looked = private, 0.0
-        self.data: JsonObject | None = None
         self.version = 0
         self.file: Path | None = None
         self.problems: Sequence[Problem] = ()
@@ -102,7 +100,7 @@ class OpenExperiment:
         self.edits = ""
         self._saved: JsonObject | None = None
         self._stored: tuple[JsonObject, Document] | None = None
-        self._history = DataHistory()
+        self._history: UndoHistory[JsonObject] | None = None
         self._model: tuple[Model | None, Path | None] = (None, None)  # of the file, and its own file
         self._digests: dict[Path, str] = {}
         self._shown = Path()
@@ -112,13 +110,18 @@ class OpenExperiment:
     # ------------------------------------------------------------------------------------------------ looking
 
     @property
+    def data(self) -> JsonObject | None:
+        """The plain data without its version and model; None: no experiment is open."""
+        return None if self._history is None else self._history.document
+
+    @property
     def unsaved(self) -> bool:
         """Whether the experiment was edited since it was made, opened or saved."""
         return self.data is not None and self.data != self._saved
 
     def view(self) -> ExperimentView:
         """Return the experiment as a message."""
-        run = self.run
+        run, history = self.run, self._history
         shown = None
         if run is not None:
             now = run.standing if run.state in ("running", "followed") else None
@@ -140,8 +143,8 @@ class OpenExperiment:
             ExperimentView,
             self,
             file="" if self.file is None else self._workspace.shown(self.file),
-            undo=self._history.undo_steps,
-            redo=self._history.redo_steps,
+            undo=0 if history is None else history.depth,
+            redo=0 if history is None else history.ahead,
             problems=view.problems(self.problems),
             run=shown,
         )
@@ -176,9 +179,8 @@ class OpenExperiment:
 
     def _experiment(self, model: object) -> Experiment:
         """Return the experiment of the plain data."""
-        if self.data is None:
-            raise DocumentError("no experiment is open")
-        found = Experiment.from_data({**self.data, "experiment": VERSION, "model": "the open document"})
+        data = self._require().document
+        found = Experiment.from_data({**data, "experiment": VERSION, "model": "the open document"})
         return dc.replace(found, model=model)
 
     def _setup(self) -> Setup:
@@ -305,11 +307,10 @@ class OpenExperiment:
     async def _take(self, data: JsonObject, file: Path | None, saved: JsonObject | None) -> None:
         await self._end_run()
         await self._forget()
-        self.data, self.file, self._saved = data, file, saved
+        self._history, self.file, self._saved = UndoHistory(data), file, saved
         self.run, self.repeated = None, None
         self._model, self._digests = self._present(), {}
-        self.version += 1
-        self._changed()
+        self._edited()
 
     async def close(self, discard: bool) -> None:
         """Close the experiment.
@@ -320,10 +321,9 @@ class OpenExperiment:
         self._require_end(discard)
         await self._end_run()
         await self._forget()
-        self.data, self.file, self.run, self.repeated = None, None, None, None
+        self._history, self.file, self.run, self.repeated = None, None, None, None
         self.problems, self.trials = (), 0
-        self.version += 1
-        self._changed()
+        self._edited()
 
     def end(self) -> None:
         """End all processes, when the studio ends."""
@@ -345,29 +345,29 @@ class OpenExperiment:
 
     def edit(self, data: JsonObject, version: int) -> None:
         """Replace the plain data; `version` is the version that the page has changed."""
-        if self.data is None or version != self.version:
+        if self._history is None or version != self.version:
             raise DocumentError("the experiment was changed on another page", fix="Repeat the change")
-        self._history.add(self.data)
-        self._replace(data)
+        self._history.commit(data)
+        self._edited()
 
     def undo(self) -> None:
         """Undo the last edit, if there is one."""
-        self._replace(self._history.undo(self._require()))
+        if self._require().undo():
+            self._edited()
 
     def redo(self) -> None:
         """Redo the edit that was undone last, if there is one."""
-        self._replace(self._history.redo(self._require()))
+        if self._require().redo():
+            self._edited()
 
-    def _require(self) -> JsonObject:
-        if self.data is None:
+    def _require(self) -> UndoHistory[JsonObject]:
+        if self._history is None:
             raise DocumentError("no experiment is open")
-        return self.data
+        return self._history
 
-    def _replace(self, data: JsonObject) -> None:
-        if data is not self.data:
-            self.data = data
-            self.version += 1
-            self._changed()
+    def _edited(self) -> None:
+        self.version += 1
+        self._changed()
 
     async def store_edits(self) -> None:
         """Store unsaved edits with the model, if they are new."""
@@ -407,9 +407,8 @@ class OpenExperiment:
         self.edits = name
 
     async def _forget(self) -> None:
-        """Delete stored edits, and the history."""
+        """Delete stored edits."""
         name, self.edits, self._stored = self.edits, "", None
-        self._history.clear()
         if name:
             await try_in_file_thread(lambda: self._store.forget(name))
 
@@ -454,9 +453,7 @@ class OpenExperiment:
                 raise ConfirmationRequired("replace", self._workspace.shown(file))
         await in_file_thread(write, str(place))
         self.file, self._saved, self._digests = place, self.data, digests
-        name, self.edits, self._stored = self.edits, "", None
-        if name:
-            await try_in_file_thread(lambda: self._store.forget(name))
+        await self._forget()
         self._model = present, own
         self._changed()
         return place

@@ -185,7 +185,9 @@ class DocumentHistory:
         await self._travel(lambda h: h.redo(), lambda h: h.undo())
 
     async def _travel(
-        self, there: Callable[[edit.UndoHistory], bool], back: Callable[[edit.UndoHistory], bool]
+        self,
+        there: Callable[[edit.UndoHistory[Document]], bool],
+        back: Callable[[edit.UndoHistory[Document]], bool],
     ) -> None:
         history = self.require_edited().history
         if not there(history):
