@@ -14,6 +14,7 @@ import pytest
 
 from deodar import registry
 from deodar.element import Element
+from deodar.errors import DeodarError
 from deodar.model import document_files, output, schema
 from deodar.model.model import Model
 from tests.house.source import ROOT, texts
@@ -77,7 +78,7 @@ def test_the_schema_refuses_what_load_refuses() -> None:
         document = json.loads(model.to_json())
         change(document)
         assert list(VALIDATOR.iter_errors(document))
-        with pytest.raises(document_files.DeodarError):
+        with pytest.raises(DeodarError):
             document_files.from_data(document, {})
 
 

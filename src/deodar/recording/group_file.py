@@ -1,7 +1,7 @@
 """The metadata of a Zarr record, `zarr.json` of its group, with a proof: the SHA-256 of the file.
 
 They state the attributes of the record and the metadata of all its arrays. The proof is an attribute of the
-group; while it is computed, zeros stand in its place.
+group; it is computed of the file with zeros in place of it.
 """
 
 from __future__ import annotations
