@@ -1,9 +1,10 @@
 """Attacks the studio and prints what became of it: `python benchmarks/attacks.py
-[edits|undo|documents|messages|kills|records|soak ...] [--size N] [--seed N]`.
+[edits|undo|documents|messages|kills|records|bits|soak ...] [--size N] [--seed N]`.
 
 `edits`: 8 pages edit one document at once, 10,000 edits. `undo`: edits of 48 kinds are made in random order
 until each kind was undone and redone 1,000 times. `documents`: 2,090 mutated documents. `messages`: 3,614
 hostile messages. `kills`: 50 kills while a page saves. `records`: 50 runs are killed while they record.
+`bits`: 10,000 bits of files that deodar reads back are flipped, each alone.
 `soak`: pages come and go for 600 seconds, and the studio must hold no more afterwards than before: memory,
 files and sockets, Python objects, tasks, threads, sessions, connections, with the limits in
 `tests/attacks/soak.py`. `--size` sets another number. The attacks are in `tests/attacks`; the tests run them
@@ -21,7 +22,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from tests.attacks import documents, edits, kills, messages, records, soak, undo
+from tests.attacks import bits, documents, edits, kills, messages, records, soak, undo
 
 
 def _edits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
@@ -65,6 +66,14 @@ def _records(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
     ), found.errors
 
 
+def _bits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
+    found = bits.attack(folder, size, seed)
+    return (
+        f"{size} bits of {len(found.by_kind)} kinds of files; readers refused {found.refused} times, left out"
+        f" what was damaged {found.shortened} times, returned what was written {found.equal} times"
+    ), found.errors
+
+
 def _soak(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
     found = soak.attack(folder, size, seed)
     return f"{found.visits} visits; after a quarter {found.early}, at the end {found.late}", found.errors
@@ -77,6 +86,7 @@ ATTACKS: dict[str, tuple[Callable[[Path, int, int], tuple[str, list[str]]], int]
     "messages": (_messages, 3614),
     "kills": (_kills, 50),
     "records": (_records, 50),
+    "bits": (_bits, 10_000),
     "soak": (_soak, 600),
 }
 
@@ -90,7 +100,7 @@ def main() -> int:
     parser.add_argument(
         "--size",
         type=int,
-        help="how many edits, undos and redos of each kind, documents, messages, kills or seconds",
+        help="how many edits, undos and redos of each kind, documents, messages, kills, bits or seconds",
     )
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()

@@ -10,12 +10,19 @@ from __future__ import annotations
 import hashlib
 import struct
 
+import google_crc32c
+
 from deodar.errors import DamagedFile
 
 MARK = b"\ndeodar sealed 1\n"
 LENGTH = struct.Struct("<Q")
 SIZE = len(MARK) + LENGTH.size + hashlib.sha256().digest_size
 """Number of bytes of a seal."""
+
+
+def checksum(content: bytes) -> str:
+    """Return the CRC-32C of bytes, as eight hexadecimal digits."""
+    return f"{google_crc32c.value(content):08x}"
 
 
 def seal(content: bytes) -> bytes:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from deodar.model import edit
-from tests.attacks import documents, kills, messages, records, soak, undo
+from tests.attacks import bits, documents, kills, messages, records, soak, undo
 
 
 def test_mutated_documents_are_read_or_refused_without_other_errors() -> None:
@@ -41,6 +41,12 @@ def test_a_killed_run_leaves_its_record_and_is_resumed_to_the_same_end(tmp_path:
     outcome = records.attack(tmp_path, 2, 4, cases, resumed, longest=4.0, limit=3.0)
     assert outcome.errors == [] and outcome.kills == 2 and outcome.resumed == 2
     assert outcome.samples > 100
+
+
+def test_flipped_bits_of_stored_files_give_no_wrong_values(tmp_path: Path) -> None:
+    outcome = bits.attack(tmp_path, 300, seed=5)
+    assert outcome.errors == []
+    assert min(outcome.by_kind.values()) == 30 and outcome.refused > 150
 
 
 def test_closed_pages_leave_no_data_in_the_studio(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from distributed import LocalCluster
 
 import deodar as dd
 from deodar.batch import scheduler
-from deodar.experiments import following, setup
+from deodar.experiments import following, row_line, setup
 from deodar.experiments.results import stored
 from deodar.recording import writer_lock
 from deodar_studio.experiment import experiment_run, run_place
@@ -245,7 +245,9 @@ def test_a_line_that_is_not_a_row_is_named_when_results_are_opened(
     folder: Path, begun: tuple[Path, list[str]]
 ) -> None:
     theirs, lines = begun
-    add(theirs, [lines[0].replace('"outcome"', '"other"')])
+    row = row_line.read(lines[0].encode(), True)
+    row["other"] = row.pop("outcome")
+    add(theirs, [row_line.write(row, True).decode()])
 
     async def scene(p: Page) -> None:
         answer = await p.ask("open_experiment", path="theirs/experiment.json")

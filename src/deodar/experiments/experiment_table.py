@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from deodar import codec
-from deodar.errors import RecordError
+from deodar.errors import DamagedFile, first_line
+from deodar.experiments import row_line
 from deodar.experiments.jobs import MACHINE
 from deodar.experiments.observations import DIVERGED
 from deodar.experiments.rows import KEY, Row
@@ -57,7 +58,7 @@ def lacks(about: Mapping[str, Any]) -> Callable[[Any], str]:
     return lacking
 
 
-def read_row(line: bytes, number: int, file: str, lacking: Callable[[Any], str]) -> Row:
+def read_row(line: bytes, number: int, file: str, lacking: Callable[[Any], str], checked: bool) -> Row:
     """Return the row in a line of a file.
 
     Args:
@@ -65,17 +66,18 @@ def read_row(line: bytes, number: int, file: str, lacking: Callable[[Any], str])
         number: its number in the file, from 1.
         file: the file, for the error.
         lacking: what `lacks` returned for the experiment of the file.
+        checked: whether the lines of the file have checksums.
 
     Raises:
-        RecordError: it is not a row of this experiment.
+        DamagedFile: it is not a row of this experiment, or not the one that was written.
     """
     try:
-        row = codec.parse(line)
-    except ValueError:
-        row = None
-    wrong = lacking(row)
+        row = row_line.read(line, checked)
+        wrong = lacking(row)
+    except ValueError as error:
+        row, wrong = None, first_line(error)
     if wrong:
-        raise RecordError(
+        raise DamagedFile(
             f"line {number} is not a row of its experiment: {wrong}",
             where=file,
             fix="Remove that line; the trial is then run again",

@@ -9,8 +9,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from deodar import codec
 from deodar.errors import RecordError, first_line
+from deodar.experiments import row_line
 from deodar.experiments.experiment_table import lacks, read_row
 from deodar.experiments.observations import DIVERGED, TIME
 from deodar.experiments.rows import ABOUT, KEY, Row
@@ -134,6 +134,7 @@ class RowsTail:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._read = self._lines = 0
+        self._checked = False
         self._lacking: Callable[[Any], str] | None = None
         self._keys: set[str] = set()
 
@@ -151,7 +152,8 @@ class RowsTail:
             lines = content[:whole].splitlines()
             lacking, first = self._lacking, 0
             if lacking is None and lines:
-                lacking, first = lacks(codec.parse(lines[0])[ABOUT]), 1
+                identity, self._checked = row_line.read_first(lines[0], ABOUT)
+                lacking, first = lacks(identity), 1
         except (OSError, ValueError, LookupError, TypeError) as error:
             raise RecordError(
                 f"its rows cannot be read ({first_line(error)})", where=str(self.path)
@@ -159,7 +161,7 @@ class RowsTail:
         rows_by_key: dict[str, Row] = {}
         for number, line in enumerate(lines[first:], self._lines + first + 1):
             assert lacking is not None
-            row = read_row(line, number, str(self.path), lacking)
+            row = read_row(line, number, str(self.path), lacking, self._checked)
             rows_by_key.setdefault(row[KEY], row)
         self._read, self._lines, self._lacking = self._read + whole, self._lines + len(lines), lacking
         new = [row for key, row in rows_by_key.items() if key not in self._keys]

@@ -12,9 +12,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from deodar import codec
+from deodar import codec, sealed
 from deodar.errors import RunWarning
-from deodar.experiments.record_target import OBJECTS, RECORD, RecordTarget, checksum
+from deodar.experiments.record_target import OBJECTS, RECORD, RecordTarget
 from deodar.experiments.rows import Row
 
 INDEX = "index.jsonl"
@@ -73,7 +73,12 @@ def text(objects: Sequence[IndexedObject]) -> bytes:
         for record in objects
     ]
     body = "".join(f"{line}\n" for line in lines).encode()
-    header = {"index": VERSION, "trials": len(trial_levels), "factors": factors, "crc32c": checksum(body)}
+    header = {
+        "index": VERSION,
+        "trials": len(trial_levels),
+        "factors": factors,
+        "crc32c": sealed.checksum(body),
+    }
     return codec.line(header).encode() + b"\n" + body
 
 
@@ -86,7 +91,7 @@ def parse(content: bytes) -> list[IndexedObject]:
     first, _, body = content.partition(b"\n")
     try:
         header = codec.parse(first)
-        if header["index"] > VERSION or checksum(body) != header["crc32c"]:
+        if header["index"] > VERSION or sealed.checksum(body) != header["crc32c"]:
             raise ValueError
         out: list[IndexedObject] = []
         for line in body.splitlines():

@@ -12,10 +12,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import google_crc32c
 import xarray
 
-from deodar import codec
+from deodar import codec, sealed
 from deodar.codec import Json, JsonObject
 from deodar.errors import (
     Fix,
@@ -92,7 +91,7 @@ class RecordTarget:
         if store.fades:
             self.require_seen()  # where it was unmounted meanwhile, an empty folder of this machine is left
         store.put(name, content)
-        return {"object": name, "size": len(content), "crc32c": checksum(content)}
+        return {"object": name, "size": len(content), "crc32c": sealed.checksum(content)}
 
 
 class PieceRecords:
@@ -140,11 +139,6 @@ def object_name(trials: Sequence[int]) -> str:
     if list(trials) != list(range(first, last + 1)):
         name += f"-{hashlib.sha256(codec.line(list(trials)).encode()).hexdigest()[:12]}"
     return f"{OBJECTS}/{first // TRIALS_A_FOLDER:04}/{name}{SUFFIX}"
-
-
-def checksum(content: bytes) -> str:
-    """Return the CRC-32C of a file, as eight hexadecimal digits."""
-    return f"{google_crc32c.value(content):08x}"
 
 
 def claimed(

@@ -20,7 +20,7 @@ from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.credentials import masked_data
 from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
-from deodar.experiments import packed_experiment, record_index
+from deodar.experiments import packed_experiment, record_index, row_line
 from deodar.experiments.comparing import compare
 from deodar.experiments.experiment_migrations import migrate
 from deodar.experiments.experiment_table import dataset, lacks, read_row, table
@@ -261,9 +261,10 @@ def load_results(path: str | Path) -> xarray.Dataset:
     """
     folder = output.location(path)
     try:
-        with (folder / ROWS).open(encoding="utf-8") as file:
-            identity = codec.parse(file.readline())[ABOUT]
-            return dataset((codec.parse(line) for line in file if line[-1] == "\n"), identity)
+        with (folder / ROWS).open("rb") as file:
+            identity, checked = row_line.read_first(file.readline(), ABOUT)
+            rows = (row_line.read(line, checked) for line in file if line.endswith(b"\n"))
+            return dataset(rows, identity)
     except (OSError, ValueError, LookupError, TypeError, OverflowError):
         stored(folder)  # names a line that is not a row
         raise _no_results(folder) from None
@@ -277,11 +278,11 @@ def stored(folder: Path) -> tuple[JsonObject, list[Row]]:
     """
     try:
         with (folder / ROWS).open("rb") as file:
-            identity = codec.parse(file.readline())[ABOUT]
+            identity, checked = row_line.read_first(file.readline(), ABOUT)
             lacking = lacks(identity)
             lines = (line for line in file if line.endswith(b"\n"))
             return identity, [
-                read_row(line, number, file.name, lacking) for number, line in enumerate(lines, 2)
+                read_row(line, number, file.name, lacking, checked) for number, line in enumerate(lines, 2)
             ]
     except (OSError, ValueError, LookupError, TypeError):
         raise _no_results(folder) from None

@@ -10,7 +10,8 @@ from typing import IO, Any, cast
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import OutputExists, RecordError
+from deodar.errors import DamagedFile, OutputExists, RecordError, first_line
+from deodar.experiments import row_line
 from deodar.model import output
 from deodar.recording import places
 from deodar.summary import Summarised, Summary, counted
@@ -38,7 +39,7 @@ class StoredRows(Mapping[str, Row]):
         place = self._places[key]
         with self._path.open("rb") as file:
             file.seek(place)
-            return codec.parse(file.readline())
+            return row_line.read(file.readline(), False)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._places)
@@ -69,7 +70,7 @@ class _InOneReading(ValuesView[Row]):
             return
         with self._path.open("rb") as file:
             for at, line in _places(file):
-                row = codec.parse(line)
+                row = row_line.read(line, False)
                 if self._places.get(row.get(KEY)) == at:
                     yield row
 
@@ -117,11 +118,12 @@ class Rows(Summarised):
     ) -> None:
         self.path = path
         self.found = StoredRows(path)
+        self._checked = True
         stored = codec.parse(codec.line({ABOUT: about}))
         places.require_parent(path)
         identity = self._identity()
         if identity is None:
-            output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
+            output.append(path, row_line.write(stored, self._checked))
             return
         stored_identity = read(identity)
         changed = different(stored[ABOUT], stored_identity, by_condition)
@@ -132,7 +134,7 @@ class Rows(Summarised):
                 fix="Choose another name",
             )
         if stored_identity != stored[ABOUT]:
-            output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
+            output.append(path, row_line.write(stored, self._checked))
 
     def append(self, rows: Iterable[Row]) -> list[Row]:
         """Store rows, on the disk when this returns, and return them as they are read from the file; a row
@@ -141,7 +143,7 @@ class Rows(Summarised):
         new: dict[str, bytes] = {}
         for row in rows:
             if row[KEY] not in self.found and row[KEY] not in new:
-                new[row[KEY]] = (codec.line(row, ascii=True, finite=True) + "\n").encode()
+                new[row[KEY]] = row_line.write(row, self._checked)
         if not new:
             return []
         at = self.path.stat().st_size
@@ -149,7 +151,7 @@ class Rows(Summarised):
         for key, line in new.items():
             self.found.place(key, at)
             at += len(line)
-        return [codec.parse(line) for line in new.values()]
+        return [row_line.read(line, self._checked) for line in new.values()]
 
     def _identity(self) -> JsonObject | None:
         """Note where the rows of an existing file begin, and return its last identity; None: it has none yet.
@@ -178,20 +180,23 @@ class Rows(Summarised):
         return identity
 
     def _line(self, line: bytes, number: int) -> Row:
+        if number == 1:
+            try:
+                identity, self._checked = row_line.read_first(line, ABOUT)
+            except ValueError:
+                raise self._no_rows() from None
+            return {ABOUT: identity}
         try:
-            row = codec.parse(line)
-        except ValueError:
-            row = None
-        if not isinstance(row, dict) or (
-            number > 1 and KEY not in row and not isinstance(row.get(ABOUT), dict)
-        ):
-            raise RecordError(
-                f"line {number} is not a row",
+            row = row_line.read(line, self._checked)
+            reason = "" if isinstance(row, dict) and (KEY in row or ABOUT in row) else "it has no key"
+        except ValueError as error:
+            row, reason = None, first_line(error)
+        if reason:
+            raise DamagedFile(
+                f"line {number} is not a row: {reason}",
                 where=str(self.path),
                 fix="Remove that line; the trial is then run again",
             )
-        if number == 1 and not isinstance(row.get(ABOUT), dict):
-            raise self._no_rows()
         return cast("Row", row)
 
     def _no_rows(self) -> RecordError:

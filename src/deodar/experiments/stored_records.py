@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
+from deodar import sealed
 from deodar.errors import DeodarError, RecordError, RunWarning, did_you_mean
 from deodar.experiments import record_index
 from deodar.experiments.record_index import INDEX, IndexedObject
@@ -18,7 +19,6 @@ from deodar.experiments.record_target import (
     OBJECTS,
     PLACE,
     SUFFIX,
-    checksum,
     experiment_of,
     object_name,
     stored_place,
@@ -174,7 +174,7 @@ class StoredRecords(Summarised):
                     Archive(io.BytesIO(content), record.name).require_sound()
                 elif len(content) != record.size:
                     out[record.name] = f"it has {len(content)} bytes, not {record.size}"
-                elif checksum(content) != record.crc32c:
+                elif sealed.checksum(content) != record.crc32c:
                     out[record.name] = "its checksum is that of another content"
             except RecordError as error:
                 out[record.name] = error.problems[0].what

@@ -23,7 +23,7 @@ from deodar.batch import scheduler as schedulers
 from deodar.batch.on_cluster import ClusterPool
 from deodar.cluster import Cluster, slurm_settings
 from deodar.errors import MissingExtra, ParameterError, RecordError, WorkerError
-from deodar.experiments import results
+from deodar.experiments import results, row_line
 from deodar.recording import provenance, writer_lock
 from deodar.resources import Resources
 from deodar.session.interrupt import SecondInterrupt
@@ -178,8 +178,9 @@ def test_rows_of_a_mixed_cluster_name_their_machine(tmp_path, rows, pieces, sche
     table = _run(tmp_path / "out", Cluster(scheduler.scheduler_address, mixed=True))
     machine = provenance.machine()
     assert set(table.machine.values.tolist()) == {machine}
-    marked = [line.removesuffix("}") + f', "machine": "{machine}"}}' for line in rows if '"key"' in line]
-    assert [line for line in clustered.lines(tmp_path / "out") if '"key"' in line] == marked
+    marked = [row_line.read(line.encode(), True) | {"machine": machine} for line in rows if '"key"' in line]
+    lines = [line for line in clustered.lines(tmp_path / "out") if '"key"' in line]
+    assert lines == [row_line.write(row, True).decode().strip() for row in marked]
     with pytest.raises(results.DeodarError, match="made_by differ"):
         _run(tmp_path / "out", scheduler.scheduler_address)
 

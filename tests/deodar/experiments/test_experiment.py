@@ -15,6 +15,7 @@ import pytest
 import deodar as dd
 from deodar.errors import DocumentError, OutputExists, ParameterError, RunWarning, UnknownName
 from deodar.experiments import experiment as module
+from deodar.experiments import row_line
 from deodar.experiments.actions import End, Move, Place, Push, Ramp, Record, Remove, Reset, Set, Snapshot
 from deodar.experiments.events import All, AnyOf, Appears, Crosses, Leaves, Reached, Vanishes, Within
 from deodar.experiments.experiment import Experiment
@@ -196,11 +197,11 @@ def test_a_stopped_experiment_whose_model_is_of_an_older_version_is_resumed(tmp_
     whole = experiment.run(tmp_path / "out")
     model, rows = tmp_path / "out" / "model.json", tmp_path / "out" / ROWS
     old = model.read_text().replace('"deodar": 3', '"deodar": 2')
-    first, *others = rows.read_text().splitlines()
-    header = json.loads(first)
+    first, *others = rows.read_bytes().splitlines(keepends=True)
+    header = row_line.read(first, True)
     header["about"]["model"] = hashlib.sha256(old.encode()).hexdigest()
     model.write_text(old)
-    rows.write_text("\n".join([json.dumps(header), *others[:-1]]) + "\n")
+    rows.write_bytes(b"".join([row_line.write(header, True), *others[:-1]]))
     assert experiment.run(tmp_path / "out")["outcome"].identical(whole["outcome"])
     model.write_text(old.replace('"beta": 4.0', '"beta": 5.0'))
     with pytest.raises(OutputExists, match="another experiment: model differ"):
@@ -278,10 +279,10 @@ def test_a_file_of_an_older_version_calls_the_object_of_an_action_thing(tmp_path
 def test_a_stopped_experiment_of_version_1_is_resumed(tmp_path):
     new = choice(trials=1, measures=[Measure("end", "u.output")])
     whole = new.run(tmp_path / "out")
-    first, *rows = (tmp_path / "out" / ROWS).read_text().splitlines()
-    header = json.loads(first)
+    first, *rows = (tmp_path / "out" / ROWS).read_bytes().splitlines(keepends=True)
+    header = row_line.read(first, True)
     header["about"] |= {"experiment": 1, "measures": {"end": {"of": "u"}}}
-    (tmp_path / "out" / ROWS).write_text("\n".join([json.dumps(header), *rows[:-1]]) + "\n")
+    (tmp_path / "out" / ROWS).write_bytes(b"".join([row_line.write(header, True), *rows[:-1]]))
     assert new.run(tmp_path / "out").drop_attrs().identical(whole.drop_attrs())
     with pytest.raises(OutputExists, match="another experiment: measures differ"):
         choice(trials=1, measures=[Measure("end", "u")]).run(tmp_path / "out")

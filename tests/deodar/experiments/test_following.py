@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from deodar import codec
 from deodar.errors import RecordError
+from deodar.experiments import row_line
 from deodar.experiments.following import QUIET_SECONDS, RowsTail, RowsWriter, standing
 from deodar.experiments.rows import Rows
 
@@ -54,15 +54,18 @@ def test_the_tail_of_a_file_returns_each_row_once(tmp_path: Path) -> None:
     assert tail.new() == []
     rows.append(ROWS[:2])
     assert tail.new() == ROWS[:2] and tail.new() == []
-    line = codec.line(ROWS[2])
+    line, *others = (
+        row_line.write(row, True).decode()
+        for row in (ROWS[2], ROWS[0], ROWS[3], {**ROWS[3], "outcome": None})
+    )
     with rows.path.open("a") as file:
         file.write(line[:20])
     assert tail.new() == [], "the last line is not complete"
     with rows.path.open("a") as file:
-        file.write(f"{line[20:]}\n{codec.line(ROWS[0])}\n")
+        file.write(line[20:] + others[0])
     assert tail.new() == [ROWS[2]], "a row that exists is left out"
     with rows.path.open("a") as file:
-        file.write(f"{codec.line(ROWS[3])}\n{codec.line({**ROWS[3], 'outcome': None})}\n")
+        file.write(others[1] + others[2])
     for _ in range(2):
         with pytest.raises(
             RecordError, match=r"line 7 is not a row of its experiment: outcome\. Remove that"

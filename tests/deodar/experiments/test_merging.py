@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import math
 
 import pytest
 
 from deodar.errors import OutputExists, ParameterError, RecordError
+from deodar.experiments import row_line
 from deodar.experiments.following import standing
 from deodar.experiments.merging import gaps, merge_results
 from deodar.experiments.results import load_results
@@ -46,9 +46,9 @@ def test_other_experiments_and_other_rows_are_refused(parts):
     with pytest.raises(RecordError, match=r"other: holds another experiment than .*: limit differ"):
         merge_results([parts / "first", parts / "other"], parts / "merged")
     file = parts / "first" / "trials.jsonl"
-    lines = file.read_text().splitlines()
-    row = json.loads(lines[1]) | {"duration": 1.0}
-    file.write_text("\n".join([lines[0], json.dumps(row), *lines[2:]]) + "\n")
+    lines = file.read_bytes().splitlines(keepends=True)
+    lines[1] = row_line.write(row_line.read(lines[1], True) | {"duration": 1.0}, True)
+    file.write_bytes(b"".join(lines))
     with pytest.raises(RecordError, match="has another row of trial 0 than"):
         merge_results([parts / "whole", parts / "first"], parts / "merged")
     with pytest.raises(RecordError, match="no folder is named"):

@@ -19,7 +19,7 @@ import pytest
 from deodar import cli
 from deodar.errors import OutputError, OutputExists, ParameterError, RecordError, WorkerError
 from deodar.errors import RunWarning as Warned
-from deodar.experiments import record_index, setup
+from deodar.experiments import record_index, row_line, setup
 from deodar.experiments.actions import Snapshot
 from deodar.experiments.merging import merge_results
 from deodar.experiments.record_target import claimed, object_name, require_visible, unseen
@@ -96,7 +96,7 @@ def identity(folder):
 
 def bare(folder):
     """Return the rows without the names of their objects."""
-    rows = [json.loads(line) for line in clustered.lines(folder)]
+    rows = [row_line.read(line.encode(), True) for line in clustered.lines(folder)]
     return [{key: cell for key, cell in row.items() if key != "record"} for row in rows]
 
 
