@@ -48,8 +48,6 @@ class Declaration:
         upper: highest value; None: any.
         neutral: the value at which the parameter has no effect, so that the program leaves it out.
         choices: the allowed texts; empty: any.
-        meaning: one phrase for forms, the reference and the schema; empty: the one with which the description
-            in the docstring begins.
         off: whether the neutral value switches the effect off, instead of being the limit of small values.
         role: role of a parameter whose unit contains time, see above.
         exact: whether it keeps the digits of float64 in a program of single precision.
@@ -64,7 +62,6 @@ class Declaration:
     upper: float | None = None
     neutral: float | None = None
     choices: tuple[str, ...] = ()
-    meaning: str = ""
     off: bool = False
     role: Role = dc.field(default="", kw_only=True)
     exact: bool = dc.field(default=False, kw_only=True)
@@ -116,7 +113,7 @@ class Needed:
 def needed(like: str) -> Any:
     """Declare that a parameter has no default.
 
-    For example `axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")`.
+    For example `axes: Sequence[Axis] = needed("[x]")`.
     """
     return Needed(like)
 

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Annotated, Any, ClassVar, NoReturn, Self
+from typing import Any, ClassVar, NoReturn, Self
 
 import jax.numpy as jnp
 import numpy as np
@@ -32,7 +32,7 @@ from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.positions import PositionCode, PositionUnits
 from deodar.numerics.scalar import Scalar
 from deodar.numerics.signs import Sign
-from deodar.parameters import ArrayLike, FrozenArray, Part, Recompile
+from deodar.parameters import ArrayLike, FrozenArray, Part
 
 Arrays = dict[str, Array]
 
@@ -218,7 +218,7 @@ class Element(Part):
             dimensions have, in their order; plots draw it over these axes.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = dc.field(default="", kw_only=True)
+    name: str = dc.field(default="", kw_only=True)
 
     inputs: ClassVar[tuple[str, ...]] = ("input",)
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}

@@ -40,10 +40,7 @@ PerAxis = float | Sequence[float]
 
 PeakBoundary = Annotated[
     Sequence[str] | None,
-    Recompile(
-        choices=("periodic", "zero"),
-        meaning="whether it wraps round the ends, one for all axes or one for each; none: the axis decides",
-    ),
+    Recompile(choices=("periodic", "zero")),
 ]
 """Whether a Gaussian wraps round the ends of its axes."""
 
@@ -120,12 +117,19 @@ ValueForm = Literal[
 class Parameter(Declaration):
     """One parameter, read from its declaration."""
 
+    owner: type[Any] = dc.field(repr=False, compare=False)
     name: str
     form: ValueForm
     cost: Cost
     default: Any
     of: type[Any] | None
     optional: bool
+
+    @functools.cached_property
+    def meaning(self) -> str:
+        """The phrase with which the docstring of its class describes it; "" without a description."""
+        description = docstring.descriptions(self.owner).get(self.name, "")
+        return re.split(r"; |\. ", description.replace("`", ""))[0].rstrip(".")
 
     @property
     def traced(self) -> bool:
@@ -261,17 +265,10 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
             f"{cls.__name__}.{field.name}: a parameter whose unit has time in it, and no other, declares a"
             f" role: {', '.join(TIME_ROLES)}"
         )
-    declared: dict[str, Any] = vars(d) | {
-        "cost": d.cost,
-        "meaning": d.meaning or _meaning(docstring.descriptions(cls).get(field.name, "")),
-        "exact": d.exact or d.role == "moment",
-    }
-    return Parameter(**declared, name=field.name, form=form, default=default, of=of, optional=optional)
-
-
-def _meaning(description: str) -> str:
-    """Return the phrase with which the description of a parameter begins."""
-    return re.split(r"; |\. ", description.replace("`", ""))[0].rstrip(".")
+    declared: dict[str, Any] = vars(d) | {"cost": d.cost, "exact": d.exact or d.role == "moment"}
+    return Parameter(
+        **declared, owner=cls, name=field.name, form=form, default=default, of=of, optional=optional
+    )
 
 
 def _form(hint: Any) -> tuple[ValueForm, type[Any] | None, bool]:

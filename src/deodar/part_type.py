@@ -104,7 +104,7 @@ def _words(hint: Any) -> str:
 @functools.cache
 def _documentation(cls: Any) -> str:
     """Return the docstring of the source, with unit and range after each parameter, and with the parameters
-    that it does not describe: as a base class does, or as declared.
+    that it does not describe: as a base class does, or by name alone.
     """
     text = docstring.source(cls)
     if text.startswith(f"{cls.__name__}("):  # without a docstring in the source, `dataclass` writes the call
@@ -116,10 +116,8 @@ def _documentation(cls: Any) -> str:
     own, inherited = read.blocks(title), docstring.described(cls)
     entries = dict[str, list[str]]()
     for p in declared.values():
-        if p.name in inherited:
-            entries[p.name] = [*inherited[p.name]]
-        elif p.name != "name":
-            entries[p.name] = [f"{p.name}: {p.meaning}."]
+        if p.name != "name" or p.name in inherited:
+            entries[p.name] = [*inherited.get(p.name, (f"{p.name}:",))]
     entries |= own
     for name in entries.keys() & declared.keys():
         entries[name][-1] += _range(declared[name])

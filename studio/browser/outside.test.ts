@@ -12,7 +12,7 @@ from typing import Annotated, ClassVar
 from deodar.element import Arrays, Element, Setting
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.integrators import euler
-from deodar.parameters import Live, Recompile
+from deodar.parameters import Live
 from deodar.registry import register
 
 
@@ -26,7 +26,7 @@ class LeakyCounter(Element):
 
     Parameters:
         axes: where it is defined; none: one number.
-        tau: time constant, in the document's time unit; > 0.
+        tau: time constant; in the document's time unit, > 0.
         rate: what it counts without input.
         alarm: a level to compare the count with.
 
@@ -35,11 +35,11 @@ class LeakyCounter(Element):
         count: z, over \`axes\`.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 50.0
-    rate: Annotated[float, Live("activation", lower=0, upper=20, meaning="count without input")] = 2.0
-    alarm: Annotated[float, Live("activation", meaning="level to compare with")] = 4.0
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 50.0
+    rate: Annotated[float, Live("activation", lower=0, upper=20)] = 2.0
+    alarm: Annotated[float, Live("activation")] = 4.0
 
     stateful: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}

@@ -125,15 +125,15 @@ def test_help_of_the_base_classes_shows_the_methods_of_the_contract() -> None:
 def test_a_custom_kind_without_a_docstring_has_generated_help() -> None:
     @dataclass(frozen=True)
     class Mine(Part):
-        strength: Annotated[float, Live("activation", lower=0, upper=3, meaning="how strong it is")] = 1.0
+        strength: Annotated[float, Live("activation", lower=0, upper=3)] = 1.0
 
-    assert Mine.__doc__ == "Mine.\n\nParameters:\n    strength: how strong it is. [unit activation; 0 to 3]"
+    assert Mine.__doc__ == "Mine.\n\nParameters:\n    strength: [unit activation; 0 to 3]"
     assert str(inspect.signature(Mine)) == "(strength: float = 1.0)"
 
 
 def test_the_docstring_of_the_source_is_kept() -> None:
     assert (
-        "tau: time constant, in the document's time unit; > 0, and at least one step.\n"
+        "tau: time constant; in the document's time unit, > 0, and at least one step.\n"
         in docstring.source(dd.Field)
     )
     assert dd.Field.__doc__ is not None and dd.Field.__doc__.startswith("A dynamic neural field")

@@ -5,7 +5,7 @@ second list names it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import msgspec
 import pytest
@@ -14,7 +14,6 @@ from deodar.errors import ModelError
 from deodar.experiments import actions, events
 from deodar.experiments.design import KINDS, Design
 from deodar.family import Family
-from deodar.parameters import Recompile
 from deodar.part_data import from_data, to_data
 from deodar_studio.messages import to_page
 from deodar_studio.messages.message import Message, union
@@ -53,7 +52,7 @@ def test_a_new_event_is_read_written_and_in_the_schema(monkeypatch: pytest.Monke
     @events.EVENTS.register
     @dataclass(frozen=True)
     class Rings(events.Event):
-        name: Annotated[str, Recompile(meaning="name in the rows")]
+        name: str
 
     data = to_data(Rings("bell"))
     read = from_data(data, "conditions.bell", KINDS["conditions"], {"name": "bell"}, [])

@@ -22,7 +22,7 @@ class Change(dd.Element):
 
     Parameters:
         axes: where it is defined; none: one number.
-        tau: time constant, in the document's time unit; > 0.
+        tau: time constant; in the document's time unit, > 0.
 
     Ports:
         input: over `axes`.
@@ -32,9 +32,9 @@ class Change(dd.Element):
         no reference
     """
 
-    name: Annotated[str, dd.Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[dd.Axis], dd.Recompile(meaning="where it is defined")] = ()
-    tau: Annotated[float, dd.Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 100.0
+    name: str = ""
+    axes: Sequence[dd.Axis] = ()
+    tau: Annotated[float, dd.Live("time", role="time constant", lower=1e-6)] = 100.0
 
     stateful: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}

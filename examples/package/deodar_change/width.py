@@ -21,10 +21,10 @@ class Width(dd.BaseMeasure):
         threshold: samples above it count.
     """
 
-    name: Annotated[str, dd.Recompile(meaning="name of its column in the results")]
-    of: Annotated[str, dd.Recompile(meaning="path of a field")]
-    when: Annotated[str, dd.Recompile(meaning="event at which it is measured; empty: at the end")] = ""
-    threshold: Annotated[float, dd.Recompile("activation", meaning="samples above it count")] = 0.0
+    name: str
+    of: str
+    when: str = ""
+    threshold: Annotated[float, dd.Recompile("activation")] = 0.0
 
     def value(self, samples: np.ndarray, axes: dd.Axes | None) -> float | None:
         above = int((samples > self.threshold).sum())

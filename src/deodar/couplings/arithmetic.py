@@ -104,7 +104,7 @@ class Quotient(Coupling):
         no reference
     """
 
-    least: Annotated[float, Live(lower=1e-30, meaning="divisor in place of smaller ones")] = 1e-6
+    least: Annotated[float, Live(lower=1e-30)] = 1e-6
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "divisor")
     follows: ClassVar[Mapping[str, str]] = {"divisor": "input"}
@@ -137,7 +137,7 @@ class Gain(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 4, with a factor.
     """
 
-    factor: Annotated[float, Live(meaning="strength")] = 1.0
+    factor: Annotated[float, Live()] = 1.0
 
     linear: ClassVar[bool] = True
     scaled_by: ClassVar[str] = "factor"
@@ -178,7 +178,7 @@ class Envelope(Coupling):
         no reference
     """
 
-    side: Annotated[str, Recompile(choices=("upper", "lower"), meaning="which of both")] = "upper"
+    side: Annotated[str, Recompile(choices=("upper", "lower"))] = "upper"
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "other")
     follows: ClassVar[Mapping[str, str]] = {"other": "input"}
@@ -203,7 +203,7 @@ class Threshold(Coupling):
             \text{else} \end{cases}
 
     Parameters:
-        level: the threshold, in units of the input. For an output of 0 or 1 use the coupling `Sigmoid` with
+        level: the threshold; in units of the input. For an output of 0 or 1 use the coupling `Sigmoid` with
             `Step`.
 
     Ports:
@@ -214,7 +214,7 @@ class Threshold(Coupling):
         Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 12 (the thresholded sum).
     """
 
-    level: Annotated[float, Live(meaning="the threshold")] = 0.5
+    level: Annotated[float, Live()] = 0.5
 
     def jumps_at(self) -> Sequence[str]:
         return "input", "level"
@@ -247,7 +247,7 @@ class Sigmoid(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 2 and the text before it.
     """
 
-    sigmoid: Annotated[SigmoidFunction, Recompile(meaning="g")] = Logistic()
+    sigmoid: SigmoidFunction = Logistic()
 
     def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": self.sigmoid.bounds(inputs["input"])}
@@ -278,8 +278,8 @@ class Logarithm(Coupling):
         (proximity sensors).
     """
 
-    factor: Annotated[float, Live(meaning="strength")] = 1.0
-    scale: Annotated[float, Live(lower=1e-6, meaning="input at which the logarithm begins to compress")] = 1.0
+    factor: Annotated[float, Live()] = 1.0
+    scale: Annotated[float, Live(lower=1e-6)] = 1.0
 
     def polarity(self) -> Sign:
         return sign_of(self.factor)
@@ -315,7 +315,7 @@ class Pointwise(Coupling):
         y(x) = \mathrm{function}(\mathrm{input}(x))
 
     Parameters:
-        function: `abs`, `square`, `root`, `exp`, `log` (natural), `sin` or `cos` (of radians).
+        function: the function; `abs`, `square`, `root`, `exp`, `log` (natural), `sin` or `cos` (of radians).
 
     Ports:
         input: any axes.
@@ -325,7 +325,7 @@ class Pointwise(Coupling):
         no reference
     """
 
-    function: Annotated[str, Recompile(choices=tuple(FUNCTIONS), meaning="the function")] = "abs"
+    function: Annotated[str, Recompile(choices=tuple(FUNCTIONS))] = "abs"
 
     def output(self, at: Setting) -> Arrays:
         return {"output": FUNCTIONS[self.function](at.inputs["input"])}

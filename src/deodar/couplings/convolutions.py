@@ -45,7 +45,7 @@ class Convolve(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 10.
     """
 
-    kernel: Annotated[Sequence[Kernel], Recompile(meaning="kernels, summed")] = (Gaussian(),)
+    kernel: Sequence[Kernel] = (Gaussian(),)
 
     linear: ClassVar[bool] = True
     convolution: ClassVar[Convolution | None] = Convolution("input", into="output")
@@ -87,9 +87,9 @@ class SteeredConvolve(Coupling):
         y(x) = \int \mathrm{kernel}(\mathrm{origin} + s)\, \mathrm{input}(x - s)\, ds
 
     Parameters:
-        origin: position on the axes of the kernel at which s is 0, one value or one for each axis; the
+        origin: position on the axes of the kernel at which s is 0; one value or one for each axis; the
             nearest sample is used.
-        boundary: what lies beyond the ends of the input: `periodic`, `zero`, `reflect` (its mirror image) or
+        boundary: what lies beyond the ends of the input; `periodic`, `zero`, `reflect` (its mirror image) or
             `replicate` (its outermost value); one for all axes or one for each. None: the axis decides.
 
     Ports:
@@ -103,14 +103,8 @@ class SteeredConvolve(Coupling):
         input.
     """
 
-    origin: Annotated[PerAxis, Recompile("axis", meaning="where on the kernel's axes the shift is 0")] = 0.0
-    boundary: Annotated[
-        Sequence[str] | None,
-        Recompile(
-            choices=BOUNDARIES,
-            meaning="what lies beyond the border, one for all axes or one for each; none: the axis decides",
-        ),
-    ] = None
+    origin: Annotated[PerAxis, Recompile("axis")] = 0.0
+    boundary: Annotated[Sequence[str] | None, Recompile(choices=BOUNDARIES)] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "kernel")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "kernel")}
@@ -186,10 +180,8 @@ class Interaction(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (its integrals).
     """
 
-    kernel: Annotated[Sequence[Kernel], Recompile(meaning="kernels, summed")] = (Gaussian(),)
-    global_inhibition: Annotated[
-        float, Live("activation", meaning="inhibition by the integral of the input")
-    ] = 0.0
+    kernel: Sequence[Kernel] = (Gaussian(),)
+    global_inhibition: Annotated[float, Live("activation")] = 0.0
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "total": ("input",)}
     linear: ClassVar[bool] = True
@@ -230,7 +222,7 @@ class Shift(Coupling):
         y(x) = \mathrm{input}(x - \mathrm{amount})
 
     Parameters:
-        amount: the shift, in axis units, one value or one for each axis.
+        amount: the shift; in axis units, one value or one for each axis.
 
     Ports:
         input: any axes.
@@ -241,7 +233,7 @@ class Shift(Coupling):
         A (the plain shifts between its fields).
     """
 
-    amount: Annotated[PerAxis, Rebuild("axis", meaning="how far")] = 0.0
+    amount: Annotated[PerAxis, Rebuild("axis")] = 0.0
 
     linear: ClassVar[bool] = True
 
@@ -299,9 +291,9 @@ class SteeredShift(Coupling):
         position and gaze direction to position in the world).
     """
 
-    along: Annotated[Sequence[str], Recompile(meaning="names of the axes along which it shifts")] = ("x",)
-    gain: Annotated[float, Live(meaning="axis units per unit of the steering input")] = 1.0
-    offset: Annotated[float, Live("axis", meaning="shift where the steering input is 0")] = 0.0
+    along: Sequence[str] = ("x",)
+    gain: Annotated[float, Live()] = 1.0
+    offset: Annotated[float, Live("axis")] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "by")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "by")}

@@ -39,8 +39,8 @@ class Delay(Element):
         no reference
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the register")] = ()
-    initial: Annotated[float, Live(meaning="output in the first step")] = 0.0
+    axes: Sequence[Axis] = ()
+    initial: Annotated[float, Live()] = 0.0
 
     stateful: ClassVar[bool] = True
 
@@ -85,7 +85,7 @@ class DelayLine(Element):
 
     Parameters:
         axes: axes of the input; none: one number.
-        delay: the delay, in the document's time unit; > 0. Shorter than a step: one step. If it increases
+        delay: the delay; in the document's time unit, > 0. Shorter than a step: one step. If it increases
             while the model runs, the output is the oldest stored sample until older samples exist.
         slots: number of stored samples.
         initial: output before the first input has passed the delay.
@@ -98,11 +98,11 @@ class DelayLine(Element):
         no reference
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    delay: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6, meaning="how long")] = 100.0
-    slots: Annotated[int, Recompile(lower=1, upper=100_000, meaning="number of stored moments")] = 100
-    initial: Annotated[float, Live(meaning="output before anything has arrived")] = 0.0
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    delay: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6)] = 100.0
+    slots: Annotated[int, Recompile(lower=1, upper=100_000)] = 100
+    initial: Annotated[float, Live()] = 0.0
 
     stateful: ClassVar[bool] = True
 

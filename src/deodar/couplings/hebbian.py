@@ -51,22 +51,23 @@ class Hebbian(Coupling):
     Parameters:
         axes: axes of the output; none: one number.
         rule: outstar, association, hebb, instar or oja.
-        rate: speed of learning, per unit of the document's time (and of input, of post, or of both, depending
+        rate: speed of learning; per unit of the document's time (and of input, of post, or of both, depending
             on the rule); from 0 to the inverse of the step.
-        decay: decay rate of the weights that change, per unit of the document's time; from 0 to the
-            inverse of the step.
+        decay: decay rate of the weights that change; per unit of the document's time; from 0 to the inverse
+            of the step.
         saturation: upper bound of weights that change; 0: none.
         threshold: value that active samples of input and post exceed; >= 0.
         gated: whether the element has a port `gate`; without it the gate is 1.
-        apart: whether the element has a port `pre`, which takes the place of the input in learning; without
-            it the input is learned. Two couplings with the same `pre`, `post`, gate and start have the same
+        apart: whether the element has a port `pre`; it takes the place of the input in learning; without it
+            the input is learned. Two couplings with the same `pre`, `post`, gate and start have the same
             weights, and can be read at two places at once.
         initial: weights at the start; the largest one if they are random.
-        random: whether weights at the start are uniform between 0 and `initial`, instead of `initial` itself.
+        random: whether weights at the start are uniform between 0 and `initial`; else they are `initial`
+            itself.
         share: share of the patches that are connected at the start; the other weights are 0. From 0 to 1.
-        patches: number of patches along each axis inside which weights at the start are equal, if they are
-            random or sparse. It makes the map at the start independent of the sampling.
-        seed: seed of the weights at the start, 0 to 2^32 - 1, if they are random or sparse.
+        patches: patches along each axis at the start; inside a patch the weights at the start are equal, if
+            they are random or sparse. It makes the map at the start independent of the sampling.
+        seed: seed of the weights at the start; 0 to 2^32 - 1, if they are random or sparse.
         start: weights at the start, in place of the five parameters above; for example weights learned in an
             earlier run.
 
@@ -89,24 +90,20 @@ class Hebbian(Coupling):
         instar); Oja (1982), J. Math. Biol. 15, eq. 3; Hebb (1949), The organization of behavior.
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
-    rule: Annotated[str, Recompile(choices=tuple(plasticity.RULES), meaning="how weights change")] = "outstar"
-    rate: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed of learning")] = 0.01
-    decay: Annotated[
-        float, Live("1/time", role="rate", lower=0, meaning="speed at which weights in use fade")
-    ] = 0.0
-    saturation: Annotated[float, Live(lower=0, meaning="upper bound of weights that change; 0: none")] = 0.0
-    threshold: Annotated[float, Live(lower=0, meaning="value that input and post must exceed to count")] = 0.5
-    gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
-    apart: Annotated[bool, Recompile(meaning="whether learning reads a port of its own")] = False
-    initial: Annotated[float, Live(meaning="weights at the start, or the largest of them")] = 0.0
-    random: Annotated[bool, Recompile(meaning="whether weights at the start are random")] = False
-    share: Annotated[float, Live(lower=0, upper=1, meaning="share of patches connected at the start")] = 1.0
-    patches: Annotated[
-        int, Recompile(lower=1, upper=MOST_PATCHES, meaning="patches along each axis at the start")
-    ] = 16
-    seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of the weights at the start")] = 0
-    start: Annotated[ArrayLike | None, Rebuild(meaning="weights at the start, target samples first")] = None
+    axes: Sequence[Axis] = needed("[x]")
+    rule: Annotated[str, Recompile(choices=tuple(plasticity.RULES))] = "outstar"
+    rate: Annotated[float, Live("1/time", role="rate", lower=0)] = 0.01
+    decay: Annotated[float, Live("1/time", role="rate", lower=0)] = 0.0
+    saturation: Annotated[float, Live(lower=0)] = 0.0
+    threshold: Annotated[float, Live(lower=0)] = 0.5
+    gated: bool = False
+    apart: bool = False
+    initial: Annotated[float, Live()] = 0.0
+    random: bool = False
+    share: Annotated[float, Live(lower=0, upper=1)] = 1.0
+    patches: Annotated[int, Recompile(lower=1, upper=MOST_PATCHES)] = 16
+    seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1)] = 0
+    start: Annotated[ArrayLike | None, Rebuild()] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
     stateful: ClassVar[bool] = True

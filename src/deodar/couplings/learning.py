@@ -15,7 +15,7 @@ from deodar.element import Arrays, Coupling, Ports, Setting
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import ArrayLike, Live, Rebuild, Recompile
+from deodar.parameters import ArrayLike, Live, Rebuild
 from deodar.registry import register
 
 
@@ -35,7 +35,7 @@ class AdaptiveWeights(Coupling):
 
     Parameters:
         axes: axes of the output; none: one number.
-        rate: speed of learning, per unit of the document's time and of the input; from 0 to the inverse of
+        rate: speed of learning; per unit of the document's time and of the input; from 0 to the inverse of
             the step.
         initial: all weights at the start.
         gated: whether the element has a port `gate`; without it the gate is 1.
@@ -58,12 +58,12 @@ class AdaptiveWeights(Coupling):
         relax towards the target's activity).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
-    rate: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed of learning")] = 0.1
-    initial: Annotated[float, Live(meaning="all weights at the start")] = 0.0
-    gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
-    apart: Annotated[bool, Recompile(meaning="whether learning reads a port of its own")] = False
-    start: Annotated[ArrayLike | None, Rebuild(meaning="weights at the start, source samples first")] = None
+    axes: Sequence[Axis] = needed("[x]")
+    rate: Annotated[float, Live("1/time", role="rate", lower=0)] = 0.1
+    initial: Annotated[float, Live()] = 0.0
+    gated: bool = False
+    apart: bool = False
+    start: Annotated[ArrayLike | None, Rebuild()] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
     stateful: ClassVar[bool] = True
@@ -133,11 +133,11 @@ class RewardGate(Coupling):
         \text{graded:}\quad \epsilon = \mathrm{strength}\, r \text{ while open}
 
     Parameters:
-        threshold: value of r above which the gate opens, in units of the input times the axes.
-        duration: time for which the gate is open, in the document's time unit; 0: as long as the reward
+        threshold: value of r above which the gate opens; in units of the input times the axes.
+        duration: time for which the gate is open; in the document's time unit; 0: as long as the reward
             lasts.
         strength: epsilon while open, or its factor if graded.
-        graded: whether epsilon is proportional to r while the gate is open, as in eq. 16.
+        graded: whether epsilon is proportional to r while the gate is open; as in eq. 16.
         gated: whether the element has a port `gate`; without it the gate factor is 1.
 
     Ports:
@@ -151,7 +151,7 @@ class RewardGate(Coupling):
         after a reward that is shorter.
     """
 
-    threshold: Annotated[float, Live(lower=0, meaning="value that the reward must exceed")] = 0.5
+    threshold: Annotated[float, Live(lower=0)] = 0.5
     duration: Annotated[
         float,
         Live(
@@ -159,12 +159,11 @@ class RewardGate(Coupling):
             role="duration",
             exact=True,
             lower=0,
-            meaning="how long a window is open; 0: while reward lasts",
         ),
     ] = 0.0
-    strength: Annotated[float, Live(meaning="output while open, or its factor")] = 1.0
-    graded: Annotated[bool, Recompile(meaning="whether the output follows the reward")] = False
-    gated: Annotated[bool, Recompile(meaning="whether reward waits for the gate")] = False
+    strength: Annotated[float, Live()] = 1.0
+    graded: bool = False
+    gated: bool = False
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "gate")}
@@ -232,11 +231,11 @@ class GainAdaptation(Coupling):
         \tau \frac{d\lambda(x)}{dt} = \mathrm{gate}\, \mathrm{error}\, f(x)
 
     Parameters:
-        tau: time scale: document time times error times input, over a change of the gains; > 0, and at
-            least one step.
-        initial: gains at the start, equal at all samples.
+        tau: time scale; document time times error times input, over a change of the gains, > 0, and at least
+            one step.
+        initial: gains at the start; equal at all samples.
         gated: whether the element has a port `gate`; without it the gate is 1.
-        start: gains at the start, in place of `initial`; for example gains learned in an earlier run.
+        start: gains at the start; in place of `initial`; for example gains learned in an earlier run.
 
     Ports:
         input: f, any axes; usually the output of a motor field.
@@ -257,10 +256,10 @@ class GainAdaptation(Coupling):
         exponentially, at a rate that depends neither on the width of the peak nor on the sampling.
     """
 
-    tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6, meaning="time scale")] = 100.0
-    initial: Annotated[float, Live(meaning="gains at the start")] = 0.0
-    gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
-    start: Annotated[ArrayLike | None, Rebuild(meaning="gains at the start")] = None
+    tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6)] = 100.0
+    initial: Annotated[float, Live()] = 0.0
+    gated: bool = False
+    start: Annotated[ArrayLike | None, Rebuild()] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "error", "gate")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "value": ("input",)}

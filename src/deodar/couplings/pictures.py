@@ -37,12 +37,12 @@ class ColorSpace(Coupling):
             \frac{|d|}{\mathrm{step}}\right)
 
     Parameters:
-        axes: the picture's two dimensions (they may have fewer samples than the picture), then hue; hue is
-            periodic.
-        sigma: width of the code along hue, in units of the hue axis; 0: no smoothing (a hue is divided
+        axes: the picture's two dimensions, then hue; the dimensions may have fewer samples than the picture;
+            hue is periodic.
+        sigma: width of the code along hue; in units of the hue axis; 0: no smoothing (a hue is divided
             between its two nearest samples).
-        darkest: value (largest channel, 0 to 1) below which a pixel does not count, because its saturation is
-            mostly noise.
+        darkest: value (largest channel, 0 to 1) below which a pixel does not count; its saturation is mostly
+            noise.
 
     Ports:
         input: picture over the same two dimensions and a last axis of three samples, the channels red, green
@@ -55,13 +55,9 @@ class ColorSpace(Coupling):
         Hue and saturation: Smith (1978), Color gamut transform pairs, SIGGRAPH '78 (HSV).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="two dimensions of the picture, then hue")] = ()
-    sigma: Annotated[
-        float, Live("hue", lower=0, neutral=0.0, off=True, meaning="width of the code along hue")
-    ] = 0.0
-    darkest: Annotated[float, Live(lower=0, upper=1, meaning="value below which a pixel has no colour")] = (
-        0.15
-    )
+    axes: Sequence[Axis] = ()
+    sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, off=True)] = 0.0
+    darkest: Annotated[float, Live(lower=0, upper=1)] = 0.15
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
@@ -120,9 +116,9 @@ class ColorHistogram(Coupling):
         \sigma = 0\text{:}\quad y(x, h) = n(x, h)
 
     Parameters:
-        axes: the dimension of the picture that remains (it may have fewer samples than the picture), then
-            hue; hue is periodic.
-        sigma: width of the smoothing over hue, in units of the hue axis; 0: none.
+        axes: the dimension of the picture that remains, then hue; the dimension may have fewer samples than
+            the picture; hue is periodic.
+        sigma: width of the smoothing over hue; in units of the hue axis; 0: none.
         palest: saturation (0 to 1) below which a pixel is not counted.
         darkest: value (largest channel, 0 to 1) below which a pixel is not counted.
 
@@ -137,14 +133,10 @@ class ColorHistogram(Coupling):
         guesses (the share per single bin reaches none of the paper's thresholds).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="side of the picture that is kept, then hue")] = ()
-    sigma: Annotated[
-        float, Live("hue", lower=0, neutral=0.0, off=True, meaning="width of the smoothing over hue")
-    ] = 0.0
-    palest: Annotated[float, Live(lower=0, upper=1, meaning="saturation below which a pixel has no hue")] = (
-        0.3
-    )
-    darkest: Annotated[float, Live(lower=0, upper=1, meaning="value below which a pixel has no hue")] = 0.15
+    axes: Sequence[Axis] = ()
+    sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, off=True)] = 0.0
+    palest: Annotated[float, Live(lower=0, upper=1)] = 0.3
+    darkest: Annotated[float, Live(lower=0, upper=1)] = 0.15
 
     def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axes)}
@@ -272,11 +264,11 @@ class Homography(Coupling):
 
     Parameters:
         axes: the two dimensions of the plane.
-        picture: the four points in the picture, on its first and second axis, in the units of these axes; no
+        picture: the four points in the picture; on its first and second axis, in the units of these axes; no
             three on one line.
-        plane: the same four points in the plane, in the units of `axes`, in the same order.
-        interpolation: `nearest` (the value of one pixel, so that no colours are mixed) or `linear` (of the
-            four pixels around).
+        plane: the same four points in the plane; in the units of `axes`, in the same order.
+        interpolation: nearest pixel, or the four around; `nearest` (the value of one pixel, so that no
+            colours are mixed) or `linear` (of the four pixels around).
 
     Ports:
         input: a picture: two dimensions, then any others, such as channels.
@@ -291,12 +283,10 @@ class Homography(Coupling):
         Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 5 (the camera above the table).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="two dimensions of the plane")] = ()
-    picture: Annotated[ArrayLike, Rebuild(meaning="four points in the picture")] = CORNERS
-    plane: Annotated[ArrayLike, Rebuild(meaning="the same points in the plane")] = CORNERS
-    interpolation: Annotated[
-        str, Recompile(choices=INTERPOLATIONS, meaning="nearest pixel, or the four around")
-    ] = "nearest"
+    axes: Sequence[Axis] = ()
+    picture: Annotated[ArrayLike, Rebuild()] = CORNERS
+    plane: Annotated[ArrayLike, Rebuild()] = CORNERS
+    interpolation: Annotated[str, Recompile(choices=INTERPOLATIONS)] = "nearest"
 
     linear: ClassVar[bool] = True
 

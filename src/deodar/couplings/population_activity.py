@@ -16,7 +16,7 @@ from deodar.leaves import per_axis
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, cell, shape
 from deodar.numerics.signs import Sign, product, sign_of
-from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile
+from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild
 from deodar.registry import register
 
 
@@ -36,8 +36,8 @@ class PopulationActivity(Coupling):
             `PopulationActivity.of(preferred, sigma, axes)` makes Gaussians.
         axes: the dimensions to which the neurons are tuned; at least one.
         amplitude: factor from the sum to activation.
-        normalized: whether the output is the mean of the rates weighted by the tuning, which does not depend
-            on the number of neurons tuned to x.
+        normalized: whether the output is the mean of the rates weighted by the tuning; it then does not
+            depend on the number of neurons tuned to x.
 
     Ports:
         input: r, an axis with one sample for each neuron.
@@ -52,14 +52,10 @@ class PopulationActivity(Coupling):
         Neurosci. 18, 2047-2058.
     """
 
-    tuning: Annotated[ArrayLike, Rebuild(meaning="tuning curve of each neuron")] = FrozenArray(np.eye(21))
-    axes: Annotated[Sequence[Axis], Recompile(meaning="dimensions to which the neurons are tuned")] = needed(
-        "[x]"
-    )
-    amplitude: Annotated[float, Live("activation", meaning="factor from the sum to activation")] = 1.0
-    normalized: Annotated[
-        bool, Recompile(meaning="whether it is a mean of the rates, weighted by the tuning")
-    ] = False
+    tuning: Annotated[ArrayLike, Rebuild()] = FrozenArray(np.eye(21))
+    axes: Sequence[Axis] = needed("[x]")
+    amplitude: Annotated[float, Live("activation")] = 1.0
+    normalized: bool = False
 
     linear: ClassVar[bool] = True
     maps: ClassVar[Mapping[str, tuple[str, ...]]] = {"tuning": ("input", "output")}

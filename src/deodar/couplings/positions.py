@@ -18,7 +18,7 @@ from deodar.numerics.centres import centre
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.positions import PositionCode, PositionUnit
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import Live, PeakBoundary, PerAxis, Recompile
+from deodar.parameters import Live, PeakBoundary, PerAxis
 from deodar.registry import register
 
 
@@ -38,7 +38,7 @@ class PeakPosition(Coupling):
         axis: the dimension read out; other axes of the source are integrated out. By default the axis of the
             source, which then must have exactly one axis.
         least: N up to which the input counts as no peak; > 0.
-        absent: output without a peak (or, on a periodic axis, for input without direction), in axis units.
+        absent: output without a peak; also, on a periodic axis, for input without direction; in axis units.
 
     Ports:
         input: f, over the axis.
@@ -49,13 +49,9 @@ class PeakPosition(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12 and 13.
     """
 
-    axis: Annotated[
-        Axis | None, Recompile(meaning="dimension read out; by default the axis of the source")
-    ] = None
-    least: Annotated[
-        float, Live("input x axis", lower=1e-9, meaning="integral below which there is no peak")
-    ] = 0.1
-    absent: Annotated[float, Live("axis", meaning="position while there is no peak")] = 0.0
+    axis: Axis | None = None
+    least: Annotated[float, Live("input x axis", lower=1e-9)] = 0.1
+    absent: Annotated[float, Live("axis")] = 0.0
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "strength": ("input",)}
 
@@ -110,8 +106,8 @@ class MaximumPosition(Coupling):
         no reference
     """
 
-    least: Annotated[float, Live(meaning="value that the largest sample must exceed")] = 0.1
-    absent: Annotated[float, Live("axis", meaning="position while there is none")] = 0.0
+    least: Annotated[float, Live()] = 0.1
+    absent: Annotated[float, Live("axis")] = 0.0
 
     jumps: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
@@ -160,10 +156,10 @@ class RateCode(Coupling):
 
     Parameters:
         axes: axes of the peak; at least one.
-        gain: axis units per unit of the output, one value or one for each axis; not 0.
-        offset: position of the peak for an output of 0, in axis units, one value or one for each axis.
+        gain: axis units per unit of the output; one value or one for each axis; not 0.
+        offset: position of the peak for an output of 0; in axis units, one value or one for each axis.
         least: integral up to which the input counts as no peak; > 0.
-        absent: output without a peak (or, on a periodic axis, for input without direction), one value or one
+        absent: output without a peak; also, on a periodic axis, for input without direction; one value or one
             for each axis.
 
     Ports:
@@ -178,13 +174,11 @@ class RateCode(Coupling):
         1416-1419.
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the peak")] = needed("[x]")
-    gain: Annotated[PerAxis, Live(meaning="axis units per unit of the output")] = 1.0
-    offset: Annotated[PerAxis, Live("axis", meaning="place of the peak for an output of 0")] = 0.0
-    least: Annotated[
-        float, Live("input x axis", lower=1e-9, meaning="integral up to which there is no peak")
-    ] = 0.1
-    absent: Annotated[PerAxis, Live(meaning="output while there is no peak")] = 0.0
+    axes: Sequence[Axis] = needed("[x]")
+    gain: Annotated[PerAxis, Live()] = 1.0
+    offset: Annotated[PerAxis, Live("axis")] = 0.0
+    least: Annotated[float, Live("input x axis", lower=1e-9)] = 0.1
+    absent: Annotated[PerAxis, Live()] = 0.0
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "strength": ("input",)}
 
@@ -233,13 +227,13 @@ class SpaceCode(Coupling):
 
     Parameters:
         axes: axes of the peak; at least one.
-        sigma: width in axis units, one value or one for each axis; > 0.
+        sigma: width; in axis units, one value or one for each axis, > 0.
         amplitude: value at the centre; if normalized, the integral.
-        gain: axis units per unit of the input, one value or one for each axis.
-        offset: position of the peak for an input of 0, in axis units, one value or one for each axis.
+        gain: axis units per unit of the input; one value or one for each axis.
+        offset: position of the peak for an input of 0; in axis units, one value or one for each axis.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic` (the peak wraps around the ends) or `zero` (it does not), one value or one for
-            each axis; none: periodic on periodic axes.
+        boundary: whether it wraps around the ends; `periodic` (the peak wraps around the ends) or `zero` (it
+            does not), one value or one for each axis; none: periodic on periodic axes.
 
     Ports:
         input: one number for one axis; for several axes, an axis with one sample for each of them, in their
@@ -251,14 +245,12 @@ class SpaceCode(Coupling):
         code); Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), figure 4 (place and head direction).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the peak")] = needed("[x]")
-    sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
-    amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
-    gain: Annotated[PerAxis, Live(meaning="axis units per unit of the input")] = 1.0
-    offset: Annotated[PerAxis, Live("axis", meaning="place of the peak for an input of 0")] = 0.0
-    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(
-        default=False, kw_only=True
-    )
+    axes: Sequence[Axis] = needed("[x]")
+    sigma: Annotated[PerAxis, Live("axis", lower=1e-6)] = 5.0
+    amplitude: Annotated[float, Live("activation")] = 1.0
+    gain: Annotated[PerAxis, Live()] = 1.0
+    offset: Annotated[PerAxis, Live("axis")] = 0.0
+    normalized: bool = dc.field(default=False, kw_only=True)
     boundary: PeakBoundary = dc.field(default=None, kw_only=True)
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}

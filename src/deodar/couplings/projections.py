@@ -34,10 +34,10 @@ class Project(Coupling):
         \text{axes missing here:}\quad y(x) = \int \mathrm{input}(x, z)\, dz
 
     Parameters:
-        axes: dimensions of the output, in its order.
-        reduce: contraction over axes that the output does not have: `integral`, `sum`, `mean`, `max` or
+        axes: dimensions of the output; in its order.
+        reduce: contraction over axes that the output does not have; `integral`, `sum`, `mean`, `max` or
             `min`.
-        rename: names of the source's axes and their names in the output: `{"pan": "x"}`.
+        rename: names of the source's axes and their names in the output; for example `{"pan": "x"}`.
         interpolation: `linear` or `nearest`, for axes whose sampling differs.
 
     Ports:
@@ -48,14 +48,10 @@ class Project(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 5-8.
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="dimensions of the output")] = ()
-    reduce: Annotated[str, Recompile(choices=resampling.REDUCTIONS, meaning="how missing axes contract")] = (
-        "integral"
-    )
-    rename: Annotated[Mapping[str, str], Recompile(meaning="source name to name here")] = ()  # type: ignore[assignment]
-    interpolation: Annotated[
-        str, Recompile(choices=resampling.INTERPOLATIONS, meaning="where the sampling differs")
-    ] = "linear"
+    axes: Sequence[Axis] = ()
+    reduce: Annotated[str, Recompile(choices=resampling.REDUCTIONS)] = "integral"
+    rename: Mapping[str, str] = ()  # type: ignore[assignment]
+    interpolation: Annotated[str, Recompile(choices=resampling.INTERPOLATIONS)] = "linear"
 
     @property
     def linear(self) -> bool:  # type: ignore[override]
@@ -179,10 +175,8 @@ class Resample(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 3.3.
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="the new grid")] = ()
-    interpolation: Annotated[str, Recompile(choices=resampling.INTERPOLATIONS, meaning="between samples")] = (
-        "linear"
-    )
+    axes: Sequence[Axis] = ()
+    interpolation: Annotated[str, Recompile(choices=resampling.INTERPOLATIONS)] = "linear"
 
     linear: ClassVar[bool] = True
 
@@ -258,7 +252,7 @@ class DiagonalSum(Coupling):
         remapping, Biol. Cybern. 106, 89-109 (the projection along the diagonals of the transformation field).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axis of the sum")] = needed("[x]")
+    axes: Sequence[Axis] = needed("[x]")
 
     linear: ClassVar[bool] = True
 
@@ -315,7 +309,7 @@ class DiagonalExpansion(Coupling):
         remapping, Biol. Cybern. 106, 89-109 (the diagonal input of the transformation field).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x, y]")
+    axes: Sequence[Axis] = needed("[x, y]")
 
     linear: ClassVar[bool] = True
 

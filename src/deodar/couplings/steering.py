@@ -13,7 +13,7 @@ from jax import Array
 from deodar.element import Arrays, Coupling, Ports, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, cell, one_axis, shape, wrong_shape
-from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild
 from deodar.registry import register
 
 
@@ -33,9 +33,9 @@ class AttractorVelocity(Coupling):
     Parameters:
         axes: the dimensions of the position; other axes of the source are integrated out. By default those of
             the source.
-        tau: time scale: document time times the integral of the input, so that tau / N is the relaxation
-            time; at least one step.
-        fastest: largest length of v, axis units per unit of the document's time; 0: no limit.
+        tau: time scale; document time times the integral of the input, so that tau / N is the relaxation
+            time, at least one step.
+        fastest: largest length of v; axis units per unit of the document's time; 0: no limit.
 
     Ports:
         input: f, over the axes.
@@ -47,14 +47,9 @@ class AttractorVelocity(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12-15.
     """
 
-    axes: Annotated[
-        Sequence[Axis], Recompile(meaning="dimensions of the position; by default those of the source")
-    ] = ()
-    tau: Annotated[float, Live("time x input", role="time scale", lower=1e-9, meaning="time scale")] = 100.0
-    fastest: Annotated[
-        float,
-        Live("axis/time", role="speed", lower=0, neutral=0.0, off=True, meaning="largest speed; 0: no limit"),
-    ] = 0.0
+    axes: Sequence[Axis] = ()
+    tau: Annotated[float, Live("time x input", role="time scale", lower=1e-9)] = 100.0
+    fastest: Annotated[float, Live("axis/time", role="speed", lower=0, neutral=0.0, off=True)] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "position")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "position")}
@@ -119,10 +114,10 @@ class ObstacleRepulsion(Coupling):
             D_i} \right)
 
     Parameters:
-        angles: psi, direction of each sensor relative to the heading, degrees, positive to the right.
+        angles: psi, direction of each sensor relative to the heading; degrees, positive to the right.
         strength: force of a single obstacle at distance 0 straight ahead.
-        reach: distance over which a force decreases by a factor of e, in the unit of the distances.
-        size: size of the vehicle, in the unit of the distances.
+        reach: distance over which a force decreases by a factor of e; in the unit of the distances.
+        size: size of the vehicle; in the unit of the distances.
         view: opening angle of a sensor, degrees.
 
     Ports:
@@ -138,15 +133,11 @@ class ObstacleRepulsion(Coupling):
         Engels (1995), Robot. Auton. Syst. 16, 213-245.
     """
 
-    angles: Annotated[
-        ArrayLike, Rebuild(meaning="direction of each sensor, degrees, positive to the right")
-    ] = FrozenArray(np.array([-90.0, -45.0, -9.0, 11.0, 45.0, 90.0]))
-    strength: Annotated[float, Live(lower=0, meaning="force of an obstacle at distance 0 straight ahead")] = (
-        15.0
-    )
-    reach: Annotated[float, Live(lower=1e-6, meaning="distance over which a force decreases by e")] = 30.0
-    size: Annotated[float, Live(lower=1e-6, meaning="size of the vehicle")] = 100.0
-    view: Annotated[float, Live(lower=0, upper=179, meaning="opening angle of a sensor, degrees")] = 45.0
+    angles: Annotated[ArrayLike, Rebuild()] = FrozenArray(np.array([-90.0, -45.0, -9.0, 11.0, 45.0, 90.0]))
+    strength: Annotated[float, Live(lower=0)] = 15.0
+    reach: Annotated[float, Live(lower=1e-6)] = 30.0
+    size: Annotated[float, Live(lower=1e-6)] = 100.0
+    view: Annotated[float, Live(lower=0, upper=179)] = 45.0
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
@@ -191,8 +182,8 @@ class TurnLimit(Coupling):
         \mathrm{to\_right} = s\, \mathrm{speed}\, \mathrm{right}
 
     Parameters:
-        speed: speed of a wheel for an input of 1, in the motor's unit.
-        limit: largest difference between the speeds of the wheels, in the motor's unit; > 0.
+        speed: speed of a wheel for an input of 1; in the motor's unit.
+        limit: largest difference between the speeds of the wheels; in the motor's unit, > 0.
 
     Ports:
         left: command for the left wheel, one number.
@@ -204,10 +195,8 @@ class TurnLimit(Coupling):
         Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), its published simulator.
     """
 
-    speed: Annotated[float, Live("motor", meaning="speed of a wheel for an input of 1")] = 500.0
-    limit: Annotated[
-        float, Live("motor", lower=1e-6, meaning="largest difference between the speeds of the wheels")
-    ] = 400.0
+    speed: Annotated[float, Live("motor")] = 500.0
+    limit: Annotated[float, Live("motor", lower=1e-6)] = 400.0
 
     inputs: ClassVar[tuple[str, ...]] = ("left", "right")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {

@@ -19,7 +19,7 @@ from deodar.numerics.convolution import along
 from deodar.numerics.intervals import times, total
 from deodar.numerics.positions import PositionUnit, PositionUnits
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
+from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild
 from deodar.registry import register
 
 
@@ -48,8 +48,8 @@ class Weights(Coupling):
         Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 7.
     """
 
-    weights: Annotated[ArrayLike, Rebuild(meaning="W, target samples first")] = FrozenArray(np.eye(21))
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
+    weights: Annotated[ArrayLike, Rebuild()] = FrozenArray(np.eye(21))
+    axes: Sequence[Axis] = needed("[x]")
 
     linear: ClassVar[bool] = True
     maps: ClassVar[Mapping[str, tuple[str, ...]]] = {"weights": ("output", "input")}
@@ -141,11 +141,9 @@ class AxisWeights(Coupling):
         no reference
     """
 
-    weights: Annotated[ArrayLike, Rebuild(meaning="W, samples of the new axis first")] = FrozenArray(
-        np.eye(21)
-    )
-    axis: Annotated[Axis, Recompile(meaning="the new axis")] = needed("x")
-    along: Annotated[str, Recompile(meaning="name of the axis of the input; empty: the same name")] = ""
+    weights: Annotated[ArrayLike, Rebuild()] = FrozenArray(np.eye(21))
+    axis: Axis = needed("x")
+    along: str = ""
 
     linear: ClassVar[bool] = True
 
@@ -205,7 +203,7 @@ class Weighting(Coupling):
         y(x) = c(x) \cdot \mathrm{input}(x)
 
     Parameters:
-        weights: c, one value for each sample of the axes (`Weighting.of(function, axes)` samples a function).
+        weights: c, one value for each sample of the axes; `Weighting.of(function, axes)` samples a function.
         axes: axes of the weights; the input expands to them.
 
     Ports:
@@ -219,8 +217,8 @@ class Weighting(Coupling):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 9.
     """
 
-    weights: Annotated[ArrayLike, Rebuild(meaning="c at every sample")] = FrozenArray(np.ones(21))
-    axes: Annotated[tuple[Axis, ...], Recompile(meaning="axes of the weights")] = needed("[x]")
+    weights: Annotated[ArrayLike, Rebuild()] = FrozenArray(np.ones(21))
+    axes: tuple[Axis, ...] = needed("[x]")
 
     linear: ClassVar[bool] = True
 
@@ -286,10 +284,8 @@ class PseudoInverse(Coupling):
         control, J. Dyn. Sys. Meas. Control 108, 163-171 (damping).
     """
 
-    damping: Annotated[float, Live(lower=0, meaning="bound of the inverse, in units of the input")] = 0.0
-    least: Annotated[
-        float, Live(lower=0, upper=1, meaning="part of the largest singular value that counts as 0")
-    ] = 1e-6
+    damping: Annotated[float, Live(lower=0)] = 0.0
+    least: Annotated[float, Live(lower=0, upper=1)] = 1e-6
 
     def polarity(self) -> Sign:
         return "±"

@@ -41,14 +41,15 @@ class MovingGaussian(Stimulus):
 
     Parameters:
         axes: axes of the stimulus; none: a constant for a node.
-        center: position at time 0 without waypoints, in axis units, one value or one for each axis.
-        sigma: width in axis units, one value or one for each axis; > 0.
+        center: position at time 0 without waypoints; in axis units, one value or one for each axis.
+        sigma: width; in axis units, one value or one for each axis, > 0.
         amplitude: value at the centre.
-        velocity: axis units per unit of the document's time, one value or one for each axis.
-        waypoints: p, times and the positions at them, in the document's time unit and axis units;
+        velocity: speed of the motion; axis units per unit of the document's time, one value or one for each
+            axis.
+        waypoints: p, times and the positions at them; in the document's time unit and axis units;
             interpolated linearly, constant before the first and after the last. Positions may exceed a
             periodic axis: 350 to 370 is a move by 20 across its end. None: p = 0.
-        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
         output: over `axes`.
@@ -60,18 +61,11 @@ class MovingGaussian(Stimulus):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
     """
 
-    center: Annotated[PerAxis, Live("axis", meaning="place at time 0 without waypoints")] = 0.0
-    sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
-    amplitude: Annotated[float, Live("activation", meaning="value at the centre")] = 1.0
-    velocity: Annotated[
-        PerAxis, Live("axis/time", role="speed", exact=True, meaning="speed of the motion")
-    ] = 0.0
-    waypoints: Annotated[
-        ArrayLike | None,
-        Rebuild(
-            "axis", exact=True, meaning="times and the positions at them; none: it moves with its velocity"
-        ),
-    ] = None
+    center: Annotated[PerAxis, Live("axis")] = 0.0
+    sigma: Annotated[PerAxis, Live("axis", lower=1e-6)] = 5.0
+    amplitude: Annotated[float, Live("activation")] = 1.0
+    velocity: Annotated[PerAxis, Live("axis/time", role="speed", exact=True)] = 0.0
+    waypoints: Annotated[ArrayLike | None, Rebuild("axis", exact=True)] = None
 
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
@@ -168,14 +162,14 @@ class TimeSeries(Stimulus):
 
     Parameters:
         axes: axes of the stimulus; none: a number for a node.
-        times: the times of the values, increasing, in the document's time unit.
-        values: for each time one value for each sample of the axes (`TimeSeries.of(name, function, times,
-            axes)` samples a function).
+        times: the times of the values, increasing; in the document's time unit.
+        values: for each time one value for each sample of the axes; `TimeSeries.of(name, function, times,
+            axes)` samples a function.
         amplitude: factor.
         interpolation: `linear` or `hold`.
-        period: P, time after which the series repeats, in the document's time unit; values at times later
+        period: P, time after which the series repeats; in the document's time unit; values at times later
             than P are not used. 0: no repetition.
-        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
         output: over `axes`.
@@ -188,15 +182,13 @@ class TimeSeries(Stimulus):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the values")] = needed("[x]")
-    times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray(
-        [0.0, 100.0]
+    axes: Sequence[Axis] = needed("[x]")
+    times: Annotated[ArrayLike, Rebuild("time", role="moment")] = FrozenArray([0.0, 100.0])
+    values: Annotated[ArrayLike, Rebuild("activation")] = FrozenArray(
+        [[float(k % 7 == 3) for k in range(21)], [float(k % 7 == 5) for k in range(21)]]
     )
-    values: Annotated[
-        ArrayLike, Rebuild("activation", meaning="for each moment one value for each sample")
-    ] = FrozenArray([[float(k % 7 == 3) for k in range(21)], [float(k % 7 == 5) for k in range(21)]])
-    amplitude: Annotated[float, Live(meaning="factor")] = 1.0
-    interpolation: Annotated[str, Recompile(choices=WAYS, meaning="values between two moments")] = "linear"
+    amplitude: Annotated[float, Live()] = 1.0
+    interpolation: Annotated[str, Recompile(choices=WAYS)] = "linear"
     period: Annotated[
         float,
         Live(
@@ -206,7 +198,6 @@ class TimeSeries(Stimulus):
             lower=0,
             neutral=0.0,
             off=True,
-            meaning="period of repetition; 0: none",
         ),
     ] = 0.0
 
@@ -303,7 +294,7 @@ class Noise(Element):
         axes: axes of the noise; none: one number.
         amplitude: q, strength; without `length` divided by the root of the cell's volume, else the standard
             deviation at a point of the process that the stochastic Euler step adds.
-        length: correlation length in axis units, one value or one for each axis; 0: white.
+        length: correlation length; in axis units, one value or one for each axis; 0: white.
 
     Ports:
         output: over `axes`; a new sample in every step of the element.
@@ -312,12 +303,10 @@ class Noise(Element):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 16 and 17.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    amplitude: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength")] = 1.0
-    length: Annotated[
-        PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length")
-    ] = 0.0
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    amplitude: Annotated[float, Live("activation", lower=0, neutral=0.0)] = 1.0
+    length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True)] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ()
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}

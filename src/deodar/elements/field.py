@@ -43,19 +43,19 @@ class Field(Element):
 
     Parameters:
         axes: the metric dimensions, none to four.
-        tau: time constant, in the document's time unit; > 0, and at least one step.
+        tau: time constant; in the document's time unit, > 0, and at least one step.
         resting_level: h, the attractor without input.
         sigmoid: g, output as a function of activation.
         kernel: k, the sum of the interaction kernels. On a node their amplitudes are its self-excitation.
         global_inhibition: c, factor of the integral of the output.
-        noise: q, strength of the noise: white in time; without `noise_length` white in space too (divided by
+        noise: q, strength of the noise; white in time; without `noise_length` white in space too (divided by
             the root of the cell's volume), else the standard deviation at a point. Euler step: q sqrt(dt) /
             tau.
-        noise_length: correlation length of the noise, in axis units, one value or one for each axis; 0:
+        noise_length: correlation length of the noise; in axis units, one value or one for each axis; 0:
             white.
-        quadrature: `cell`: the output at a sample is the mean of g over its cell, so that edges narrower than
-            a sample behave as on a fine grid; `point`: g at the sample. On a node both are g. The default in
-            documents is `point`.
+        quadrature: output as its mean over a cell, or at the sample; `cell`: the output at a sample is the
+            mean of g over its cell, so that edges narrower than a sample behave as on a fine grid; `point`: g
+            at the sample. On a node both are g. The default in documents is `point`.
 
     Ports:
         input: s, the sum of all connections, over `axes`.
@@ -68,32 +68,16 @@ class Field(Element):
         Biol. Cybern. 27.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="metric dimensions")] = ()
-    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 20.0
-    resting_level: Annotated[
-        float, Live("activation", section="time course", meaning="attractor without input")
-    ] = -5.0
-    sigmoid: Annotated[SigmoidFunction, Recompile(meaning="output function")] = Logistic()
-    kernel: Annotated[Sequence[Kernel], Recompile(meaning="interaction kernels, summed")] = ()
-    global_inhibition: Annotated[
-        float, Live("activation", section="interaction", meaning="inhibition by the integral of the output")
-    ] = 0.0
-    noise: Annotated[
-        float, Live("activation", lower=0, neutral=0.0, section="noise", meaning="strength of the noise")
-    ] = 0.0
-    noise_length: Annotated[
-        PerAxis,
-        Rebuild(
-            "axis", lower=0, neutral=0.0, off=True, section="noise", meaning="correlation length of the noise"
-        ),
-    ] = 0.0
-    quadrature: Annotated[
-        str,
-        Recompile(
-            choices=QUADRATURES, section="axes", meaning="output as its mean over a cell, or at the sample"
-        ),
-    ] = "point"
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 20.0
+    resting_level: Annotated[float, Live("activation", section="time course")] = -5.0
+    sigmoid: SigmoidFunction = Logistic()
+    kernel: Sequence[Kernel] = ()
+    global_inhibition: Annotated[float, Live("activation", section="interaction")] = 0.0
+    noise: Annotated[float, Live("activation", lower=0, neutral=0.0, section="noise")] = 0.0
+    noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, section="noise")] = 0.0
+    quadrature: Annotated[str, Recompile(choices=QUADRATURES, section="axes")] = "point"
 
     stateful: ClassVar[bool] = True
     convolution: ClassVar[Convolution | None] = Convolution("output", into="input")

@@ -16,7 +16,7 @@ from deodar.element import Arrays, Element, Ports, Setting, Time
 from deodar.errors import DeodarError, ModelError, UnknownName, first_line
 from deodar.numerics.axes import Axis
 from deodar.numerics.scalar import Scalar
-from deodar.parameters import Live, Recompile, show
+from deodar.parameters import Live, show
 from deodar.registry import register
 
 
@@ -50,14 +50,12 @@ class Function(Element):
         no reference
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the state")] = ()
-    function: Annotated[str | Callable[..., ArrayLike], Recompile(meaning="module:name")] = (
-        "deodar.elements.function:leaky"
-    )
-    ports_in: Annotated[Sequence[str], Recompile(meaning="names of the input ports")] = ("input",)
-    initial: Annotated[float, Live(meaning="state at the start")] = 0.0
-    values: Annotated[Mapping[str, float], Live(meaning="numbers passed to the function")] = ()  # type: ignore[assignment]
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    function: str | Callable[..., ArrayLike] = "deodar.elements.function:leaky"
+    ports_in: Sequence[str] = ("input",)
+    initial: Annotated[float, Live()] = 0.0
+    values: Annotated[Mapping[str, float], Live()] = ()  # type: ignore[assignment]
 
     stateful: ClassVar[bool] = True
 

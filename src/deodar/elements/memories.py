@@ -41,17 +41,17 @@ class MemoryTrace(Element):
 
     Parameters:
         axes: the metric dimensions; none: one number.
-        tau_build: time constant of the build-up, in the document's time unit; > 0. In eq. 11: tau_l /
+        tau_build: time constant of the build-up; in the document's time unit, > 0. In eq. 11: tau_l /
             lambda_build.
-        tau_decay: time constant of the decay, in the document's time unit; > 0. In eq. 11: tau_l /
+        tau_decay: time constant of the decay; in the document's time unit, > 0. In eq. 11: tau_l /
             lambda_decay.
         threshold: input above which a sample is active.
-        graded: whether build-up and decay are weighted by the input itself, as in eq. 11, instead of by
+        graded: whether build-up and decay are weighted by the input itself; as in eq. 11, instead of by
             whether it is above the threshold.
         fades: whether the trace also decays while no sample is active.
         gated: whether the element has a port `gate`; without it the gate is 1.
-        start: p at the start, one value for each sample; none: 0.
-        activity: a sigmoid of the input that weights build-up and decay, in place of the threshold; none: the
+        start: p at the start; one value for each sample; none: 0.
+        activity: a sigmoid of the input that weights build-up and decay; in place of the threshold; none: the
             threshold. Not together with `graded`.
 
     Ports:
@@ -72,23 +72,17 @@ class MemoryTrace(Element):
         (2002), Psychol. Rev. 109 (preshape).
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="metric dimensions")] = ()
-    tau_build: Annotated[
-        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the build-up")
-    ] = 100.0
-    tau_decay: Annotated[
-        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the decay")
-    ] = 1000.0
-    threshold: Annotated[float, Live(meaning="input above which a place is active")] = 0.5
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    tau_build: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 100.0
+    tau_decay: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 1000.0
+    threshold: Annotated[float, Live()] = 0.5
 
-    graded: Annotated[bool, Recompile(meaning="whether speeds are weighted by the input itself")] = False
-    fades: Annotated[bool, Recompile(meaning="whether it also decays while nothing is active")] = False
-    gated: Annotated[bool, Recompile(meaning="whether it waits for the gate")] = False
-    start: Annotated[ArrayLike | None, Rebuild("activation", meaning="p at the start")] = None
-    activity: Annotated[
-        SigmoidFunction | None, Recompile(meaning="sigmoid in place of the threshold; none: the threshold")
-    ] = None
+    graded: bool = False
+    fades: bool = False
+    gated: bool = False
+    start: Annotated[ArrayLike | None, Rebuild("activation")] = None
+    activity: SigmoidFunction | None = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
     stateful: ClassVar[bool] = True
@@ -170,7 +164,7 @@ class History(Element):
         slots: the axis of the stored samples, the newest at its lower end; first axis of the output.
         interval: time between two stored samples, in the document's time unit; > 0. Shorter than a
             step: every step.
-        empty: value of slots that hold no sample yet: `zero`, or `nan` (not a number). Elements that read
+        empty: value of slots that hold no sample yet; `zero`, or `nan` (not a number). Elements that read
             `nan` become undefined too.
 
     Ports:
@@ -181,16 +175,11 @@ class History(Element):
         no reference
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
-    slots: Annotated[Axis, Recompile(meaning="axis of the stored moments")] = needed("slot")
-    interval: Annotated[
-        float,
-        Live("time", role="duration", exact=True, lower=1e-6, meaning="time between two stored moments"),
-    ] = 1.0
-    empty: Annotated[
-        str, Recompile(choices=EMPTY, meaning="output of slots that no moment has reached yet")
-    ] = "zero"
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    slots: Axis = needed("slot")
+    interval: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6)] = 1.0
+    empty: Annotated[str, Recompile(choices=EMPTY)] = "zero"
 
     stateful: ClassVar[bool] = True
 
@@ -251,9 +240,9 @@ class SampledHistory(Element):
     Parameters:
         axes: axes of the input.
         slots: the axis of the stored samples, one sample for each time; first axis of the output.
-        times: the sampling times, in the document's time unit. A time between two steps is rounded to the
+        times: the sampling times; in the document's time unit. A time between two steps is rounded to the
             nearer one; the input at the start of a run is not stored.
-        empty: value of slots before their time: `zero`, or `nan` (not a number). Elements that read `nan`
+        empty: value of slots before their time; `zero`, or `nan` (not a number). Elements that read `nan`
             become undefined too.
 
     Ports:
@@ -267,13 +256,11 @@ class SampledHistory(Element):
         no reference
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the input")] = ()
-    slots: Annotated[Axis, Recompile(meaning="the moments")] = needed("slot")
-    times: Annotated[ArrayLike, Rebuild("time", role="moment", meaning="the moments")] = FrozenArray(
-        [1.0, 5.0, 10.0]
-    )
-    empty: Annotated[str, Recompile(choices=EMPTY, meaning="output of slots before their moment")] = "zero"
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    slots: Axis = needed("slot")
+    times: Annotated[ArrayLike, Rebuild("time", role="moment")] = FrozenArray([1.0, 5.0, 10.0])
+    empty: Annotated[str, Recompile(choices=EMPTY)] = "zero"
 
     stateful: ClassVar[bool] = True
 

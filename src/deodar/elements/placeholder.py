@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import ClassVar
 
 from deodar.element import Arrays, Element, Ports, Setting
 from deodar.numerics.axes import Axis
-from deodar.parameters import Recompile
 from deodar.registry import register
 
 
@@ -34,9 +33,9 @@ class Placeholder(Element):
         no reference
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of its ports")] = ()
-    missing: Annotated[str, Recompile(meaning="name of the missing element")] = ""
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    missing: str = ""
 
     # stateful with a constant state, so that it may close a loop, as the missing element might
     stateful: ClassVar[bool] = True

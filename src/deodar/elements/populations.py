@@ -21,7 +21,7 @@ from deodar.numerics.intervals import hull, times, total
 from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.sigmoids import Logistic, SemiLinear, SigmoidFunction
 from deodar.numerics.signs import Sign, sign_of, together
-from deodar.parameters import Live, Recompile
+from deodar.parameters import Live
 from deodar.registry import register
 
 
@@ -37,11 +37,11 @@ class RateNode(Element):
         \frac{du}{dt} = r + q\, \xi(t)
 
     Parameters:
-        tau: time constant, in the document's time unit; > 0.
+        tau: time constant; in the document's time unit, > 0.
         resting_level: h, the attractor without input.
         sigmoid: g, output as a function of activation.
         self_excitation: c, strength of the node's coupling to itself; a negative value inhibits.
-        noise: q, strength of the noise on u itself (not divided by tau). Euler step: q sqrt(dt).
+        noise: q, strength of the noise on u itself; it is not divided by tau. Euler step: q sqrt(dt).
 
     Ports:
         input: s, the sum of all connections, one number.
@@ -53,18 +53,12 @@ class RateNode(Element):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 3 with self-excitation.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 10.0
-    resting_level: Annotated[
-        float, Live("activation", section="time course", meaning="attractor without input")
-    ] = -5.0
-    sigmoid: Annotated[SigmoidFunction, Recompile(meaning="output function")] = Logistic()
-    self_excitation: Annotated[
-        float, Live("activation", section="interaction", meaning="coupling of the node to itself")
-    ] = 0.0
-    noise: Annotated[
-        float, Live("activation", lower=0, neutral=0.0, section="noise", meaning="strength of the noise")
-    ] = 0.0
+    name: str = ""
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 10.0
+    resting_level: Annotated[float, Live("activation", section="time course")] = -5.0
+    sigmoid: SigmoidFunction = Logistic()
+    self_excitation: Annotated[float, Live("activation", section="interaction")] = 0.0
+    noise: Annotated[float, Live("activation", lower=0, neutral=0.0, section="noise")] = 0.0
 
     stateful: ClassVar[bool] = True
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {
@@ -122,7 +116,7 @@ class TransientDetector(Element):
 
     Parameters:
         axes: axes of the input; none: one number.
-        tau: time constant of the slow copy, in the document's time unit; > 0. A pulse has decayed to 5 %
+        tau: time constant of the slow copy; in the document's time unit, > 0. A pulse has decayed to 5 %
             after 3 tau.
         initial: z at the start; the difference of the input from it counts as a change.
 
@@ -137,12 +131,10 @@ class TransientDetector(Element):
         increments and of decrements).
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="where it is defined")] = ()
-    tau: Annotated[
-        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the slow copy")
-    ] = 100.0
-    initial: Annotated[float, Live(meaning="slow copy at the start")] = 0.0
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 100.0
+    initial: Annotated[float, Live()] = 0.0
 
     stateful: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "off": ("input",)}
@@ -184,9 +176,8 @@ class SoftWinnerTakeAll(Element):
     Parameters:
         axes: positions of the units; units without a position take any axis (its grid step is a factor of
             the integrals).
-        tau: time constant of the excitatory units, in the document's time unit; > 0, and at least one
-            step.
-        tau_inhibition: time constant of the inhibitory unit, in the document's time unit; > 0, and at least
+        tau: time constant of the excitatory units; in the document's time unit, > 0, and at least one step.
+        tau_inhibition: time constant of the inhibitory unit; in the document's time unit, > 0, and at least
             one step.
         self_excitation: alpha, strength of the coupling of each unit to itself.
         kernel: k, excitation among neighbours, summed; none in the published form.
@@ -196,7 +187,7 @@ class SoftWinnerTakeAll(Element):
         threshold_inhibition: T_v, of the inhibitory unit.
         sigmoid: f, rate of the excitatory units as a function of their input.
         sigmoid_inhibition: f_v, rate of the inhibitory unit.
-        noise: q, strength of the noise of the excitatory units: white in time and space (divided by the root
+        noise: q, strength of the noise of the excitatory units; white in time and space (divided by the root
             of the cell's volume). Euler step: q sqrt(dt) / tau.
 
     Ports:
@@ -211,34 +202,18 @@ class SoftWinnerTakeAll(Element):
         Comput. 21, 478-509, eqs. 2.1.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the units")] = ()
-    tau: Annotated[
-        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the excitatory units")
-    ] = 20.0
-    tau_inhibition: Annotated[
-        float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the inhibitory unit")
-    ] = 5.0
-    self_excitation: Annotated[
-        float, Live("activation", section="interaction", meaning="of each unit by itself")
-    ] = 1.2
-    kernel: Annotated[Sequence[Kernel], Recompile(meaning="excitation among neighbours, summed")] = ()
-    inhibition: Annotated[
-        float, Live("activation", section="interaction", meaning="of all units by the inhibitory one")
-    ] = 3.0
-    drive: Annotated[
-        float, Live(section="interaction", meaning="of the inhibitory unit by the integral over all units")
-    ] = 0.25
-    threshold: Annotated[
-        float, Live("activation", section="interaction", meaning="of the excitatory units")
-    ] = 0.0
-    threshold_inhibition: Annotated[
-        float, Live("activation", section="interaction", meaning="of the inhibitory unit")
-    ] = 0.0
-    sigmoid: Annotated[SigmoidFunction, Recompile(meaning="rate of the excitatory units")] = SemiLinear()
-    sigmoid_inhibition: Annotated[SigmoidFunction, Recompile(meaning="rate of the inhibitory unit")] = (
-        SemiLinear()
-    )
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 20.0
+    tau_inhibition: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 5.0
+    self_excitation: Annotated[float, Live("activation", section="interaction")] = 1.2
+    kernel: Sequence[Kernel] = ()
+    inhibition: Annotated[float, Live("activation", section="interaction")] = 3.0
+    drive: Annotated[float, Live(section="interaction")] = 0.25
+    threshold: Annotated[float, Live("activation", section="interaction")] = 0.0
+    threshold_inhibition: Annotated[float, Live("activation", section="interaction")] = 0.0
+    sigmoid: SigmoidFunction = SemiLinear()
+    sigmoid_inhibition: SigmoidFunction = SemiLinear()
 
     noise: Annotated[
         float,
@@ -247,7 +222,6 @@ class SoftWinnerTakeAll(Element):
             lower=0,
             neutral=0.0,
             section="noise",
-            meaning="strength of the noise of the excitatory units",
         ),
     ] = 0.0
 

@@ -19,7 +19,7 @@ from deodar.numerics.convolution import boundaries
 from deodar.numerics.intervals import ANY, ZERO, Interval, hull, signed, times
 from deodar.numerics.signs import Sign, product, sign_of
 from deodar.numerics.windows import Window, gate
-from deodar.parameters import ArrayLike, FrozenArray, Live, PeakBoundary, PerAxis, Rebuild, Recompile
+from deodar.parameters import ArrayLike, FrozenArray, Live, PeakBoundary, PerAxis, Rebuild
 from deodar.registry import register
 
 NOTHING = 3.0
@@ -30,11 +30,9 @@ NOTHING = 3.0
 class Stimulus(Element):
     """The base class of stimuli: s(x, t), a pattern times a gate over time; subclasses define the pattern."""
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = ()
-    windows: Annotated[Sequence[Window], Recompile(meaning="when it is on; without windows always")] = (
-        dc.field(default=(), kw_only=True)
-    )
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    windows: Sequence[Window] = dc.field(default=(), kw_only=True)
 
     inputs: ClassVar[tuple[str, ...]] = ()
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
@@ -141,7 +139,7 @@ class Boost(Stimulus):
     Parameters:
         axes: axes of the stimulus; none: a constant, which expands along the axes of any target.
         amplitude: value at every sample.
-        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
         output: over `axes`.
@@ -151,7 +149,7 @@ class Boost(Stimulus):
         node).
     """
 
-    amplitude: Annotated[float, Live("activation", meaning="value everywhere")] = 1.0
+    amplitude: Annotated[float, Live("activation")] = 1.0
 
     def strength(self) -> Interval:
         return self.amplitude, self.amplitude
@@ -177,13 +175,13 @@ class GaussianStimulus(Stimulus):
 
     Parameters:
         axes: axes of the stimulus; none: a constant for a node.
-        center: position of the maximum in axis units, one value or one for each axis.
-        sigma: width in axis units, one value or one for each axis; > 0.
+        center: position of the maximum; in axis units, one value or one for each axis.
+        sigma: width; in axis units, one value or one for each axis, > 0.
         amplitude: value at the centre; if normalized, the integral.
-        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic` (the Gaussian wraps around the ends) or `zero` (it does not), one value or one
-            for each axis; none: periodic on periodic axes.
+        boundary: whether it wraps around the ends; `periodic` (the Gaussian wraps around the ends) or `zero`
+            (it does not), one value or one for each axis; none: periodic on periodic axes.
 
     Ports:
         output: over `axes`.
@@ -192,14 +190,10 @@ class GaussianStimulus(Stimulus):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
     """
 
-    center: Annotated[PerAxis, Live("axis", meaning="place of the maximum")] = 0.0
-    sigma: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="width")] = 5.0
-    amplitude: Annotated[
-        float, Live("activation", meaning="value at the centre, or the integral if normalized")
-    ] = 1.0
-    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(
-        default=False, kw_only=True
-    )
+    center: Annotated[PerAxis, Live("axis")] = 0.0
+    sigma: Annotated[PerAxis, Live("axis", lower=1e-6)] = 5.0
+    amplitude: Annotated[float, Live("activation")] = 1.0
+    normalized: bool = dc.field(default=False, kw_only=True)
     boundary: PeakBoundary = dc.field(default=None, kw_only=True)
 
     @classmethod
@@ -260,10 +254,10 @@ class BoxStimulus(Stimulus):
 
     Parameters:
         axes: axes of the stimulus; none: a constant for a node.
-        center: middle of the box in axis units, one value or one for each axis.
-        width: full width in axis units, one value or one for each axis; > 0.
+        center: middle of the box; in axis units, one value or one for each axis.
+        width: full width; in axis units, one value or one for each axis, > 0.
         amplitude: value inside.
-        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
         output: over `axes`.
@@ -272,9 +266,9 @@ class BoxStimulus(Stimulus):
         no reference
     """
 
-    center: Annotated[PerAxis, Live("axis", meaning="middle of the region")] = 0.0
-    width: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="full width")] = 10.0
-    amplitude: Annotated[float, Live("activation", meaning="value inside")] = 1.0
+    center: Annotated[PerAxis, Live("axis")] = 0.0
+    width: Annotated[PerAxis, Live("axis", lower=1e-6)] = 10.0
+    amplitude: Annotated[float, Live("activation")] = 1.0
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
@@ -318,7 +312,7 @@ class Pattern(Stimulus):
         axes: axes of the stimulus; none: a constant for a node.
         values: one value for each sample of the axes.
         amplitude: factor.
-        windows: when it is on, pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
 
     Ports:
         output: over `axes`.
@@ -330,11 +324,9 @@ class Pattern(Stimulus):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 1 (the input s).
     """
 
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the pattern")] = needed("[x]")
-    values: Annotated[ArrayLike, Rebuild("activation", meaning="one value for each sample")] = FrozenArray(
-        [float(k % 7 == 3) for k in range(21)]
-    )
-    amplitude: Annotated[float, Live(meaning="factor")] = 1.0
+    axes: Sequence[Axis] = needed("[x]")
+    values: Annotated[ArrayLike, Rebuild("activation")] = FrozenArray([float(k % 7 == 3) for k in range(21)])
+    amplitude: Annotated[float, Live()] = 1.0
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:

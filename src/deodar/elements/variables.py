@@ -14,7 +14,7 @@ from deodar.element import Arrays, Element, Ports, PortUnits, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, one_axis, shape, wrong_shape
 from deodar.numerics.positions import PositionUnit
-from deodar.parameters import ArrayLike, Live, Rebuild, Recompile
+from deodar.parameters import ArrayLike, Live, Rebuild
 from deodar.registry import register
 
 
@@ -31,9 +31,9 @@ class Integrator(Element):
 
     Parameters:
         axes: axes of the variable; none: one number.
-        rate: factor of the input, per unit of the document's time; the inverse of a time constant.
+        rate: factor of the input; per unit of the document's time; the inverse of a time constant.
         initial: x at the start, at every sample.
-        start: x at the start, one value for each sample, in place of `initial`.
+        start: x at the start, one value for each sample; in place of `initial`.
 
     Ports:
         input: over `axes`.
@@ -46,11 +46,11 @@ class Integrator(Element):
         no reference
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the variable")] = ()
-    rate: Annotated[float, Live("1/time", role="speed", meaning="factor of the input")] = 0.1
-    initial: Annotated[float, Live(meaning="value at the start")] = 0.0
-    start: Annotated[ArrayLike | None, Rebuild(meaning="value at the start, for each sample")] = None
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    rate: Annotated[float, Live("1/time", role="speed")] = 0.1
+    initial: Annotated[float, Live()] = 0.0
+    start: Annotated[ArrayLike | None, Rebuild()] = None
 
     stateful: ClassVar[bool] = True
 
@@ -94,12 +94,12 @@ class Attractor(Element):
     Parameters:
         axis: the dimension over which the input is defined. By default the axis of the source, which must
             then have exactly one axis.
-        tau: time scale: document time times the integral of the input, so that tau / integral f is the
-            relaxation time; at least one step.
+        tau: time scale; document time times the integral of the input, so that tau / integral f is the
+            relaxation time, at least one step.
         initial: phi at the start.
         gain: motor units per axis unit.
         offset: motor value at axis value 0.
-        fastest: largest speed of phi, motor units per unit of the document's time; 0: no limit.
+        fastest: largest speed of phi; motor units per unit of the document's time; 0: no limit.
 
     Ports:
         input: f, over the axis; other axes of the source are integrated out.
@@ -112,20 +112,13 @@ class Attractor(Element):
         Syst. 16, with the sine as force.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axis: Annotated[
-        Axis | None, Recompile(meaning="dimension of the input; by default the axis of the source")
-    ] = None
-    tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6, meaning="time scale")] = 100.0
-    initial: Annotated[float, Live("motor", meaning="value at the start")] = 0.0
-    gain: Annotated[float, Live("motor/axis", meaning="motor units per axis unit")] = 1.0
-    offset: Annotated[float, Live("motor", meaning="motor value at axis value 0")] = 0.0
-    fastest: Annotated[
-        float,
-        Live(
-            "motor/time", role="speed", lower=0, neutral=0.0, off=True, meaning="largest speed; 0: no limit"
-        ),
-    ] = 0.0
+    name: str = ""
+    axis: Axis | None = None
+    tau: Annotated[float, Live("time x input", role="time scale", lower=1e-6)] = 100.0
+    initial: Annotated[float, Live("motor")] = 0.0
+    gain: Annotated[float, Live("motor/axis")] = 1.0
+    offset: Annotated[float, Live("motor")] = 0.0
+    fastest: Annotated[float, Live("motor/time", role="speed", lower=0, neutral=0.0, off=True)] = 0.0
 
     stateful: ClassVar[bool] = True
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import ClassVar
 
 from deodar.element import Arrays, Element, Ports, PortUnits, Setting
 from deodar.numerics.axes import Axis
-from deodar.parameters import Recompile
 from deodar.registry import register
 
 
@@ -33,9 +32,9 @@ class Sensor(Element):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, section 2.5.1.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the reading")] = ()
-    sensor: Annotated[str, Recompile(meaning="name of the world's sensor")] = "picture"
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    sensor: str = "picture"
 
     inputs: ClassVar[tuple[str, ...]] = ()
     external: ClassVar[str] = "reading"
@@ -77,9 +76,9 @@ class Motor(Element):
         Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 4, figure 4.
     """
 
-    name: Annotated[str, Recompile(meaning="name inside its group")] = ""
-    axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the command")] = ()
-    motor: Annotated[str, Recompile(meaning="name of the world's motor")] = "left"
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    motor: str = "left"
 
     inputs: ClassVar[tuple[str, ...]] = ("input",)
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}

@@ -36,13 +36,9 @@ class Reader(Coupling):
     it to the copy that a batch runs.
     """
 
-    reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE), meaning="what is made of the samples")] = (
-        "max"
-    )
-    near: Annotated[
-        str, Recompile(meaning="the place and the radius around it, as JSON; empty: all samples")
-    ] = ""
-    threshold: Annotated[float, Recompile("input", meaning="samples above it belong to a peak")] = 0.0
+    reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE))] = "max"
+    near: str = ""
+    threshold: Annotated[float, Recompile("input")] = 0.0
 
     def outputs(self, ins: Ports) -> Ports:
         count = len(ins["input"])

@@ -31,6 +31,7 @@ class ParameterDescription(Declaration):
 
     Attributes:
         name: its name.
+        meaning: one phrase for forms and lists.
         form: the shape of its value.
         description: what the docstring says of it.
         symbol: its symbol in the equation, as TeX; "" without one.
@@ -42,6 +43,7 @@ class ParameterDescription(Declaration):
     """
 
     name: str
+    meaning: str
     form: ValueForm
     cost: Cost
     description: str
@@ -73,6 +75,7 @@ def describe_parameter(
     declared["section"] = _section(p) if p.section is None else p.section
     return ParameterDescription(
         **declared,
+        meaning=p.meaning,
         name=p.name,
         form=p.form,
         description=description,

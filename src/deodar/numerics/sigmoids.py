@@ -95,7 +95,7 @@ class Logistic(SigmoidFunction):
         g(u) = \frac{1}{1 + e^{-\beta (u - \theta)}}
 
     Parameters:
-        beta: steepness at the threshold, per unit of activation; > 0.
+        beta: steepness at the threshold; per unit of activation, > 0.
         threshold: theta, activation at which the output is 1/2.
 
     Shapes:
@@ -106,10 +106,8 @@ class Logistic(SigmoidFunction):
         Front. Neurosci. 7:276, eq. 3.
     """
 
-    beta: Annotated[
-        float, Live("1/activation", lower=1e-6, upper=1e6, meaning="steepness at the threshold")
-    ] = 4.0
-    threshold: Annotated[float, Live("activation", meaning="activation of half output")] = 0.0
+    beta: Annotated[float, Live("1/activation", lower=1e-6, upper=1e6)] = 4.0
+    threshold: Annotated[float, Live("activation")] = 0.0
 
     def __call__(self, u: Array) -> Array:
         # with tanh it would be exactly 0 in single precision for values of 1e-8 and less
@@ -162,7 +160,7 @@ class Absolute(SigmoidFunction):
         g(u) = \frac{1}{2} \left( 1 + \frac{\beta (u - \theta)}{1 + \beta |u - \theta|} \right)
 
     Parameters:
-        beta: steepness at the threshold, per unit of activation; > 0. The slope there is beta / 2.
+        beta: steepness at the threshold; per unit of activation, > 0. The slope there is beta / 2.
         threshold: theta, activation at which the output is 1/2.
 
     Shapes:
@@ -172,10 +170,8 @@ class Absolute(SigmoidFunction):
         Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eq. 2.
     """
 
-    beta: Annotated[
-        float, Live("1/activation", lower=1e-6, upper=1e6, meaning="steepness at the threshold")
-    ] = 100.0
-    threshold: Annotated[float, Live("activation", meaning="activation of half output")] = 0.0
+    beta: Annotated[float, Live("1/activation", lower=1e-6, upper=1e6)] = 100.0
+    threshold: Annotated[float, Live("activation")] = 0.0
 
     def __call__(self, u: Array) -> Array:
         v = self.beta * (u - self.threshold)
@@ -225,7 +221,7 @@ class Step(SigmoidFunction):
         27, 77-87.
     """
 
-    threshold: Annotated[float, Live("activation", meaning="activation above which the output is 1")] = 0.0
+    threshold: Annotated[float, Live("activation")] = 0.0
 
     jumps: ClassVar[bool] = True
 
@@ -265,8 +261,8 @@ class Linear(SigmoidFunction):
         no reference
     """
 
-    slope: Annotated[float, Live("1/activation", meaning="output per unit of activation")] = 1.0
-    threshold: Annotated[float, Live("activation", meaning="activation of zero output")] = 0.0
+    slope: Annotated[float, Live("1/activation")] = 1.0
+    threshold: Annotated[float, Live("activation")] = 0.0
 
     def __call__(self, u: Array) -> Array:
         return self.slope * (u - self.threshold)
@@ -290,7 +286,7 @@ class SemiLinear(SigmoidFunction):
         g(u) = \max(0, \mathrm{slope}\, (u - \theta))
 
     Parameters:
-        slope: output per unit of activation above the threshold; >= 0.
+        slope: output per unit of activation; above the threshold, >= 0.
         threshold: theta, activation below which the output is 0.
 
     Shapes:
@@ -301,8 +297,8 @@ class SemiLinear(SigmoidFunction):
         Neural Comput. 21, 478-509 (the rectification f of its eqs. 2.1).
     """
 
-    slope: Annotated[float, Live("1/activation", lower=0, meaning="output per unit of activation")] = 1.0
-    threshold: Annotated[float, Live("activation", meaning="activation below which there is no output")] = 0.0
+    slope: Annotated[float, Live("1/activation", lower=0)] = 1.0
+    threshold: Annotated[float, Live("activation")] = 0.0
 
     def __call__(self, u: Array) -> Array:
         return jnp.maximum(0.0, self.slope * (u - self.threshold))

@@ -26,8 +26,8 @@ class Window(Part):
         w(t) = \begin{cases} 1 & \mathrm{start} \le t < \mathrm{stop} \\ 0 & \text{else} \end{cases}
 
     Parameters:
-        start: start of the window, in the document's time unit.
-        stop: end of the window, excluded, in the document's time unit; by default no run reaches it.
+        start: start of the window; in the document's time unit.
+        stop: end of the window, excluded; in the document's time unit; by default no run reaches it.
 
     Shapes:
         One number at each time.
@@ -36,10 +36,8 @@ class Window(Part):
         no reference
     """
 
-    start: Annotated[float, Live("time", role="moment", meaning="first moment")] = 0.0
-    stop: Annotated[float, Live("time", role="moment", meaning="first moment at which it is off again")] = (
-        FOR_EVER
-    )
+    start: Annotated[float, Live("time", role="moment")] = 0.0
+    stop: Annotated[float, Live("time", role="moment")] = FOR_EVER
 
     short: ClassVar[str] = "also written as a pair: windows=[(100, 400)]"
 

@@ -22,8 +22,8 @@ y = dd.Axis("y", 0, 4, samples=5)
 class Reading(dd.Element):
     """The input from outside the model, plus 1."""
 
-    name: Annotated[str, dd.Recompile(meaning="name")] = ""
-    axes: Annotated[Sequence[dd.Axis], dd.Recompile(meaning="axes")] = ()
+    name: str = ""
+    axes: Sequence[dd.Axis] = ()
 
     inputs: ClassVar[tuple[str, ...]] = ()
     external: ClassVar[str] = "seen"
@@ -52,7 +52,7 @@ class Mask(dd.Coupling):
 class Strength(dd.Coupling):
     """A gain by another name."""
 
-    weight: Annotated[float, dd.Live(meaning="strength")] = 2.0
+    weight: Annotated[float, dd.Live()] = 2.0
 
     linear: ClassVar[bool] = True
     scaled_by: ClassVar[str] = "weight"

@@ -230,7 +230,7 @@ def test_axes_without_a_unit_that_barely_overlap_the_arena_cause_a_warning() -> 
 class Doubling(dd.Coupling):
     """The input times 2, or times the number of a package's user."""
 
-    scale: Annotated[float, dd.Live(meaning="factor")] = 2.0
+    scale: Annotated[float, dd.Live()] = 2.0
 
     def position_units(
         self, ins: Mapping[str, dd.Axes], inputs: Mapping[str, dd.PositionUnits]

@@ -43,13 +43,9 @@ class Kernel(Part):
     A kernel is a sum of separable terms, or the array that `samples` returns.
     """
 
-    boundary: Annotated[
-        Sequence[str] | None,
-        Recompile(
-            choices=BOUNDARIES,
-            meaning="what lies beyond the border, one for all axes or one for each; none: the axis decides",
-        ),
-    ] = dc.field(default=None, kw_only=True)
+    boundary: Annotated[Sequence[str] | None, Recompile(choices=BOUNDARIES)] = dc.field(
+        default=None, kw_only=True
+    )
 
     def terms(self) -> Sequence[Term]:
         """Return the separable terms; amplitudes are live, `along` may only use parameters that rebuild."""

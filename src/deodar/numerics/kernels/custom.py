@@ -38,10 +38,10 @@ class Custom(Kernel):
         weights: array with an odd number of samples on every axis; its middle is distance zero; per unit of
             the axes.
         amplitude: factor.
-        spacing: distance of neighbouring samples in axis units, one value or one for each axis; none: the
+        spacing: distance of neighbouring samples; in axis units, one value or one for each axis; none: the
             field's grid step (the kernel then changes with the grid).
-        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
-            `periodic` on periodic axes, `zero` on others.
+        boundary: what lies beyond the border; `periodic`, `zero`, `reflect` or `replicate`, one value or one
+            for each axis; none: `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         weights: one odd number of samples for each axis of the field.
@@ -51,13 +51,9 @@ class Custom(Kernel):
         its form).
     """
 
-    weights: Annotated[ArrayLike, Rebuild("activation", meaning="weights around distance zero")] = (
-        FrozenArray([0.25, 0.5, 0.25])
-    )
-    amplitude: Annotated[float, Live(meaning="factor")] = 1.0
-    spacing: Annotated[
-        PerAxis | None, Recompile("axis", lower=1e-9, meaning="distance of neighbouring samples")
-    ] = None
+    weights: Annotated[ArrayLike, Rebuild("activation")] = FrozenArray([0.25, 0.5, 0.25])
+    amplitude: Annotated[float, Live()] = 1.0
+    spacing: Annotated[PerAxis | None, Recompile("axis", lower=1e-9)] = None
 
     def bounds(self, axes: Axes) -> Interval:
         if self.spacing is not None or not isinstance(self.weights, FrozenArray):

@@ -16,7 +16,7 @@ from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, hull, signed
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.scalar import Scalar
-from deodar.parameters import Live, PerAxis, Rebuild, Recompile
+from deodar.parameters import Live, PerAxis, Rebuild
 from deodar.registry import register
 
 NARROWEST = 1e-6
@@ -36,12 +36,12 @@ class Gaussian(Kernel):
         k(d) = \mathrm{amplitude} \prod_i \exp\!\left( -\frac{d_i^2}{2 \sigma_i^2} \right)
 
     Parameters:
-        amplitude: weight at the centre, per unit of the axes; if normalized, the integral over all distances.
+        amplitude: weight at the centre; per unit of the axes; if normalized, the integral over all distances.
             On a node the self-excitation.
-        sigma: width in axis units, one value or one for each axis; > 0.
+        sigma: width; in axis units, one value or one for each axis, > 0.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
-            `periodic` on periodic axes, `zero` on others.
+        boundary: what lies beyond the border; `periodic`, `zero`, `reflect` or `replicate`, one value or one
+            for each axis; none: `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -51,11 +51,9 @@ class Gaussian(Kernel):
         eqs. 1 and 10.
     """
 
-    amplitude: Annotated[
-        float, Live("activation", meaning="weight at the centre, or the integral if normalized")
-    ] = 1.0
-    sigma: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width")] = 5.0
-    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
+    amplitude: Annotated[float, Live("activation")] = 1.0
+    sigma: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST)] = 5.0
+    normalized: bool = False
 
     def bounds(self, axes: Axes) -> Interval:
         return signed(self.amplitude * (1.0 if self.normalized else volume(self.sigma, axes)))
@@ -133,16 +131,16 @@ class TruncatedGaussian(Kernel):
         \mathrm{reach}_i = \max(\mathrm{cutoff}\, \sigma_i, \mathrm{least}_i)
 
     Parameters:
-        amplitude: weight at the centre, per unit of the axes; if normalized, the sum over all samples reached
+        amplitude: weight at the centre; per unit of the axes; if normalized, the sum over all samples reached
             times the steps. On a node the self-excitation.
-        sigma: width in axis units, one value or one for each axis; > 0. Far below the step the kernel acts
+        sigma: width; in axis units, one value or one for each axis, > 0. Far below the step the kernel acts
             within one cell.
         cutoff: reach as a multiple of the width; >= 0.
-        least: smallest reach, in axis units, one value or one for each axis: for a narrow Gaussian with the
+        least: smallest reach; in axis units, one value or one for each axis: for a narrow Gaussian with the
             reach of a wider one.
         normalized: whether the amplitude is the kernel's integral.
-        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
-            `periodic` on periodic axes, `zero` on others.
+        boundary: what lies beyond the border; `periodic`, `zero`, `reflect` or `replicate`, one value or one
+            for each axis; none: `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -151,13 +149,11 @@ class TruncatedGaussian(Kernel):
         Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2, sampled and truncated.
     """
 
-    amplitude: Annotated[
-        float, Live("activation", neutral=0.0, meaning="weight at the centre, or the integral if normalized")
-    ] = 1.0
-    sigma: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width")] = 5.0
-    cutoff: Annotated[float, Rebuild(lower=0, meaning="reach as a multiple of the width")] = 5.0
-    least: Annotated[PerAxis, Rebuild("axis", lower=0, meaning="reach at the least")] = 0.0
-    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
+    amplitude: Annotated[float, Live("activation", neutral=0.0)] = 1.0
+    sigma: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST)] = 5.0
+    cutoff: Annotated[float, Rebuild(lower=0)] = 5.0
+    least: Annotated[PerAxis, Rebuild("axis", lower=0)] = 0.0
+    normalized: bool = False
 
     def bounds(self, axes: Axes) -> Interval:
         wide = math.prod(
@@ -201,13 +197,13 @@ class MexicanHat(Kernel):
             \right)
 
     Parameters:
-        excitation: weight of the excitation at the centre (its integral if normalized).
-        sigma_excitation: width of the excitation in axis units, one value or one for each axis; > 0.
-        inhibition: weight of the inhibition at the centre, counted positive (its integral if normalized).
-        sigma_inhibition: width of the inhibition in axis units, one value or one for each axis; > 0.
+        excitation: weight of the excitation at the centre; its integral if normalized.
+        sigma_excitation: width of the excitation; in axis units, one value or one for each axis, > 0.
+        inhibition: weight of the inhibition at the centre, counted positive; its integral if normalized.
+        sigma_inhibition: width of the inhibition; in axis units, one value or one for each axis, > 0.
         normalized: whether the weights are integrals.
-        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
-            `periodic` on periodic axes, `zero` on others.
+        boundary: what lies beyond the border; `periodic`, `zero`, `reflect` or `replicate`, one value or one
+            for each axis; none: `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -216,15 +212,11 @@ class MexicanHat(Kernel):
         Sandamirskaya (2014), Front. Neurosci. 7:276, eq. 2.
     """
 
-    excitation: Annotated[float, Live("activation", meaning="weight of the excitation")] = 15.0
-    sigma_excitation: Annotated[
-        PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the excitation")
-    ] = 5.0
-    inhibition: Annotated[float, Live("activation", meaning="weight of the inhibition")] = 8.0
-    sigma_inhibition: Annotated[
-        PerAxis, Rebuild("axis", lower=NARROWEST, meaning="width of the inhibition")
-    ] = 10.0
-    normalized: Annotated[bool, Recompile(meaning="whether the weights are integrals")] = False
+    excitation: Annotated[float, Live("activation")] = 15.0
+    sigma_excitation: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST)] = 5.0
+    inhibition: Annotated[float, Live("activation")] = 8.0
+    sigma_inhibition: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST)] = 10.0
+    normalized: bool = False
 
     def bounds(self, axes: Axes) -> Interval:
         up, down = (
@@ -255,11 +247,11 @@ class Box(Kernel):
             \text{else} \end{cases}
 
     Parameters:
-        amplitude: weight inside, per unit of the axes; if normalized, the integral over all distances.
-        width: full width in axis units, one value or one for each axis; > 0.
+        amplitude: weight inside; per unit of the axes; if normalized, the integral over all distances.
+        width: full width; in axis units, one value or one for each axis, > 0.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
-            `periodic` on periodic axes, `zero` on others.
+        boundary: what lies beyond the border; `periodic`, `zero`, `reflect` or `replicate`, one value or one
+            for each axis; none: `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -268,11 +260,9 @@ class Box(Kernel):
         no reference
     """
 
-    amplitude: Annotated[
-        float, Live("activation", meaning="weight inside, or the integral if normalized")
-    ] = 1.0
-    width: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST, meaning="full width")] = 10.0
-    normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the kernel's integral")] = False
+    amplitude: Annotated[float, Live("activation")] = 1.0
+    width: Annotated[PerAxis, Rebuild("axis", lower=NARROWEST)] = 10.0
+    normalized: bool = False
 
     def bounds(self, axes: Axes) -> Interval:
         return signed(
@@ -318,10 +308,10 @@ class Shifted(Kernel):
         k(d) = \mathrm{inner}(d - \mathrm{shift})
 
     Parameters:
-        kernel: the inner kernel, a sum of separable terms (not a custom array).
-        shift: the shift, in axis units, one value or one for each axis.
-        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
-            `periodic` on periodic axes, `zero` on others.
+        kernel: the inner kernel; a sum of separable terms (not a custom array).
+        shift: the shift; in axis units, one value or one for each axis.
+        boundary: what lies beyond the border; `periodic`, `zero`, `reflect` or `replicate`, one value or one
+            for each axis; none: `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.
@@ -331,8 +321,8 @@ class Shifted(Kernel):
         A (the shifts between its fields).
     """
 
-    kernel: Annotated[Kernel, Recompile(meaning="the inner kernel")] = Gaussian()
-    shift: Annotated[PerAxis, Rebuild("axis", meaning="how far the kernel is moved")] = 0.0
+    kernel: Kernel = Gaussian()
+    shift: Annotated[PerAxis, Rebuild("axis")] = 0.0
 
     def bounds(self, axes: Axes) -> Interval:
         return self.kernel.bounds(axes)
