@@ -81,7 +81,7 @@ def rounding() -> None:
 
 
 def sizes() -> None:
-    from deodar.model.graph import graph
+    from deodar.model.document_graph import graph
     from deodar.session.memory import copy_bytes
 
     for name, us in BATCHED.items():

@@ -104,6 +104,17 @@ def structure(part: Part, neutral: frozenset[str] = frozenset(), prefix: str = "
     return tuple(out)
 
 
+def same_structure(a: Part, b: Part) -> bool:
+    """Return whether two parts have equal structures; quick where only numbers differ."""
+    if type(a) is not type(b):
+        return False
+    moved = [p for p in parameters(type(a)) if getattr(a, p.name) is not getattr(b, p.name)]
+    numbers = all(p.traced and isinstance(getattr(a, p.name), float) for p in moved)
+    return (numbers and all(isinstance(getattr(b, p.name), float) for p in moved)) or (
+        structure(a) == structure(b)
+    )
+
+
 def parameter_values(part: Part) -> Iterator[tuple[Parameter, Any]]:
     """Yield the declaration and the value of every parameter of a part and, at any depth, of its inner parts.
 
@@ -163,13 +174,18 @@ def _may_limit(cls: type[Part]) -> frozenset[str]:
     return frozenset(p.name for p in parameters(cls) if p.role in LIMITING or p.form in ("part", "parts"))
 
 
-def resting(part: Part) -> frozenset[str]:
-    """Return the leaves that have their declared neutral value."""
-    return frozenset(
-        path
-        for path, value, p in leaves(part)
+def resting(part: Part) -> dict[str, Parameter]:
+    """Return the leaves that have their declared neutral value, with their declarations."""
+    return {
+        path: p
+        for path, value, p in leaves(part, only=_may_rest(type(part)))
         if p.neutral is not None and np.ndim(value) == 0 and value == p.neutral
-    )
+    }
+
+
+@functools.cache
+def _may_rest(cls: type[Part]) -> frozenset[str]:
+    return frozenset(p.name for p in parameters(cls) if p.neutral is not None or p.form in ("part", "parts"))
 
 
 def is_neutral(value: Any) -> bool:

@@ -18,7 +18,7 @@ from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, TimeError, option
 from deodar.importers.report import ImportReport, Line, Verdict
 from deodar.model.document import Connection, Document, Entry
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.model import Model
 from deodar.model.resolve import Node
 from deodar.model.unit import unit_seconds

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.compiler.build import Build
 from deodar.compiler.plan import plan
 from deodar.couplings.convolutions import Convolve
 
@@ -108,7 +109,9 @@ def test_shuffled_architectures_have_the_size_of_the_originals(
         assert sum(isinstance(e, dd.Field) and len(e.axes) > 0 for e in elements) == fields
         assert sum(isinstance(e, dd.Field) and not e.axes for e in elements) == nodes
         assert sum(isinstance(e, Convolve) for e in elements) == couplings
-        sizes.append((len(elements), len(model.document.connections), len(plan(model.document).groups)))
+        sizes.append(
+            (len(elements), len(model.document.connections), len(plan(Build(model.document)).groups))
+        )
         edges.append({(c.source, c.target) for c in model.document.connections})
     assert sizes[0] == sizes[1] and edges[0] != edges[1]
 

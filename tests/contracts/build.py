@@ -19,7 +19,7 @@ from deodar.elements.changing_stimuli import Noise
 from deodar.elements.stimuli import Boost
 from deodar.leaves import leaves
 from deodar.model.check import problems as structural
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes, shape
 from deodar.parameters import Part, parameters

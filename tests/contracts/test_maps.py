@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.numerics.axes import shape
 from deodar.parameters import FrozenArray
 from tests.contracts.build import KINDS, around

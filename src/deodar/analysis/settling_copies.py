@@ -7,10 +7,11 @@ import numpy as np
 from jax import Array
 
 from deodar.compiler.arguments import ProgramState
+from deodar.compiler.build import Build
 from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.functions import Constants
-from deodar.compiler.plan import Leaf
 from deodar.model import edit
+from deodar.model.document import Leaf
 from deodar.model.model import Model
 
 
@@ -38,7 +39,7 @@ class SettlingCopies:
     ) -> None:
         doc = edit.describe(model.document, dt=dt, t0=0.0)
         drives = {str(k): leaves for k, leaves in enumerate(parameters)}
-        self.dynamics = Dynamics(model, doc, precision, drives=drives, width=copies, plain=False)
+        self.dynamics = Dynamics(model, Build(doc, precision), drives, width=copies, plain=False)
         self.count = copies
         self.rebuilt = any(self.dynamics.rebuilt)
         self._axes = [0 if differs else None for differs in self.dynamics.rebuilt]

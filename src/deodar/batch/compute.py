@@ -15,6 +15,7 @@ from deodar.batch.run_file import RunOutput
 from deodar.batch.run_plan import RunPlan
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.compiler import hosts
+from deodar.compiler.build import Build
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.executable import Executable
@@ -85,7 +86,7 @@ def _in_one(plan: RunPlan, part: RecordedPiece | None) -> pieces.PieceResult:
         distribution, filled = plan.filled()
         place = distribution or plan.request.on.device
         body = embodied(plan.doc, plan.world)
-        dynamics = Dynamics(plan.model, plan.doc, *plan.arithmetic, place, body)
+        dynamics = Dynamics(plan.model, Build(plan.doc, *plan.arithmetic, place, body))
         noise, values = plan.noise(filled), plan.values(filled)
         run = Run(dynamics, filled, plan.sampling.dt, plan.request.seed, noise, plan.world, values)
         program = run.program

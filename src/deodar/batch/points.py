@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from deodar.compiler.build import cost
 from deodar.compiler.driven import driven
-from deodar.compiler.plan import Leaf, cost
 from deodar.errors import ParameterError
 from deodar.leaves import leaves
 from deodar.model import edit
-from deodar.model.document import Document
+from deodar.model.document import Document, Leaf
 from deodar.parameters import real, show
 from deodar.sweep import POINT, Points, Sweep, checked
 

@@ -19,7 +19,7 @@ from deodar.elements.field import Field
 from deodar.errors import ParameterError, WorkerError
 from deodar.model import find
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.model import Model
 from deodar.numerics.axes import shape
 from deodar.parameters import show

@@ -36,6 +36,8 @@ def run(args: argparse.Namespace) -> Answer:
     """Print the plan of a document."""
     # start-up time: these bring JAX
     from deodar.compiler import device
+    from deodar.compiler.build import Build
+    from deodar.compiler.division import Distribution
     from deodar.compiler.plan import plan
     from deodar.compiler.shard import planned
     from deodar.experiments.experiment import Experiment
@@ -51,11 +53,12 @@ def run(args: argparse.Namespace) -> Answer:
     model = load(args.file)
     model.require()
     precision = args.precision or "float32"
-    exact = args.accuracy == "exact" or precision == "float64"
     count = len(device.several("all", args.device)) if args.devices == "all" else args.devices
     if count is not None:
         device.require_count(count)
-    program_plan = plan(model.document, exact=exact, devices=count or 1)
+    # they need not be here
+    on = Distribution((device.find(),) * count, "field") if count is not None and count > 1 else None
+    program_plan = plan(Build(model.document, precision, args.accuracy or "default", on))
     if program_plan.shards is None:
         described = program_plan.describe()
         return Answer({"plan": described.splitlines()}, [described])

@@ -6,7 +6,7 @@ import dataclasses as dc
 import math
 from typing import Literal
 
-from deodar.compiler.plan import Leaf
+from deodar.model.document import Leaf
 
 Divided = Literal["points", "trials"]
 """The copies that several devices divide among themselves: points of a sweep, or trials."""

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from deodar.compiler.plan import Leaf
 from deodar.errors import ParameterError
 from deodar.leaves import get, leaves
 from deodar.model import find
-from deodar.model.document import Document
+from deodar.model.document import Document, Leaf
 
 
 def driven(doc: Document, path: str) -> list[Leaf]:

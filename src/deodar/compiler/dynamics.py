@@ -42,28 +42,23 @@ from jax import Array
 from jax.core import Tracer
 
 from deodar.compiler.arguments import BodyState, NoiseKeys, ProgramState, ProgramValues
-from deodar.compiler.body import Body
+from deodar.compiler.build import Build
 from deodar.compiler.copy_batch import Batch
-from deodar.compiler.division import Distribution
 from deodar.compiler.executable import Executable, executable
 from deodar.compiler.functions import Constants
 from deodar.compiler.moment import packed, unpacked
-from deodar.compiler.plan import Leaf
 from deodar.compiler.program import Chunk, Port, Program, array_key, precision_context
 from deodar.element import Arrays
 from deodar.errors import ParameterError, UnknownName, WorldError, did_you_mean
 from deodar.leaves import get
 from deodar.model import find
-from deodar.model.document import Document
+from deodar.model.document import Document, Leaf
 from deodar.model.model import Model
 from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW
 from deodar.parameters import FrozenArray
 from deodar.summary import Summarised, Summary
-
-ONE = Batch()
-"""One copy without an axis for copies."""
 
 ByPath = Mapping[str, Any]
 """Arrays or numbers by path: of parameters, or of inputs."""
@@ -105,34 +100,36 @@ class Dynamics(Summarised):
 
     Attributes:
         model: the model that keeps the programs.
-        doc: its document, or one made from it, with the Euler step and the time at tick 0.
-        precision: float32 or float64.
-        accuracy: default, or exact: every kernel is applied as a matrix.
-        device: the device, or the devices that divide the work; None: the CPU.
-        body: the world that is computed inside the step; None: there is none, or it is on the host.
+        build: what the program is built from: the document of the model, or one made from it, with the Euler
+            step and the time at tick 0; the precision, the device, and the world inside the step.
         drives: for each parameter of the pure functions the leaves that it drives.
         width: number of copies for which the pure functions choose their operations.
         plain: whether the pure functions do without compiled kernels, so that they have derivatives.
     """
 
     model: Model
-    doc: Document
-    precision: str = "float32"
-    accuracy: str = "default"
-    device: str | Distribution | None = None
-    body: Body | None = None
+    build: Build
     drives: Mapping[str, Sequence[Leaf]] = dc.field(default_factory=dict[str, Sequence[Leaf]])
     width: int = 1
     plain: bool = True
 
-    def compiled(self, copies: Batch = ONE, plain: bool = False) -> Executable:
-        """Return the program of some copies; the model keeps it, so that it compiles once."""
-        place = self.device
-        return executable(
-            self.model, self.doc, self.precision, copies, place, self.accuracy, self.body, plain
-        )
+    def compiled(self, **changes: Any) -> Executable:
+        """Return the program of the build, or of the build with changes; the model keeps it, so that it
+        compiles once.
+        """
+        return executable(self.model, dc.replace(self.build, **changes))
 
     # ------------------------------------------------------------------------------------------ what they are
+
+    @property
+    def doc(self) -> Document:
+        """The document."""
+        return self.build.doc
+
+    @property
+    def precision(self) -> str:
+        """Float32 or float64."""
+        return self.build.precision
 
     @property
     def dt(self) -> float:
@@ -149,7 +146,7 @@ class Dynamics(Summarised):
         """The program whose functions are called."""
         points = self.width if self.width > 1 else None
         sweep = tuple(tuple(self.drives[name]) for name in self._numbers)
-        return self.compiled(Batch(points=points, sweep=sweep), self.plain)
+        return self.compiled(batch=Batch(points=points, sweep=sweep), plain=self.plain)
 
     def context(self) -> contextlib.AbstractContextManager[None]:
         """Return the context in which the functions are called and traced: the precision of the model."""
@@ -189,7 +186,7 @@ class Dynamics(Summarised):
                 host.
         """
         with self._traced() as program:
-            if self.body is None:
+            if self.build.body is None:
                 return TrialKey(program.keys(jnp.uint32(seed), jnp.uint32(trial)), {}, None)
             if isinstance(seed, Tracer) or isinstance(trial, Tracer):
                 raise WorldError(
@@ -199,8 +196,8 @@ class Dynamics(Summarised):
             empty: ProgramState = {"groups": [], "held": {}}
             with jax.ensure_compile_time_eval():
                 noise = program.keys(jnp.uint32(seed), jnp.uint32(trial))
-                self.body.world.reset(int(seed), [int(trial)], self.precision)
-                shared, state, noise = self.executable.embodied(self.body.world, empty, noise)
+                self.build.body.world.reset(int(seed), [int(trial)], self.precision)
+                shared, state, noise = self.executable.embodied(self.build.body.world, empty, noise)
             assert "world" in state
             # outside of jit a world would index its arrays of the host by traced values
             return jax.tree.map(jnp.asarray, TrialKey(noise, shared, state["world"]))
@@ -372,8 +369,8 @@ class Dynamics(Summarised):
     @cached_property
     def _packed(self) -> tuple[np.ndarray, np.ndarray]:
         period = 1
-        if self.body is not None:
-            lasts = self.body.world.period
+        if self.build.body is not None:
+            lasts = self.build.body.world.period
             unit = unit_seconds(self.doc.time_unit) * 1e3
             period = 0 if lasts is None else round(lasts / unit / self.dt)
         clock = {"period": period, "start": self.doc.t0, "dt": self.dt}
@@ -394,7 +391,7 @@ class Dynamics(Summarised):
         if readings:
             chunk = self._chunk(program, prepared.values, prepared.constants, readings)
         values: ProgramValues = chunk.values
-        if self.body is not None:
+        if self.build.body is not None:
             values = {**values, "world": key.shared}
         return chunk._replace(values=values, keys=key.noise)
 
@@ -407,7 +404,7 @@ class Dynamics(Summarised):
             g, _ = plan.row[entry.id]
             array = jnp.asarray(value, dtype)
             if entry.id in plan.sensors:
-                if self.body is not None:
+                if self.build.body is not None:
                     raise WorldError("reads the world, so that it has no input of its own", where=path)
                 readings[entry.id] = jnp.broadcast_to(array, shape(plan.groups[g].like.outs["output"]))
             elif entry.every == 1 and self.executable.program.injectable(g):

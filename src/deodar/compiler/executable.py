@@ -21,7 +21,6 @@ from jax.sharding import Sharding
 from jax.stages import Compiled, Traced
 
 from deodar.compiler import cache, host, hosts
-from deodar.compiler import device as devices
 from deodar.compiler.arguments import (
     EitherArray,
     NoiseKeys,
@@ -30,21 +29,21 @@ from deodar.compiler.arguments import (
     ProgramState,
     ProgramValues,
 )
-from deodar.compiler.body import Body, batched
-from deodar.compiler.copy_batch import Batch
+from deodar.compiler.body import batched
+from deodar.compiler.build import Build
 from deodar.compiler.device import Device
-from deodar.compiler.division import Distribution, DividedCopies, Division
+from deodar.compiler.division import DividedCopies, Division
 from deodar.compiler.functions import Constants, Replacements
 from deodar.compiler.leaf_layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
-from deodar.compiler.plan import Leaf, Plan, plan, strategies_of
+from deodar.compiler.plan import Plan, plan
 from deodar.compiler.program import BEGUN, Chunk, Port, Program, precision_context
 from deodar.compiler.shard import DividedFields
 from deodar.element import Arrays
-from deodar.errors import Fix, ModelError, ParameterError, Untrusted
-from deodar.leaves import parameter_values, resting, structure
-from deodar.model.check import problems
+from deodar.errors import Fix, Untrusted
+from deodar.leaves import parameter_values
 from deodar.model.document import Document
+from deodar.model.document_graph import graph
 from deodar.model.model import Model
 from deodar.numerics import native
 from deodar.numerics.axes import Axes, shape
@@ -74,8 +73,6 @@ Recorded = tuple[Stepped, tuple[Array, ...]]
 ChunkResult = tuple[ProgramState, tuple[Array, ...], tuple[Array, list[Array]]]
 """The state after a chunk, the records of each port, and the result of `Program.finite`."""
 
-PRECISIONS = ("float32", "float64")
-ACCURACIES = ("default", "exact")
 MOST_KEPT = 16
 """Most executables that one model keeps; the oldest are dropped first."""
 
@@ -93,61 +90,6 @@ BUFFER_BYTES = 16 * 2**20
 """Size of the recording buffer of a chunk."""
 
 
-@dc.dataclass(frozen=True, eq=False)
-class ProgramRequest:
-    """What an executable is made from. Requests with equal keys ask for the same one.
-
-    Attributes:
-        doc: the document.
-        precision: float32 or float64.
-        batch: the copies that run at once.
-        device: where they run; of several devices the first that belongs to this host.
-        exact: whether every kernel is applied by its matrix.
-        body: the world inside the step.
-        distribution: the devices among which a program is divided; None: it runs on one.
-        plain: whether there are no compiled kernels, which have no derivatives.
-    """
-
-    doc: Document
-    precision: str
-    batch: Batch
-    device: Device
-    exact: bool = False
-    body: Body | None = None
-    distribution: Distribution | None = None
-    plain: bool = False
-
-    @functools.cached_property
-    def key(self) -> Hashable:
-        doc, distribution = self.doc, self.distribution
-        lifted = frozenset(leaf for leafs in self.batch.sweep for leaf in leafs)
-        neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
-        outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
-        part = self.batch if distribution is None else distribution.part(self.batch)
-        devices_of = len(distribution.devices) if distribution and distribution.along == "field" else 1
-        choices = (doc, lifted, part.planned, self.body is not None, devices_of)
-        return (
-            signature(doc),
-            () if self.exact else tuple(strategies_of(*choices).items()),
-            outside,
-            self.precision,
-            self.exact,
-            self.batch,
-            neutral,
-            devices.name(self.device),
-            native.version(None if self.plain else native.kernels(self.device.platform, self.precision)),
-            self.body and self.body.key,
-            self.plain,
-            distribution and distribution.key,
-        )
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, ProgramRequest) and self.key == other.key
-
-    def __hash__(self) -> int:
-        return hash(self.key)
-
-
 class Executable:
     """The compiled functions of one document structure, precision and batch.
 
@@ -159,61 +101,41 @@ class Executable:
         division: how it is divided among them.
         fields: the same, if the fields of one copy are divided.
         part: the copies that one device computes.
-        exact: whether every kernel is applied by its matrix, by choice or because of double precision.
         kernels: the compiled kernels that it calls, if there are any.
         traced: how many functions were traced so far; running does not change it.
         compiled: how many of them were not found in the cache.
         seconds: CPU time spent on planning, tracing and compiling.
     """
 
-    def __init__(self, request: ProgramRequest) -> None:
-        doc, precision, batch = request.doc, request.precision, request.batch
-        body, distribution = request.body, request.distribution
+    def __init__(self, build: Build) -> None:
         began = time.process_time()
-        self.distribution = distribution
-        self.across = distribution is not None and distribution.across
-        self.device: Device = request.device
-        self.precision, self.exact = precision, request.exact
-        self.batch = batch
-        self.part = batch if distribution is None else distribution.part(batch)
-        fields = None if distribution is None else distribution.of_fields
-        # a call of a kernel cannot be divided
-        without = request.plain or fields is not None
-        self.kernels = None if without else native.kernels(self.device.platform, precision)
-        lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
-        self.plan: Plan = plan(
-            doc,
-            lifted,
-            self.exact or precision == "float64",
-            self.part.planned,
-            readings="constant" if body is None else body.readings,
-            trials=self.part.trials or 1,
-            devices=1 if fields is None else len(fields.devices),
-        )
-        self.fields = (
-            None if fields is None else DividedFields(fields, self.plan, np.dtype(precision).itemsize)
-        )
-        self.layout = LeafLayout(self.plan, precision, batch.sweep)
+        batch, body, fields = build.batch, build.body, build.fields
+        self.batch, self.body, self.part = batch, body, build.part
+        self.distribution, self.device, self.precision = build.distribution, build.device, build.precision
+        self.across = self.distribution is not None and self.distribution.across
+        self.kernels = build.kernels
+        self.plan: Plan = plan(build)
+        self.fields = fields and DividedFields(fields, self.plan, np.dtype(self.precision).itemsize)
+        self.layout = LeafLayout(self.plan, self.precision, batch.sweep)
         # a block of two deviates is drawn in one branch for all copies, unless a kernel contains the branch
         alike = self.kernels is not None or batch.restarts % 2 == 0
         self.program = Program(
             self.plan,
-            precision,
+            self.precision,
             self.layout.swept,
             body,
             copies=self.part.size if self.device.platform == "cpu" and alike else 0,
-            replaced=Replacements(self.kernels, self.fields and self.fields.tapped, request.plain),
-            pictures=body is None and batch.points is None and distribution is None,
+            replaced=Replacements(self.kernels, self.fields and self.fields.tapped, build.plain),
+            pictures=body is None and batch.points is None and self.distribution is None,
         )
         self.division: Division | None = self.fields
-        if distribution is not None and self.fields is None:
-            self.division = DividedCopies(distribution, batch, self.program.rebuilt)
-        self.body = body
+        if self.distribution is not None and self.fields is None:
+            self.division = DividedCopies(self.distribution, batch, self.program.rebuilt)
         self.traced = 0
         self.compiled = 0
         self.seconds = 0.0
         self._compiled_parts: dict[Hashable, Any] = {}
-        values: ProgramValues = self.values(doc)
+        values: ProgramValues = self.values(build.doc)
         self._example: ProgramArguments | None = None
         self._prepare, constants = self.once(self.program.prepare, values)
         numbers = np.zeros(batch.numbered, np.uint32)
@@ -240,10 +162,6 @@ class Executable:
         return jax.tree.map(_form, example, self.division.shardings(example))
 
     # ------------------------------------------------------------------------------------------------- values
-
-    def holds(self, leaf: Leaf) -> bool:
-        """Return whether a leaf is part of the program; if not, it has its neutral value and is omitted."""
-        return self.layout.holds(leaf)
 
     def values(self, doc: Document, swept: Sequence[np.ndarray] | None = None) -> ProgramValues:
         """The parameters of a document of this structure, on the host."""
@@ -633,64 +551,33 @@ def _alone(of_copy: OneCopy[Result]) -> OneCopy[Result]:
     return single
 
 
-def executable(
-    model: Model,
-    doc: Document | None = None,
-    precision: str = "float32",
-    batch: Batch | None = None,
-    device: str | Distribution | None = None,
-    accuracy: str = "default",
-    body: Body | None = None,
-    plain: bool = False,
-) -> Executable:
-    """The executable of a document, by default the model's present one, for the CPU, a device or several;
-    kept by the model, so that it compiles once.
-
-    `accuracy`: "exact" applies every kernel by its matrix, as double precision always does; "default" may
-    take what is cheaper and errs by less than 1e-4 in activation. `plain`: no compiled kernels, which have no
-    derivatives.
-    """
-    batch, doc = batch or Batch(), doc or model.document
-    distribution = device if isinstance(device, Distribution) else None
-    place = devices.find(device) if not isinstance(device, Distribution) else device.own
-    if precision not in PRECISIONS:
-        raise ParameterError(f"precision is {precision!r}; expected float32 or float64")
-    if accuracy not in ACCURACIES:
-        raise ParameterError(f"accuracy is {accuracy!r}; expected default or exact")
-    exact = accuracy == "exact" or precision == "float64"
-    require_trust(model, doc)
-    request = ProgramRequest(doc, precision, batch, place, exact, body, distribution, plain)
-    program = model.programs.get(request.key)
+def executable(model: Model, build: Build) -> Executable:
+    """Return the program of a build; the model keeps it, so that it compiles once."""
+    require_trust(model, build.doc)
+    if build.doc is model.document:
+        model.require()  # which names the lines of a script
+    graph(build.doc).required()
+    program = model.programs.get(build.key)
     if program is None:
-        if doc is model.document:
-            model.require()
-        elif faults := problems(doc):
-            raise ModelError(faults)
         while len(model.programs) >= MOST_KEPT:
             model.programs.pop(next(iter(model.programs)), None)  # another thread may have dropped it
-        program = _shared(request) if _bytes(doc) <= SHARED_BYTES else Executable(request)
-        model.programs[request.key] = program
+        program = _shared(build) if _bytes(build.doc) <= SHARED_BYTES else Executable(build)
+        model.programs[build.key] = program
     return program
 
 
 @functools.lru_cache(maxsize=48)
-def _shared(request: ProgramRequest) -> Executable:
+def _shared(build: Build) -> Executable:
     """The executable of all models of this process that ask for the same: one that is built again, as by a
     notebook cell, compiles nothing.
     """
-    return Executable(request)
+    return Executable(build)
 
 
 def _bytes(doc: Document) -> int:
     """Return the size in bytes of the arrays among the parameters of a document."""
     leaves = (leaf for e in doc.entries for _, leaf in parameter_values(e.element))
     return sum(leaf.data.nbytes for leaf in leaves if isinstance(leaf, FrozenArray))
-
-
-def signature(doc: Document) -> Hashable:
-    """Return a key whose change requires a new program: all but names and the values of traced leaves."""
-    entries = tuple((e.id, e.every, structure(e.element)) for e in sorted(doc.entries, key=lambda e: e.id))
-    return (entries, tuple(sorted(dc.astuple(c) for c in doc.connections)))
 
 
 def require_trust(model: Model, doc: Document) -> None:

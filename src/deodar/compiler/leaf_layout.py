@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.compiler.arguments import EitherArray, ProgramValues
-from deodar.compiler.plan import Leaf, Plan, RowGroup
+from deodar.compiler.plan import Plan, RowGroup
 from deodar.compiler.program import array_key
 from deodar.errors import ParameterError
 from deodar.leaves import leaves
-from deodar.model.document import Document
+from deodar.model.document import Document, Leaf
 from deodar.numerics.exact import LOW, split
 
 
@@ -36,11 +36,6 @@ class LeafLayout:
         ident, path = leaf
         g, r = self.plan.row[ident]
         return self.plan.groups[g].offset[path] + r
-
-    def holds(self, leaf: Leaf) -> bool:
-        """Return whether a leaf is part of the program; if not, it has its neutral value and is omitted."""
-        group = self._group(leaf[0])
-        return leaf[1] in group.offset or leaf[1] in group.arrays
 
     def values(self, doc: Document, points: int, swept: Sequence[np.ndarray] | None = None) -> ProgramValues:
         """The parameters of a document of this structure, on the host; `swept`: the values of each entry of

@@ -8,30 +8,19 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Hashable, Iterable, Mapping, Sequence
-from typing import Literal
 
 import numpy as np
 
-from deodar.compiler.divided_axis import divided_axis
+from deodar.compiler.build import Build, cost, still
 from deodar.compiler.sharing import shared
-from deodar.compiler.strategies import EXACT, Strategy, strategies
-from deodar.leaves import bind, leaves, resting, structure
-from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.compiler.strategies import EXACT, Strategy
+from deodar.leaves import bind, leaves, structure
+from deodar.model.document_graph import graph
 from deodar.model.order import NodeRole
-from deodar.model.resolve import Instant, Node, reach, readers
+from deodar.model.resolve import Instant, Node, reach
 from deodar.numerics.axes import Axes
-from deodar.numerics.choice import MANY, Shards
+from deodar.numerics.choice import Shards
 from deodar.numerics.exact import LOW
-from deodar.parameters import Parameter
-
-Leaf = tuple[str, str]
-"""Element id and path of a traced leaf inside the element."""
-
-Readings = Literal["constant", "changing", "held"]
-"""How readings of sensors change during a chunk: not at all; at every step, with a world inside the step; or
-such a world holds each reading for several steps.
-"""
 
 
 @dc.dataclass
@@ -173,94 +162,39 @@ def by_structure(node: Node, still: bool, neutral: frozenset[str], strategy: Str
     return (node.level, node.every, still, structure(node.element, neutral), ins, outs, strategy, alone)
 
 
-def plan(
-    doc: Document,
-    lifted: frozenset[Leaf] = frozenset(),
-    exact: bool = False,
-    copies: int = 1,
-    readings: Readings = "constant",
-    trials: int = 1,
-    devices: int = 1,
-) -> Plan:
-    """The plan of a document.
-
-    Args:
-        doc: a document without problems, else they are raised together.
-        lifted: leaves that are traced although they have their neutral value (because they are swept, or have
-            left it once).
-        exact: whether all kernels are to be applied by matrices. Those of which a width is lifted always are.
-        copies: how many copies of the model run at once.
-        readings: how readings of sensors change during a chunk.
-        trials: how many of the copies have the same parameters.
-        devices: number of devices that divide the fields of one copy.
+def plan(build: Build) -> Plan:
+    """Return the plan of a program.
 
     Raises:
-        ModelError: the document has problems.
-        DeviceError: it has no axis that these devices can divide.
+        ModelError: the document has problems, which are raised together.
+        DeviceError: it has no axis that the devices can divide.
     """
-    found = graph(doc).required()
-    nodes = found.nodes
-    neutral = {n.id: _neutral(n, lifted) for n in nodes}
-    still = _still(nodes, readings != "constant")
-    shards = divided_axis(nodes, devices) if devices > 1 else None
-    swept = _swept(nodes, lifted)
-    strategy_of = strategies(nodes, still, {n.id for n in nodes} if exact else swept, copies, shards)
-    if copies // trials >= MANY > trials:
-        for i in {i for i, path in lifted if path.startswith("kernel.")} - swept:
-            strategy_of[i] = dc.replace(strategy_of[i], apart=True)
-    nodes = shared(nodes, strategy_of)
-    sensory = _sensory(nodes, still) if readings == "held" else dict.fromkeys(still, False)
-    groups, row = _groups(nodes, neutral, still, sensory, strategy_of)
+    acts, strategy_of = graph(build.doc).required().acts, dict(build.strategies)
+    nodes, constant = shared(graph(build.doc).nodes, strategy_of), build.still
+    neutral = dict.fromkeys((n.id for n in nodes), frozenset[str]())
+    neutral |= {e.id: frozenset(path for _, path in build.omitted(e)) for e in build.doc.entries}
+    lasting = build.body is not None and build.body.holds
+    sensory = _sensory(nodes, constant) if lasting else dict.fromkeys(constant, False)
+    groups, row = _groups(nodes, neutral, constant, sensory, strategy_of)
     size = _place(groups, neutral)
-    calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in found.acts))
+    calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
     ports = [(g, port) for g, group in enumerate(groups) for port in group.like.reads]
     reads = {(g, port): _reads(groups[g], port, groups, row) for g, port in ports}
     sensors = {ident: k for k, ident in enumerate(sorted(n.id for n in nodes if n.element.external))}
     ticks = int(np.lcm.reduce([n.every for n in nodes] or [1]))
-    return Plan(groups, calls, reads, row, sensors, size, ticks, shards)
+    return Plan(groups, calls, reads, row, sensors, size, ticks, build.shards)
 
 
-def strategies_of(
-    doc: Document,
-    lifted: frozenset[Leaf] = frozenset(),
-    copies: int = 1,
-    embodied: bool = False,
-    devices: int = 1,
-) -> dict[str, Strategy]:
-    """Return the strategy of each element for its kernels, if not matrices."""
-    nodes = graph(doc).nodes
-    if graph(doc).problems or not any(n.element.kernels() for n in nodes):
-        return {}
-    shards = divided_axis(nodes, devices) if devices > 1 else None
-    strategy_of = strategies(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies, shards)
-    return {i: strategy for i, strategy in sorted(strategy_of.items()) if strategy != EXACT}
-
-
-def _still(nodes: Sequence[Node], embodied: bool) -> dict[str, bool]:
-
-    def changes(n: Node) -> bool:
-        alone = not n.element.stateful and n.element.steady() and n.element.noise_axes() is None
-        return not alone or (embodied and bool(n.element.external))
-
-    changing = reach((n.id for n in nodes if changes(n)), readers(nodes).__getitem__)
-    return {n.id: n.id not in changing for n in nodes}
-
-
-def _sensory(nodes: Sequence[Node], still: Mapping[str, bool]) -> dict[str, bool]:
+def _sensory(nodes: Sequence[Node], constant: Mapping[str, bool]) -> dict[str, bool]:
     """Return whether each node is constant between two readings that are held, and changes with them."""
-    between = _still(nodes, False)
-    return {n.id: between[n.id] and not still[n.id] and not n.element.external for n in nodes}
-
-
-def _neutral(n: Node, lifted: frozenset[Leaf]) -> frozenset[str]:
-    """Return the leaves that have their neutral value and keep it."""
-    return frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted)
+    between = still(nodes, False)
+    return {n.id: between[n.id] and not constant[n.id] and not n.element.external for n in nodes}
 
 
 def _groups(
     nodes: Sequence[Node],
     neutral: Mapping[str, frozenset[str]],
-    still: Mapping[str, bool],
+    constant: Mapping[str, bool],
     sensory: Mapping[str, bool],
     strategy_of: Mapping[str, Strategy],
 ) -> tuple[list[RowGroup], dict[str, tuple[int, int]]]:
@@ -269,23 +203,16 @@ def _groups(
     row: dict[str, tuple[int, int]] = {}
     # by stored id, so that the order of declaration has no effect
     for n in sorted(nodes, key=lambda n: n.id):
-        key = (by_structure(n, still[n.id], neutral[n.id], strategy_of[n.id]), sensory[n.id])
+        key = (by_structure(n, constant[n.id], neutral[n.id], strategy_of[n.id]), sensory[n.id])
         g = keys.setdefault(key, len(groups))
         if g == len(groups):
             # noise at its neutral strength 0 is omitted from the program, unless that value may change
             probe = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
-            group = RowGroup([], {}, (), {}, still[n.id], probe.noise_axes(), strategy_of[n.id])
+            group = RowGroup([], {}, (), {}, constant[n.id], probe.noise_axes(), strategy_of[n.id])
             groups.append(dc.replace(group, sensory=sensory[n.id]))
         row[n.id] = (g, groups[g].rows)
         groups[g].nodes.append(n)
     return groups, row
-
-
-def _swept(nodes: Sequence[Node], lifted: frozenset[Leaf]) -> set[str]:
-    """Return the nodes whose constants are computed for several values at once."""
-    by = {n.id: n for n in nodes}
-    costs = {(i, path): cost(p) for i in {i for i, _ in lifted} for path, _, p in leaves(by[i].element)}
-    return {i for i, path in lifted if costs[i, path] == "rebuild"}
 
 
 def _place(groups: Sequence[RowGroup], neutral: Mapping[str, frozenset[str]]) -> int:
@@ -306,11 +233,6 @@ def _place(groups: Sequence[RowGroup], neutral: Mapping[str, frozenset[str]]) ->
                 g.exact |= {path}
         g.arrays = tuple(arrays)
     return size
-
-
-def cost(p: Parameter) -> str:
-    """Return the cost of a change of a leaf; arrays are constants of `prepare`."""
-    return "rebuild" if p.form == "array" else p.cost
 
 
 def _reads(

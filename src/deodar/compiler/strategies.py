@@ -17,7 +17,6 @@ from typing import Literal
 from deodar.compiler.functions import convolved_axes
 from deodar.element import Element
 from deodar.leaves import structure
-from deodar.model.document import Document
 from deodar.model.resolve import Node, reach
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
@@ -80,13 +79,6 @@ def _holds(cls: type[Element], fact: str) -> bool:
 def acted_axes(n: Node) -> Axes:
     """Return the axes over which an element convolves or scales."""
     return convolved_axes(n) or (n.outs["output"] if role(n) else ())
-
-
-def widths(doc: Document) -> dict[str, Hashable]:
-    """Return for each element the buckets of its kernels' widths; while they are equal, so are all
-    strategies.
-    """
-    return {e.id: interaction.buckets(e.element.kernels()) for e in doc.entries if e.element.kernels()}
 
 
 def strategies(

@@ -17,7 +17,7 @@ from deodar.experiments.observable import PLACE, Observable, mask
 from deodar.experiments.observations import require
 from deodar.model import edit, find
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.model import Model
 from deodar.numerics.sigmoids import SigmoidFunction
 from deodar.session.exchange import used

@@ -16,7 +16,7 @@ from deodar.element import Arrays, Coupling, Ports, Setting
 from deodar.experiments.observable import PLACE, REDUCES, Observable, mask
 from deodar.model import edit
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.numerics.axes import Axis, shape
 from deodar.numerics.peak import position
 from deodar.parameters import Recompile

@@ -23,7 +23,7 @@ from deodar.experiments.trial import Trial
 from deodar.experiments.trials import Trials
 from deodar.experiments.writing import trial_records, write_record, write_records
 from deodar.model import edit, find
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.model import Model, load
 from deodar.model.resolve import Node
 from deodar.numerics.axes import shape

@@ -16,7 +16,7 @@ from deodar.errors import NotFinite, ParameterError
 from deodar.experiments.field_reader import ReadPlace
 from deodar.model import edit, find
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import real

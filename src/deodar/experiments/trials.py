@@ -7,6 +7,7 @@ import threading
 import warnings
 from collections.abc import Callable, Generator, Mapping, Sequence
 
+from deodar.compiler.build import Build
 from deodar.compiler.dynamics import Dynamics
 from deodar.errors import ParameterError, RunWarning, WorldError, instance_of
 from deodar.experiments.actions import Action, End, Record, Reset, with_pushes
@@ -18,7 +19,7 @@ from deodar.experiments.running_trial import RunningTrial
 from deodar.experiments.trial import Trial, TrialPlan
 from deodar.experiments.trial_copies import Numbered, TrialCopies
 from deodar.experiments.trial_samples import LOOKS, SampledPlaces, Stops, TrialSamples
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.model import Model
 from deodar.session import agreement, memory
 from deodar.session.exchange import embodied
@@ -91,7 +92,7 @@ class Trials(Summarised):
         readers = {}
         if together:
             doc, readers = with_readers(doc, plan.views)
-        self.dynamics = Dynamics(staged, doc, precision, body=body)
+        self.dynamics = Dynamics(staged, Build(doc, precision, body=body))
         self._nodes = graph(doc).nodes
         self._places = SampledPlaces(doc, plan, None if together else world, readers)
 

@@ -13,7 +13,7 @@ from deodar.codec import Json
 from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.recording import files
 from deodar.recording.record import dataset
 

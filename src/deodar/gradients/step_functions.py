@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from deodar.compiler.build import Build
 from deodar.compiler.driven import array_leaf, driven
 from deodar.compiler.dynamics import Dynamics
-from deodar.compiler.plan import Leaf
 from deodar.errors import ParameterError, WorldError
 from deodar.leaves import leaves as numbers
 from deodar.model import edit, find
-from deodar.model.document import Document
+from deodar.model.document import Document, Leaf
 from deodar.model.model import Handle, Model, path_of
 from deodar.session.exchange import embodied, used
 from deodar.session.run import require_step
@@ -68,7 +68,7 @@ def dynamics(
     if len(set(driven_leaves)) < len(driven_leaves):
         raise ParameterError("two of the parameters drive the same number", fix="Leave one of them out")
     accuracy = "exact" if any(array_leaf(doc, path) for path in paths) else "default"
-    functions = Dynamics(model, doc, precision, accuracy, body=body, drives=drives)
+    functions = Dynamics(model, Build(doc, precision, accuracy, body=body), drives)
     assert functions.executable.precision == precision  # made here, as checks of a model cannot be traced
     return functions
 

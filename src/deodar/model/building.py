@@ -16,7 +16,7 @@ from deodar.codec import Json
 from deodar.errors import ModelError, UnknownName, did_you_mean
 from deodar.model import edit, find, new_elements
 from deodar.model.document import Connection, Document, Entry
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.paths import PathNames, display
 from deodar.numerics.axes import Axes
 

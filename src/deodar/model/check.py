@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from deodar.errors import Problem
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring
 from deodar.registry import imported
@@ -16,8 +16,7 @@ def check(doc: Document) -> list[Problem]:
     """Return all problems of the structure; without any, the warnings and the problems of the document's own
     step.
     """
-    found = graph(doc)
-    return list(found.problems) or judge(doc, found.nodes)
+    return problems(doc) or judge(doc, graph(doc).nodes)
 
 
 def problems(doc: Document) -> list[Problem]:

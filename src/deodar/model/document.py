@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 import functools
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from typing import Any
 
 from deodar.codec import Json
 from deodar.element import Element
+from deodar.errors import Problem
+from deodar.leaves import StepLimit, resting, step_limits, structure
 from deodar.model.paths import Index, PathNames, display
 from deodar.summary import Summarised, Summary, counted
 
@@ -34,6 +36,9 @@ KEYS = (
 )
 """Keys of a document file, in their order."""
 
+Leaf = tuple[str, str]
+"""Element id and path of a traced leaf inside the element."""
+
 
 @dc.dataclass(frozen=True, repr=False)
 class Entry(Summarised):
@@ -57,6 +62,38 @@ class Entry(Summarised):
     def group(self) -> PathNames:
         """Names of the groups that contain it."""
         return self.names[:-1]
+
+    @functools.cached_property
+    def structure(self) -> tuple[Hashable, ...]:
+        """All that a program depends on but the values of traced leaves; the id comes first."""
+        return (self.id, self.every, structure(self.element))
+
+    @functools.cached_property
+    def resting(self) -> Mapping[Leaf, bool]:
+        """The leaves that have their neutral value, and whether that switches something off."""
+        return {(self.id, path): p.off for path, p in resting(self.element).items()}
+
+    @functools.cached_property
+    def limits(self) -> tuple[StepLimit, ...]:
+        """The parameters that limit the Euler step."""
+        return tuple(step_limits(self.element))
+
+    def too_long(self, dt: float, unit: str) -> Iterator[Problem]:
+        """Report an Euler step that is too long for the element; `check` and runs use the same sentence.
+
+        Args:
+            dt: Euler step of the model.
+            unit: unit of time of the document.
+        """
+        for limit in self.limits:
+            if dt * self.every > limit.longest * (1 + 1e-9):
+                better = "smaller" if limit.role == "rate" else "larger"
+                yield Problem(
+                    self.path,
+                    f"the step of {dt * self.every:g} {unit} is longer than {limit}",
+                    f"Use dt <= {limit.longest / self.every:g}, better a tenth of it, or a {better}"
+                    f" {limit.path}",
+                )
 
     def _summary(self) -> Summary:
         return Summary(f"{type(self.element).__name__} {self.path}")
@@ -84,7 +121,7 @@ class DocumentParameter:
 
     name: str
     value: float
-    links: tuple[tuple[str, str], ...] = ()
+    links: tuple[Leaf, ...] = ()
 
 
 @dc.dataclass(frozen=True)
@@ -125,8 +162,7 @@ class Document(Summarised):
         """Return the state for a pickle, without cached look-ups and without trust: it is valid only in the
         process in which it was given.
         """
-        kept = {name: value for name, value in self.__dict__.items() if not name.startswith("_")}
-        return {**kept, "foreign": True}
+        return {f.name: getattr(self, f.name) for f in dc.fields(self)} | {"foreign": True}
 
     def asks(self) -> bool:
         """Return whether the document names functions that the user has not allowed to be run."""
@@ -194,7 +230,7 @@ class Document(Summarised):
     def _by_names(self) -> dict[PathNames, Entry]:
         return {e.names: e for e in self.entries}
 
-    def links(self) -> dict[tuple[str, str], str]:
+    def links(self) -> dict[Leaf, str]:
         """Return the name of the document parameter that drives each linked parameter."""
         return {link: p.name for p in self.parameters for link in p.links}
 

@@ -17,7 +17,7 @@ from deodar.element import Coupling, Element
 from deodar.errors import AxesError, DeodarError
 from deodar.model import document_files, edit, find, new_elements
 from deodar.model.document import Document, Entry
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.resolve import Node, misfit, reach
 from deodar.numerics.axes import Axes, Axis, describe, shape
 from deodar.parameters import parameters

@@ -18,7 +18,7 @@ from deodar.elements.world_ports import Motor, Sensor
 from deodar.model import find
 from deodar.model.building import positions
 from deodar.model.document import Connection, Document, Entry
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.numerics.axes import Axes
 from deodar.numerics.signs import Sign, product
 from deodar.parameters import Part, parameters

@@ -18,7 +18,7 @@ import xarray
 from deodar.errors import DeodarError, RecordError, UnknownName, option
 from deodar.model import find
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.numerics.axes import Axes
 from deodar.recording import diverged, files, provenance, writer_lock
 from deodar.recording.record import about, time_dimension

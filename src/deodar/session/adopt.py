@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from deodar.leaves import step_limits
 from deodar.model.document import Document
-from deodar.session.changes import changed_leaves
 from deodar.session.run import Run, host, require_step
 from deodar.session.session_snapshot import fill, rows
 
@@ -25,16 +23,12 @@ def adopt(run: Run, doc: Document, steps: Iterable[float]) -> str:
         TimeError: a step is too long for a time constant.
         WorldError: the world does not have a sensor or motor of the document.
     """
-    changed = changed_leaves(run.doc, doc)
-    by = doc.by_id()
-    if changed is None or any(
-        limit.path == path for (i, path), *_ in changed for limit in step_limits(by[i].element)
-    ):
-        require(run, doc, steps)  # other leaves have no effect on the limit of the step
-    cost = run.cost(changed, doc)
-    if changed is not None and cost != "recompile":
-        run.change(doc, changed)
-        return cost
+    new = run.continued(doc)
+    if new is None or new.limiting:
+        require(run, doc, steps)
+    if new is not None:
+        run.change(new)
+        return new.cost
     states = rows(run.program, host(run.state))
     run.load(doc)
     fill(run, states)

@@ -16,7 +16,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from deodar.element import Element
 from deodar.errors import Fix, Problem, RunWarning, option
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.resolve import Node
 from deodar.numerics import units
 from deodar.numerics.axes import Axis, barely_overlap

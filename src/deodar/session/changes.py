@@ -1,52 +1,30 @@
-"""The differences between two documents of one structure: leaves with new values, and the cost of each."""
+"""The differences between two documents of one structure: leaves with new values."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from deodar.compiler.plan import cost
-from deodar.element import Element
-from deodar.leaves import leaves, structure
-from deodar.model.document import Document
-from deodar.parameters import parameters
+from deodar.leaves import leaves
+from deodar.model.document import Document, Leaf
+from deodar.parameters import Parameter, parameters
 
-LeafChange = tuple[tuple[str, str], float | np.ndarray, str, bool]
-"""A leaf with a new value: (id, path), value, cost, and whether that value switches something off."""
+LeafChange = tuple[Leaf, float | np.ndarray, Parameter]
+"""A leaf with a new value, that value, and its declaration."""
 
 
-def changed_leaves(old: Document, new: Document) -> list[LeafChange] | None:
-    """Return the leaves with a new value, and the cost of each; None if more than leaves changed."""
-    if old.connections != new.connections or len(old.entries) != len(new.entries):
-        return None
+def changed_leaves(old: Document, new: Document) -> list[LeafChange]:
+    """Return the leaves with a new value; parameters that are the same objects are skipped."""
     out: list[LeafChange] = []
-    for before, after in zip(old.entries, new.entries, strict=True):
-        if before is after:
+    for after in new.entries:
+        before = old.by_id()[after.id]
+        a, b = before.element, after.element
+        if a is b:
             continue
-        if (before.id, before.every) != (after.id, after.every):
-            return None
-        if before.element is not after.element:
-            changed = _of_element(before.element, after.element)
-            if changed is None:
-                return None
-            out += [((after.id, path), value, cost, off) for path, value, cost, off in changed]
+        moved = [p.name for p in parameters(type(a)) if getattr(a, p.name) is not getattr(b, p.name)]
+        values = {path: value for path, value, _ in leaves(a, only=moved)}
+        out += [
+            ((after.id, path), value, p)
+            for path, value, p in leaves(b, only=moved)
+            if value is not values[path] and np.any(value != values[path])
+        ]
     return out
-
-
-def _of_element(old: Element, new: Element) -> list[tuple[str, float | np.ndarray, str, bool]] | None:
-    """Return the changed leaves of one element; parameters that are the same objects are skipped."""
-    if type(old) is not type(new):
-        return None
-    moved = {p.name: p for p in parameters(type(old)) if getattr(old, p.name) is not getattr(new, p.name)}
-    plain = all(
-        p.traced and isinstance(getattr(old, name), float) and isinstance(getattr(new, name), float)
-        for name, p in moved.items()
-    )
-    if not plain and structure(old) != structure(new):
-        return None
-    old_values = {path: value for path, value, _ in leaves(old, only=moved)}
-    new_leaves = [(path, value, p) for path, value, p in leaves(new, only=moved) if path in old_values]
-    return [
-        (path, value, cost(p), p.off and value == p.neutral)
-        for path, value, p in new_leaves
-        if value is not old_values[path] and np.any(value != old_values[path])
-    ]

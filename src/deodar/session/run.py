@@ -7,7 +7,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from types import EllipsisType
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import numpy as np
@@ -17,23 +17,22 @@ from jax.stages import Compiled
 from deodar.compiler import hosts
 from deodar.compiler.arguments import EitherArray, ProgramState, ProgramValues
 from deodar.compiler.body import unbatched
+from deodar.compiler.build import Build, cost
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.dynamics import Dynamics
-from deodar.compiler.executable import ChunkResult, Executable, TrialNumbers
+from deodar.compiler.executable import ChunkResult, TrialNumbers
 from deodar.compiler.leaf_layout import require_range
 from deodar.compiler.moment import packed
-from deodar.compiler.plan import strategies_of
 from deodar.compiler.program import BEGUN, Port
-from deodar.compiler.strategies import widths
+from deodar.declarations import LIMITING
 from deodar.element import Arrays
 from deodar.errors import NotFinite, TimeError
 from deodar.model.document import Document
-from deodar.model.limits import too_long
 from deodar.model.resolve import Node
 from deodar.model.unit import unit_seconds
 from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
-from deodar.session.changes import LeafChange
+from deodar.session.changes import LeafChange, changed_leaves
 from deodar.session.clock import Clock
 from deodar.session.exchange import Exchange, ExchangeInstant
 from deodar.session.failure import CopyIndex, RowSpans, first_steps, not_finite
@@ -68,6 +67,28 @@ class _Looked:
     seen: Arrays
 
 
+class Continued(NamedTuple):
+    """How the program of a run continues with another document.
+
+    Attributes:
+        build: the build of the program, with the new document.
+        changed: the leaves with a new value.
+    """
+
+    build: Build
+    changed: Sequence[LeafChange]
+
+    @property
+    def cost(self) -> str:
+        """The cost of the change, live or rebuild."""
+        return "rebuild" if any(cost(p) == "rebuild" for *_, p in self.changed) else "live"
+
+    @property
+    def limiting(self) -> bool:
+        """Whether it may change the longest Euler step."""
+        return any(p.role in LIMITING for *_, p in self.changed)
+
+
 @dc.dataclass(frozen=True)
 class _Starts:
     """State and keys of each copy at the start of a trial."""
@@ -90,7 +111,7 @@ class Run:
         swept: for each entry of the sweep its value in each copy.
 
     Attributes:
-        dynamics: what is computed now; its document has the present values of the parameters.
+        build: what is computed now; its document has the present values of the parameters.
         program: the compiled program.
     """
 
@@ -104,13 +125,13 @@ class Run:
         world: World | None,
         swept: Sequence[np.ndarray] | None = None,
     ) -> None:
-        doc = dynamics.doc
-        self.dynamics, self.seed = dynamics, seed
+        self.model, self.seed = dynamics.model, seed
         self.trials: TrialNumbers = trials
         self.swept = swept
-        self.clock = Clock(0, doc.t0, 0, dt)
-        self.exchange = Exchange(doc, world)
-        self._load(dynamics.compiled(copies), doc)
+        build = dc.replace(dynamics.build, batch=copies)
+        self.clock = Clock(0, build.doc.t0, 0, dt)
+        self.exchange = Exchange(build.doc, world)
+        self._load(build)
         self.probe = PROBE_STEPS
         """Steps of the first chunk, which measures the pace."""
         self.tolerated = 0
@@ -126,54 +147,45 @@ class Run:
     @property
     def doc(self) -> Document:
         """The document with the present values of the parameters."""
-        return self.dynamics.doc
+        return self.build.doc
 
     def load(self, doc: Document) -> None:
         """Use another document, with a program of its own; the state stays.
 
         After an error nothing changed.
         """
-        self._load(dc.replace(self.dynamics, doc=doc).compiled(self.program.batch), doc)
+        self._load(self.build.of(doc))
 
-    def _load(self, program: Executable, doc: Document) -> None:
-        require_step(doc, self.clock.dt)
-        self.exchange.take(doc)
-        self.exchange.body = program.body
-        self.program, self.dynamics = program, dc.replace(self.dynamics, doc=doc)
+    def _load(self, build: Build) -> None:
+        program = Dynamics(self.model, build).compiled()
+        require_step(build.doc, self.clock.dt)
+        self.exchange.take(build.doc)
+        self.exchange.body = build.body
+        self.program, self.build = program, build
         self.pace = 0.0
         """Steps per second of wall time; 0 before the first chunk of a program."""
-        self.values = program.values(doc, self.swept)
+        self.values = program.values(build.doc, self.swept)
         self.constants = program.prepare(self.values)
 
-    def cost(self, changed: Sequence[LeafChange] | None, doc: Document) -> str:
-        """Return the cost of continuing with a document, of which these leaves changed: live, rebuild or
-        recompile.
-        """
-        if changed is None or not all(self.program.holds(leaf) and not off for leaf, _, _, off in changed):
-            return "recompile"
-        if "rebuild" not in {cost for _, _, cost, _ in changed}:
-            return "live"
-        parts, old = self.program.distribution, self.doc
-        if self.program.exact or widths(old) == widths(doc):
-            return "rebuild"
-        count = 1 if parts is None else len(parts.devices)
-        same = strategies_of(old, devices=count) == strategies_of(doc, devices=count)
-        return "rebuild" if same else "recompile"
+    def continued(self, doc: Document) -> Continued | None:
+        """Return how the program continues with another document; None: that needs another program."""
+        build = self.build.continued(doc)
+        return Continued(build, changed_leaves(self.doc, doc)) if build == self.build else None
 
-    def change(self, doc: Document, changed: Sequence[LeafChange]) -> None:
+    def change(self, new: Continued) -> None:
         """Write new values of leaves to the program's vector and arrays, and rebuild constants if needed."""
         vector = np.array(self.values["vector"])
         arrays = {name: np.asarray(a) for name, a in self.values["arrays"].items()}
-        for leaf, value, _, _ in changed:
+        for leaf, value, _ in new.changed:
             if isinstance(value, np.ndarray):
                 self.program.layout.put_array(arrays, leaf, value)
             else:
-                require_range(self.doc, leaf, value, self.dynamics.precision)
+                require_range(self.doc, leaf, value, self.program.precision)
                 self.program.layout.put(vector, leaf, value)
         values: ProgramValues = {**self.values, "vector": vector, "arrays": {**arrays}}
-        if any(cost == "rebuild" for _, _, cost, _ in changed):
+        if new.cost == "rebuild":
             self.constants = self.program.prepare(values)
-        self.values, self.dynamics = values, dc.replace(self.dynamics, doc=doc)
+        self.values, self.build = values, new.build
 
     def reset(self) -> None:
         """Reset state, time, noise and world to the start; parameters stay."""
@@ -636,7 +648,7 @@ def require_step(doc: Document, dt: float) -> None:
             fix="Start at a time nearer to 0, or take a larger dt",
         )
     for e in doc.entries:
-        for problem in too_long(e.path, e.element, dt, e.every, doc.time_unit):
+        for problem in e.too_long(dt, doc.time_unit):
             raise TimeError([problem])
 
 

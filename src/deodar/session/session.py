@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from deodar.compiler import hosts
+from deodar.compiler.build import Build
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.device import several
 from deodar.compiler.division import distributed
@@ -20,7 +20,7 @@ from deodar.compiler.program import Port
 from deodar.errors import DeviceError, ModelError, ParameterError, TimeError, UnknownName, WorldError, option
 from deodar.model import edit, find
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.model import Handle, Model, path_of
 from deodar.parameters import FrozenArray, show
 from deodar.precision import Arithmetic
@@ -29,7 +29,6 @@ from deodar.recording.provenance import stored
 from deodar.resources import Resources, use_resources
 from deodar.session import agreement, memory
 from deodar.session.adopt import adopt, require
-from deodar.session.changes import changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.journal import Change
 from deodar.session.keep import keep
@@ -98,7 +97,7 @@ class Session(Summarised):
         memory.require(graph(doc).nodes, numbers, 1, 0)
         step = doc.step if dt is None else dt
         require_step(doc, step)
-        dynamics = Dynamics(model, doc, numbers, accuracy, distribution or self.device)
+        dynamics = Dynamics(model, Build(doc, numbers, accuracy, distribution or self.device))
         self._run = Run(dynamics, Batch(), float(step), require_seed(seed), [require_seed(trial)], world)
         agreement.warn(doc, world, stacklevel=2)
 
@@ -251,7 +250,8 @@ class Session(Summarised):
 
     def compiled(self, document: Document, model: Model | None = None) -> Executable:
         """Compile the program that this session would run a document with; `model` caches it."""
-        return dc.replace(self._run.dynamics, model=model or self._model, doc=document).compiled()
+        build = self._run.build.of(document)
+        return Dynamics(model or self._model, build).compiled()
 
     def precompile(self, program: Executable) -> None:
         """Compile what this session calls of a program; another thread may do it while the session runs."""
@@ -261,7 +261,8 @@ class Session(Summarised):
 
     def cost(self, document: Document) -> str:
         """Return the cost of continuing with another document: live, rebuild or recompile."""
-        return self._run.cost(changed_leaves(self.document, document), document)
+        new = self._run.continued(document)
+        return "recompile" if new is None else new.cost
 
     def read(self, path: str | Handle) -> np.ndarray:
         """Return the present value of a port: an array over the port's axes, of shape () for a node.
@@ -540,7 +541,7 @@ class Session(Summarised):
     @property
     def precision(self) -> str:
         """Precision, float32 or float64."""
-        return self._run.dynamics.precision
+        return self.program.precision
 
     def _summary(self) -> Summary:
         rows = [

@@ -14,6 +14,7 @@ import numpy as np
 
 from deodar.architectures.looking import looking
 from deodar.batch.simulate import simulate
+from deodar.compiler.build import Build
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.dynamics import Dynamics
 from deodar.elements.world_ports import Sensor
@@ -89,7 +90,7 @@ def learn(
         progress: called with the number of gazes.
     """
     document = model.document
-    dynamics = Dynamics(model, document, body=embodied(document, world))
+    dynamics = Dynamics(model, Build(document, body=embodied(document, world)))
     run = Run(dynamics, Batch(), STEP, seed, [0], world)
     program = run.program
     idents = {entry.path: entry.id for entry in document.entries}

@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from deodar.compiler.build import Build
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.driven import driven
 from deodar.compiler.dynamics import Dynamics
 from deodar.experiments.field_reader import ReadPlace, with_readers
 from deodar.experiments.observable import Observable
 from deodar.model import find
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.session import agreement, memory
 from deodar.session.exchange import embodied
 from deodar.session.run import Run
@@ -36,7 +37,7 @@ class LoopCopies:
         leaves = tuple(tuple(driven(self._doc, path)) for path in loop.act)
         self._first = [np.full(copies, float(find.value(self._doc, path))) for path in loop.act]
         body = embodied(self._doc, loop.world)
-        dynamics = Dynamics(loop.model, self._doc, loop.precision, body=body)
+        dynamics = Dynamics(loop.model, Build(self._doc, loop.precision, body=body))
         batch = Batch(copies, None, leaves, restarts=loop.steps, own_noise=True)
         starts = _numbers([0] * copies)
         self._run = Run(dynamics, batch, loop.dt, loop.seed, starts, loop.world, self._first)

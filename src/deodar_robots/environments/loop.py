@@ -18,7 +18,7 @@ from deodar.experiments.observable import Observable
 from deodar.experiments.observations import require
 from deodar.leaves import leaves
 from deodar.model import find
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.model import Model
 from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import shape

@@ -24,7 +24,7 @@ from deodar.experiments.results import ROWS, run_trials
 from deodar.experiments.rows import Row
 from deodar.experiments.setup import Setup
 from deodar.model import find, output
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.numerics.axes import shape
 from deodar.progress import Progress
 from deodar.recording import writer_lock

@@ -17,7 +17,7 @@ from deodar.errors import Problem
 from deodar.importers import stored_report
 from deodar.model import document_files, find
 from deodar.model.document import Document, Entry
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.parts import to_json
 from deodar.model.resolve import Node
 from deodar.model.sketch import effect

@@ -12,7 +12,8 @@ import pytest
 
 import deodar as dd
 from deodar.compiler import cache
-from deodar.compiler.executable import Executable, executable
+from deodar.compiler.executable import Executable
+from tests.deodar.compiler.programs import executable
 
 x = dd.Axis("x", 0, 10, samples=11)
 

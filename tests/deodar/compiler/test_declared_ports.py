@@ -9,10 +9,12 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 import deodar as dd
-from deodar.compiler.executable import executable
+from deodar.compiler.body import Body
+from deodar.compiler.build import Build
 from deodar.compiler.plan import plan
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.sketch import caption
+from tests.deodar.compiler.programs import executable
 
 x = dd.Axis("x", 0, 10, samples=11)
 y = dd.Axis("y", 0, 4, samples=5)
@@ -78,8 +80,8 @@ def test_elements_with_an_external_input_are_fed_by_their_ids() -> None:
 
 def test_an_external_input_changes_when_the_world_is_inside_the_step() -> None:
     document = readings().document
-    assert all(g.still for g in plan(document).groups)
-    assert not any(g.still for g in plan(document, readings="changing").groups)
+    assert all(g.still for g in plan(Build(document)).groups)
+    assert not any(g.still for g in plan(Build(document, body=Body(dd.Arena("blocks"), {}, {}))).groups)
 
 
 def masked(source: Sequence[dd.Axis], mask: Sequence[dd.Axis]) -> dd.Model:

@@ -13,9 +13,9 @@ from jax import Array, lax
 
 import deodar as dd
 from deodar.compiler import host
+from deodar.compiler.build import Build
 from deodar.compiler.copy_batch import Batch
-from deodar.compiler.device import find
-from deodar.compiler.executable import Executable, ProgramRequest
+from deodar.compiler.executable import Executable
 from tests.contracts import build
 
 RNG = np.random.default_rng(3)
@@ -106,7 +106,7 @@ def test_a_function_with_an_unknown_primitive_is_left_to_the_compiler() -> None:
 def test_every_element_starts_as_compiled(kind: str, precision: str) -> None:
     document = build.around(build.any_example(kind)).document
     batch = Batch(points=None, trials=2)
-    program = Executable(ProgramRequest(document, precision, batch, find()))
+    program = Executable(Build(document, precision, batch=batch))
     values = program.values(document)
     arguments = values, np.uint32(5), np.arange(2, dtype=np.uint32)
     prepare, start = program.program.prepare, program._start
@@ -126,7 +126,7 @@ def test_nearly_all_kinds_start_without_a_compiled_function() -> None:
     compiled = []
     for kind in [*build.KINDS, *build.PARTS]:
         document = build.around(build.any_example(kind)).document
-        if Executable(ProgramRequest(document, "float32", Batch(), find())).compiled:
+        if Executable(Build(document)).compiled:
             compiled.append(kind)
     assert len(compiled) <= 2, compiled
 
@@ -135,4 +135,4 @@ def test_a_field_starts_without_a_compiled_function(monkeypatch: pytest.MonkeyPa
     x = dd.Axis("x", 0, 20, samples=21)
     model = dd.Model("u")
     model.add(dd.Field("u", [x], kernel=[dd.Gaussian(2, 3)], noise=0.1, noise_length=0.0))
-    assert Executable(ProgramRequest(model.document, "float32", Batch(), find())).compiled == 0
+    assert Executable(Build(model.document)).compiled == 0

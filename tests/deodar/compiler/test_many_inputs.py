@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.compiler.build import Build
 from deodar.compiler.plan import COLUMNS, Plan, plan
 from deodar.compiler.program import gather
 from deodar.elements.stimuli import Boost
@@ -51,7 +52,9 @@ def test_inputs_of_rows_with_many_and_few_sources_are_summed(precision: str) -> 
 
 
 def test_the_order_of_summation_is_that_of_a_row_alone() -> None:
-    few, many = (plan(inputs(*counts).document) for counts in ((5 * COLUMNS,), (5 * COLUMNS, 2, 9 * COLUMNS)))
+    few, many = (
+        plan(Build(inputs(*counts).document)) for counts in ((5 * COLUMNS,), (5 * COLUMNS, 2, 9 * COLUMNS))
+    )
     values = np.float32(10.0) ** np.random.default_rng(2).uniform(-4, 4, 9 * COLUMNS).astype(np.float32)
 
     def summed(plan: Plan) -> float:
@@ -67,13 +70,13 @@ def test_the_order_of_summation_is_that_of_a_row_alone() -> None:
 
 
 def test_neither_tables_nor_programs_grow_with_rows_times_inputs() -> None:
-    planned = plan(inputs(2000, *[1] * 200).document)
+    planned = plan(Build(inputs(2000, *[1] * 200).document))
     assert entries(planned) < 4 * 2200 + 201 * COLUMNS
 
     def equations(count: int) -> int:
         [read] = next(
             reads
-            for (g, port), reads in plan(inputs(count).document).reads.items()
+            for (g, port), reads in plan(Build(inputs(count).document)).reads.items()
             if port == "input" and reads
         )
         return len(str(jax.make_jaxpr(lambda x: gather(x, read))(jnp.zeros(count))).splitlines())

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.compiler.build import Build
 from deodar.compiler.plan import Call, plan
 from deodar.couplings.arithmetic import Sum
 from deodar.couplings.weights import Weights
@@ -30,7 +31,7 @@ def ring(n: int) -> dd.Model:
 
 
 def test_elements_of_equal_structure_are_one_group() -> None:
-    small, large = plan(ring(3).document), plan(ring(40).document)
+    small, large = plan(Build(ring(3).document)), plan(Build(ring(40).document))
     assert [type(g.like.element).__name__ for g in small.groups] == [
         type(g.like.element).__name__ for g in large.groups
     ]
@@ -40,7 +41,7 @@ def test_elements_of_equal_structure_are_one_group() -> None:
 
 
 def test_rows_are_in_the_order_of_ids_and_tables_name_their_sources() -> None:
-    p = plan(ring(5).document)
+    p = plan(Build(ring(5).document))
     for group in p.groups:
         assert [n.id for n in group.nodes] == sorted(n.id for n in group.nodes)
     for (g, port), reads in p.reads.items():
@@ -63,7 +64,7 @@ def test_a_plan_does_not_depend_on_the_order_of_declaration() -> None:
         fields = {k: model.add(dd.Field(f"u{k}", [x], tau=10 + k)) for k in pieces}
         for k in pieces:
             model.connect(fields[k], fields[(k + 3) % 8])
-        p = plan(model.document)
+        p = plan(Build(model.document))
         seen.append(
             (
                 p.row,
@@ -84,7 +85,7 @@ def test_a_parameter_that_changes_the_program_makes_another_group() -> None:
     model.add(dd.Field("e", [dd.Axis("x", 0, 10, samples=21)]))
     model.add(dd.Field("f", [x], noise=0.5))
     model.add(dd.Field("g", [x], sigmoid=dd.Logistic(beta=9)))  # the same as a
-    groups = {frozenset(n.path for n in g.nodes) for g in plan(model.document).groups}
+    groups = {frozenset(n.path for n in g.nodes) for g in plan(Build(model.document)).groups}
     assert groups == {frozenset("abg"), frozenset("c"), frozenset("d"), frozenset("e"), frozenset("f")}
 
 
@@ -97,7 +98,7 @@ def test_constant_parts_are_computed_once_a_chunk() -> None:
     s >> dd.Gain(2.0) >> u
     for source, name in ((s, "of s"), (t, "of timed"), (xi, "of xi"), (u, "of u")):
         source >> model.add(Sum(name=name))
-    still = {n.path for g in plan(model.document).groups if g.still for n in g.nodes}
+    still = {n.path for g in plan(Build(model.document)).groups if g.still for n in g.nodes}
     assert still == {"s", "s>Gain", "of s"}
 
 
@@ -106,19 +107,19 @@ def test_a_loop_through_current_reads_orders_the_advances() -> None:
     a, b, c = (model.add(dd.Field(n, [x])) for n in "abc")
     model.connect(a, b, reads="current")
     model.connect(b, c, reads="current")
-    p = plan(model.document)
+    p = plan(Build(model.document))
     order = [p.groups[call.group].like.path for call in p.calls if call.role == "advance"]
     assert order == ["a", "b", "c"]
     model.connect(c, a, reads="current")
     with pytest.raises(dd.errors.ModelError, match=r"loop of connections that read 'current'.*a.*b.*c"):
-        plan(model.document)
+        plan(Build(model.document))
 
 
 def test_only_what_is_read_is_evaluated_for_a_record() -> None:
     model = dd.Model("needed")
     u, v, w = (model.add(dd.Field(n, [x])) for n in "uvw")
     u >> dd.Gain(2.0, name="uv") >> v >> dd.Gain(3.0, name="vw") >> w
-    p = plan(model.document)
+    p = plan(Build(model.document))
 
     def names(path: str, port: str) -> set[str]:
         g, _ = p.row[model[path].id]
@@ -131,7 +132,7 @@ def test_only_what_is_read_is_evaluated_for_a_record() -> None:
 
 
 def test_a_plan_is_plain_data_without_jax_and_can_be_printed() -> None:
-    text = plan(ring(6).document).describe()
+    text = plan(Build(ring(6).document)).describe()
     assert "6 x Field" in text and "6 x Gain" in text and "advance" in text
     code = (
         "import ast, deodar.compiler.plan as p; t = ast.parse(open(p.__file__).read()); names = [a.name for n"

@@ -18,13 +18,14 @@ from hypothesis import assume, given, note, settings
 from hypothesis import strategies as st
 
 import deodar as dd
-from deodar.compiler.executable import executable
+from deodar.compiler.build import Build
 from deodar.compiler.plan import plan
 from deodar.couplings.convolutions import Convolve
 from deodar.model.document_files import dumps
 from deodar.numerics import choice, interaction
 from deodar.numerics.choice import Choice
 from deodar.numerics.kernels.separable import Box, MexicanHat
+from tests.deodar.compiler.programs import executable
 from tests.oracle import fields
 from tests.oracle.kernels import dense
 
@@ -355,7 +356,7 @@ def test_spectral_transforms_are_shared_between_coupled_fields() -> None:
         ]
         for k in range(4):
             ring[k] >> Convolve([dd.Gaussian(1, 3, normalized=True)]) >> dd.Gain(0.5) >> ring[(k + 1) % 4]
-        compiled = plan(model.document)
+        compiled = plan(Build(model.document))
         shares = {type(g.like.element).__name__ for g in compiled.groups if g.strategy.shared}
         assert shares == {"Field", "Convolve", "Gain"} and "waves shared" in compiled.describe()
         assert executable(model, precision="float64").plan.describe().count("waves") == 0, (

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compiler.executable import executable
 from deodar.session.exchange import embodied
+from tests.deodar.compiler.programs import executable
 from tests.deodar.experiments.calls import run_alone, run_together
 
 X, Y = dd.Axis("x", 0, 1.2, 25), dd.Axis("y", 0, 0.8, 17)

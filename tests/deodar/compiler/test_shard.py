@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
-from deodar.compiler.plan import plan
 from deodar.compiler.shard import planned
 from deodar.compiler.traffic import collectives
 from deodar.errors import DeviceError
 from tests import host_devices
+from tests.deodar.compiler.programs import divided
 
 
 def volume(samples: int = 32, **options: object) -> dd.Model:
@@ -213,27 +213,27 @@ def test_a_field_over_eight_devices_is_that_of_one(
 
 
 def test_the_first_axis_with_equal_parts_is_divided() -> None:
-    divided = plan(plane(1.0, "zero", (30, 64)).document, devices=8)
-    assert divided.shards is not None and (divided.shards.axis, divided.shards.samples) == ("y", 64)
+    planned_y = divided(plane(1.0, "zero", (30, 64)), 8)
+    assert planned_y.shards is not None and (planned_y.shards.axis, planned_y.shards.samples) == ("y", 64)
 
 
 def test_an_axis_without_equal_parts_is_an_error_that_names_numbers_which_fit() -> None:
     with pytest.raises(DeviceError, match=r"u: no axis can be divided into 7 equal parts \(x: 32, .* 2, 4"):
-        plan(volume().document, devices=7)
+        divided(volume(), 7)
     with pytest.raises(DeviceError, match="has no field that 2 devices could divide"):
         lonely = dd.Model("lonely")
         lonely.add(dd.Field("node", []))
-        plan(lonely.document, devices=2)
+        divided(lonely, 2)
 
 
 def test_traffic_follows_from_the_kernel() -> None:
     """Modes for wide kernels, samples of the neighbours for narrow ones; whole fields are refused."""
-    wide = planned(plan(volume().document, devices=8), 4)
+    wide = planned(divided(volume(), 8), 4)
     assert [(t.path, t.method) for t in wide] == [("u", "waves")] and wide[0].bytes < 4 * 32**3 / 1.5
-    [narrow] = planned(plan(plane(1.0, "zero").document, devices=8), 4)
+    [narrow] = planned(divided(plane(1.0, "zero"), 8), 4)
     assert narrow.method == "taps" and narrow.bytes == 2 * 6 * 40 * 4
     with pytest.raises(DeviceError, match=r"u: its kernel is applied by .* would exchange [\d,]+ bytes"):
-        planned(plan(volume(kernel=[dd.Gaussian(12, 0.6)]).document, devices=8), 4)
+        planned(divided(volume(kernel=[dd.Gaussian(12, 0.6)]), 8), 4)
 
 
 def test_operations_inside_loops_are_counted() -> None:

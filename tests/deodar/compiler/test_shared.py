@@ -13,10 +13,10 @@ import pytest
 
 import deodar as dd
 from deodar.compiler import executable as module
-from deodar.compiler.executable import executable
 from deodar.couplings.weights import Weights
 from deodar.leaves import structure
 from deodar.numerics.sigmoids import Logistic, SigmoidFunction
+from tests.deodar.compiler.programs import executable
 
 x = dd.Axis("x", 0, 10, samples=11)
 

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compiler.executable import executable
+from deodar.compiler.build import Build
 from deodar.compiler.plan import plan
 from deodar.compiler.strategies import role
 from deodar.errors import ModelError
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
+from tests.deodar.compiler.programs import executable
 
 SQUARE = [dd.Axis(name, 0, 40, samples=40, periodic=True) for name in "xy"]
 
@@ -86,7 +87,7 @@ def roles(model: dd.Model) -> dict[str, str]:
 
 
 def shares(model: dd.Model, path: str) -> bool:
-    groups = plan(model.document).groups
+    groups = plan(Build(model.document)).groups
     return next(bool(g.strategy.shared) for g in groups for n in g.nodes if n.path == path)
 
 
@@ -127,7 +128,7 @@ def test_custom_classes_compute_their_equations(kind: type[dd.Field]) -> None:
 def test_fields_share_folded_transforms() -> None:
     axes = [dd.Axis(name, 0, 100, samples=100, periodic=True) for name in "xy"]
     model = coupled(dd.Field, axes)
-    strategies = {g.strategy for g in plan(model.document).groups if g.strategy.shared}
+    strategies = {g.strategy for g in plan(Build(model.document)).groups if g.strategy.shared}
     assert {tuple(w.classes for w in dict(s.choices)[s.shared].waves) for s in strategies} == {(4, 2)}
     default, exact = (
         dd.simulate(model, 50, record=["u.activation"], precision=precision)["u.activation"].values[-1]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import deodar as dd
+from deodar.compiler.build import Build
 from deodar.compiler.plan import plan
 from tests.deodar.compiler.test_sharing import SQUARE, coupled
 
@@ -16,7 +17,7 @@ def test_fields_coupled_by_two_kinds_of_boundaries_share_transforms_of_either_ki
     v = model.add(dd.Field("v", SQUARE, resting_level=-1, kernel=[dd.Gaussian(15, 3, normalized=True)]))
     for a, b in ((u, v), (v, u)):
         a >> dd.Convolve([dd.Gaussian(6, 4, normalized=True, boundary=("zero", "zero"))]) >> b
-    shared = {n.path: g.strategy.shared for g in plan(model.document).groups for n in g.nodes}
+    shared = {n.path: g.strategy.shared for g in plan(Build(model.document)).groups for n in g.nodes}
     assert shared == {
         **dict.fromkeys(["u", "w", "u>Convolve", "u>Convolve>Gain", "w>Convolve"], "periodic periodic"),
         **dict.fromkeys(["v", "u>Convolve2", "v>Convolve"], "zero zero"),

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.compiler.build import Build
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.plan import plan
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.numerics import interaction
 from deodar.recording.provenance import KEY
 from deodar.session import memory
@@ -44,8 +46,8 @@ def test_copies_that_differ_by_amplitudes_alone_share_matrices(
 ) -> None:
     document = selection().document
     (u,) = [e.id for e in document.entries if e.path == "u"]
-    lifted = frozenset((u, path) for path in swept)
-    compiled = plan(document, lifted, copies=copies, trials=trials)
+    batch = Batch(copies // trials, trials, tuple(((u, path),) for path in swept))
+    compiled = plan(Build(document, batch=batch))
     assert compiled.groups[compiled.row[u][0]].strategy.apart is apart
 
 

@@ -8,7 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.element import Element
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.wiring import Wiring
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.separable import MexicanHat, TruncatedGaussian

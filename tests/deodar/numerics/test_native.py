@@ -18,11 +18,11 @@ from jax import Array
 import deodar as dd
 from deodar.cli import main
 from deodar.compiler import executable as executables
-from deodar.compiler.executable import executable
 from deodar.numerics import convolution, native, noise, transforms
 from deodar.numerics.waves import Waves
 from deodar.recording.provenance import KEY
 from deodar.recording.repeat import repeat
+from tests.deodar.compiler.programs import executable
 
 
 def _noise(key: Array, tick: Array, start: Array, drawn: Array) -> Array:

@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compiler.executable import executable
 from deodar.errors import ParameterError
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axis
 from deodar.numerics.choice import Choice, bounds, bucket, candidates, choose
 from deodar.numerics.kernels.separable import MexicanHat
 from deodar.numerics.waves import Waves
+from tests.deodar.compiler.programs import executable
 
 BOUNDARIES = ("periodic", "zero", "reflect")
 

@@ -11,9 +11,9 @@ import numpy as np
 from deodar.analysis.continuation.line import DENSE, ParameterLine, leading
 from deodar.analysis.continuation.right_hand_side import RightHandSide
 from deodar.codec import JsonObject
-from deodar.compiler.plan import Leaf
 from deodar.errors import AnalysisError
 from deodar.leaves import leaves
+from deodar.model.document import Leaf
 from deodar.summary import Summarised, Summary
 
 BifurcationKind = Literal["fold", "branch point", "Hopf"]

@@ -15,16 +15,16 @@ from jax import Array
 from jax.flatten_util import ravel_pytree
 
 from deodar.compiler.arguments import ProgramState
+from deodar.compiler.build import Build
 from deodar.compiler.driven import driven
 from deodar.compiler.dynamics import Dynamics
-from deodar.compiler.plan import Leaf
 from deodar.compiler.program import precision_context
 from deodar.element import Element
 from deodar.elements.world_ports import Sensor
 from deodar.errors import AnalysisError, ParameterError, did_you_mean
 from deodar.leaves import leaves
 from deodar.model import edit, find
-from deodar.model.document import Document, Entry
+from deodar.model.document import Document, Entry, Leaf
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
 
@@ -98,7 +98,7 @@ class RightHandSide:
         self.model, self.doc, self.at, self.held = model, doc, at, held
         self.parameters, self.even = tuple(parameters), tuple(even)
         drives = {str(k): tuple(driven(doc, path)) for k, path in enumerate(parameters)}
-        self._dynamics = d = Dynamics(model, edit.describe(doc, t0=at), PRECISION, drives=drives)
+        self._dynamics = d = Dynamics(model, Build(edit.describe(doc, t0=at), PRECISION), drives)
         self.dt = d.dt
         self.values = np.array([float(value) for value in d.parameters.values()])
         with d.context():

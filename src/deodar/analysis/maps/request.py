@@ -11,12 +11,11 @@ import numpy as np
 from deodar.analysis.isolated import Isolated, Isolation, isolate
 from deodar.analysis.selection import DISTANCE, places
 from deodar.compiler.driven import driven
-from deodar.compiler.plan import Leaf
 from deodar.elements.field import Field
 from deodar.elements.stimuli import GaussianStimulus
 from deodar.errors import AnalysisError, ParameterError
 from deodar.model import edit, find
-from deodar.model.document import Document
+from deodar.model.document import Document, Leaf
 from deodar.model.model import Model
 from deodar.parameters import real, show
 

@@ -14,10 +14,10 @@ from deodar.analysis.maps.request import STRONG, TOLERANCE, driven_alone, only_f
 from deodar.analysis.selection import DISTANCE, places
 from deodar.analysis.tuning.candidates import CandidateSpace, candidate_space
 from deodar.analysis.tuning.requirement import Requirement, detects
-from deodar.compiler.plan import Leaf
 from deodar.elements.stimuli import Boost
 from deodar.errors import AnalysisError, ParameterError
 from deodar.model import find
+from deodar.model.document import Leaf
 from deodar.model.model import Model
 from deodar.parameters import show
 

@@ -12,7 +12,6 @@ from deodar.elements.changing_stimuli import MovingGaussian, TimeSeries
 from deodar.elements.memories import MemoryTrace
 from deodar.errors import Problem
 from deodar.leaves import per_axis, step_limits
-from deodar.model.limits import too_long
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.windows import Window
@@ -36,7 +35,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 
 def _constants(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
     unit, doc = wiring.doc.time_unit, wiring.doc
-    for problem in too_long(n.path, n.element, doc.step, n.every, unit):
+    for problem in doc.by_id()[n.id].too_long(doc.step, unit):
         stated = "" if doc.dt is not None else f"The document states no dt, so it is {doc.step:g} {unit}. "
         yield dc.replace(problem, fix=f"{stated}{problem.fix}")
     for limit in step_limits(n.element):

@@ -14,7 +14,7 @@ from deodar.elements.changing_stimuli import Noise
 from deodar.exporters.exported import Exported
 from deodar.importers.report import ImportReport, Line
 from deodar.model.document import Connection, Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar.model.model import Model
 from deodar.model.paths import display
 from deodar_interop.exporters.cosivina.classes import KINDS

@@ -7,7 +7,7 @@ import pytest
 import deodar as dd
 from deodar import registry
 from deodar.model.check import problems
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 from deodar_interop.exporters.cosivina import write
 from deodar_interop.importers.cosivina import read
 

@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 import deodar as dd
+from deodar.compiler.build import Build
 from deodar.compiler.plan import plan
 from deodar.importers.tools import IMPORTERS
 from deodar.model import document_files
@@ -91,7 +92,7 @@ def test_work_grows_with_the_number_of_inputs(made):
         model = models[0]
         document = json.loads(model.to_json())
         found.setdefault("check", []).append(lines(lambda m=model: m.check()))
-        found.setdefault("plan", []).append(lines(lambda m=model: plan(m.document)))
+        found.setdefault("plan", []).append(lines(lambda m=model: plan(Build(m.document))))
         found.setdefault("write", []).append(lines(model.to_json))
         found.setdefault("read", []).append(lines(lambda d=document: document_files.from_data(d, {})))
         assert model.check() == []

@@ -8,9 +8,9 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ModelError
-from deodar.model import graph as graphs
+from deodar.model import document_graph as graphs
 from deodar.model.document import Document
-from deodar.model.graph import graph
+from deodar.model.document_graph import graph
 
 
 def chain() -> dd.Model:
@@ -39,7 +39,7 @@ def test_the_graph_of_a_document_does_not_travel_with_it() -> None:
 
 
 def test_only_the_latest_documents_keep_their_graphs() -> None:
-    docs = [chain().document for _ in range(graphs.MOST_KEPT + 1)]
+    docs = [chain().document for _ in range(graphs.MOST_GRAPHS + 1)]
     first, *_, last = [graph(doc) for doc in docs]
     assert graph(docs[-1]) is last and graph(docs[0]) is not first
 

@@ -12,10 +12,7 @@ from deodar.model.document import Document
 from deodar.model.order import Act, order
 from deodar.model.resolve import Node, resolve
 
-KEPT = "_graph"
-"""Key of the graph among the cached look-ups of a document."""
-
-MOST_KEPT = 32
+MOST_GRAPHS = 32
 """Number of documents that keep their graphs: a history of edits has many documents, and a graph needs about
 1.5 KiB for each element.
 """
@@ -24,7 +21,7 @@ _latest: deque[weakref.ref[Document]] = deque()
 
 
 @dc.dataclass(frozen=True)
-class Graph:
+class DocumentGraph:
     """The resolved graph of a document.
 
     Attributes:
@@ -37,29 +34,26 @@ class Graph:
     acts: Sequence[Act]
     problems: Sequence[Problem]
 
-    def required(self) -> Graph:
+    def required(self) -> DocumentGraph:
         """Return the graph; raise ModelError with all of its problems if there are any."""
         if self.problems:
             raise ModelError(self.problems)
         return self
 
 
-def graph(doc: Document) -> Graph:
+def graph(doc: Document) -> DocumentGraph:
     """Return the graph of a document, which the document keeps."""
-    found = doc.__dict__.get(KEPT)
-    if found is None:
-        found = doc.__dict__[KEPT] = _made(doc)
+    if "_graph" not in doc.__dict__:
+        doc.__dict__["_graph"] = _resolved(doc)
         _latest.append(weakref.ref(doc))
-        while len(_latest) > MOST_KEPT:
-            older = _latest.popleft()()
-            if older is not None:
-                older.__dict__.pop(KEPT, None)
-    return found
+        if len(_latest) > MOST_GRAPHS and (oldest := _latest.popleft()()) is not None:
+            oldest.__dict__.pop("_graph", None)
+    return doc.__dict__["_graph"]
 
 
-def _made(doc: Document) -> Graph:
+def _resolved(doc: Document) -> DocumentGraph:
     nodes, problems = resolve(doc)
     if problems:
-        return Graph(nodes, (), problems)
+        return DocumentGraph(nodes, (), problems)
     acts, levels, loops = order(nodes)
-    return Graph([dc.replace(n, level=levels[n.id]) for n in nodes], () if loops else acts, loops)
+    return DocumentGraph([dc.replace(n, level=levels[n.id]) for n in nodes], () if loops else acts, loops)
