@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 from deodar.compiler import device as devices
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.device import Device
-from deodar.compiler.divided_axis import divided_axis
-from deodar.compiler.division import Distribution
+from deodar.compiler.division import Distribution, divided_axis
 from deodar.compiler.strategies import EXACT, Strategy, strategies
 from deodar.errors import ParameterError
 from deodar.leaves import leaves, same_structure

@@ -1,8 +1,9 @@
-"""The division of the copies of a batch among several devices."""
+"""The division of a program among several devices: of the copies of a batch, or of the fields of one copy."""
 
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from collections.abc import Callable, Hashable, Sequence
 from typing import Any, Literal, Protocol, Self
 
@@ -15,9 +16,15 @@ from deodar.compiler.arguments import ProgramArguments
 from deodar.compiler.copy_batch import Batch, Divided
 from deodar.compiler.device import Device, name
 from deodar.errors import DeviceError
+from deodar.model.resolve import Node
+from deodar.numerics.axes import shape
+from deodar.numerics.choice import Shards
 
 DEVICES = "devices"
 """Name of the axis of devices in a mesh."""
+
+LEAST = 2
+"""Least number of samples of the divided axis on each device."""
 
 
 @dc.dataclass(frozen=True)
@@ -156,3 +163,36 @@ def distributed(batch: Batch, devices: tuple[Device, ...]) -> tuple[Distribution
     if points >= trials:
         return Distribution(devices[:used], "points"), dc.replace(batch, points=used * part)
     return Distribution(devices[:used], "trials"), dc.replace(batch, trials=used * part)
+
+
+def divided_axis(nodes: Sequence[Node], devices: int) -> Shards:
+    """Return the axis along which a model is divided: of the largest element with a state, the first that
+    gives all devices the same number of samples.
+
+    Raises:
+        DeviceError: it has no such axis.
+    """
+    largest = max((n for n in nodes if n.element.stateful), key=_cells, default=None)
+    axes = max(largest.outs.values(), key=lambda a: math.prod(shape(a)), default=()) if largest else ()
+    for axis in axes:
+        if axis.samples % devices == 0 and axis.samples >= LEAST * devices:
+            return Shards(axis.name, axis.samples, devices)
+    if not axes or largest is None:
+        raise DeviceError(
+            f"the model has no field that {devices} devices could divide",
+            fix="Leave out devices; trials and sweep points of any model are divided",
+        )
+    fitting = sorted(
+        {d for a in axes for d in range(2, a.samples // LEAST + 1) if a.samples % d == 0 and d <= 1024}
+    )
+    sizes = ", ".join(f"{a.name}: {a.samples}" for a in axes)
+    fewer = ", ".join(map(str, [d for d in fitting if d < devices][-3:])) or "none"
+    raise DeviceError(
+        f"no axis can be divided into {devices} equal parts ({sizes})",
+        where=largest.path,
+        fix=f"Use a number of samples that is a multiple of {devices}, or fewer devices: {fewer}",
+    )
+
+
+def _cells(n: Node) -> int:
+    return max((math.prod(shape(axes)) for axes in n.outs.values()), default=0)

@@ -41,12 +41,11 @@ import numpy as np
 from jax import Array
 from jax.core import Tracer
 
-from deodar.compiler.arguments import BodyState, NoiseKeys, ProgramState, ProgramValues
+from deodar.compiler.arguments import BodyState, NoiseKeys, ProgramState, ProgramValues, packed, unpacked
 from deodar.compiler.build import Build
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import Executable, executable
 from deodar.compiler.functions import Constants
-from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.program import Chunk, Port, Program, array_key, precision_context
 from deodar.element import Arrays
 from deodar.errors import ParameterError, UnknownName, WorldError, did_you_mean

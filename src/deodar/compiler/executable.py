@@ -28,6 +28,8 @@ from deodar.compiler.arguments import (
     ProgramClock,
     ProgramState,
     ProgramValues,
+    packed,
+    unpacked,
 )
 from deodar.compiler.body import batched
 from deodar.compiler.build import Build
@@ -35,7 +37,6 @@ from deodar.compiler.device import Device
 from deodar.compiler.division import DividedCopies, Division
 from deodar.compiler.functions import Constants, Replacements
 from deodar.compiler.leaf_layout import LeafLayout
-from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Plan, plan
 from deodar.compiler.program import BEGUN, Chunk, Port, Program, precision_context
 from deodar.compiler.shard import DividedFields

@@ -4,7 +4,6 @@ They come from declarations and docstrings alone. The studio, the manual and the
 """
 
 from deodar.kinds.description import Description, describe, descriptions
-from deodar.kinds.parameter import ParameterDescription
-from deodar.kinds.typed import typed
+from deodar.kinds.parameter import ParameterDescription, typed
 
 __all__ = ["Description", "ParameterDescription", "describe", "descriptions", "typed"]

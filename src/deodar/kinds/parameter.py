@@ -9,20 +9,27 @@ from typing import Any
 
 from deodar.codec import Json
 from deodar.declarations import Cost, Declaration, FormSection, Needed, range_text
-from deodar.kinds.symbols import NAME, is_letter, symbol
-from deodar.kinds.typed import typed
 from deodar.model.parts import to_json
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.sigmoids import SigmoidFunction
 from deodar.numerics.windows import Window
-from deodar.parameters import FrozenArray, Parameter, Part, ValueForm
+from deodar.parameters import FrozenArray, Parameter, Part, ValueForm, parameters
 
 QUANTITIES = ("number", "integer", "per_axis", "part", "array", "numbers")
 """Forms of parameters whose names may occur in an equation."""
 
 ENDLESS = 1e20
 """A time of this size as a default means: never."""
+
+_LETTERS = (
+    "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi pi rho sigma tau phi chi psi omega"
+    " Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
+)
+GREEK = frozenset(_LETTERS.split())
+
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)*'*")
+"""A name as equations write it, with subscripts and primes."""
 
 
 @dc.dataclass(frozen=True, kw_only=True)
@@ -153,3 +160,47 @@ def _without_arrays(data: Json) -> Json:
     if isinstance(data, dict):
         return {k: _without_arrays(v) for k, v in data.items() if v != {"array": ""}}
     return [_without_arrays(v) for v in data] if isinstance(data, list) else data
+
+
+def typed(value: object) -> str:
+    """Return a value as one types it, a part as the call that makes it."""
+    if isinstance(value, Axis):
+        return f"Axis({value.name!r}, {value.lower:g}, {value.upper:g}, {value.samples})"
+    if isinstance(value, (tuple, list)):
+        return "[" + ", ".join(typed(v) for v in value) + "]"
+    if isinstance(value, Part):
+        shown = [
+            f"{p.name}={typed(getattr(value, p.name))}"
+            for p in parameters(type(value))
+            if getattr(value, p.name) not in (None, "", ())
+        ]
+        return f"{type(value).__name__}({', '.join(shown)})"
+    return f"{value:g}" if isinstance(value, float) else repr(value)
+
+
+def is_letter(name: str) -> bool:
+    """Whether a name is a letter of some alphabet, perhaps with a number, subscripts and primes: u, x', t_n,
+    u1, sigma_i.
+    """
+    base = name.rstrip("'").split("_")[0]
+    return base in GREEK or re.fullmatch(r"[A-Za-z]\d*", base) is not None
+
+
+def symbol(name: str) -> str:
+    """A name in TeX."""
+    plain = name.rstrip("'")
+    base, *below = plain.split("_")
+    numbered = re.fullmatch(r"([A-Za-z])(\d+)", base)
+    if numbered:
+        base, below = numbered[1], [numbered[2], *below]
+    low = r"\,".join(_letters(b) for b in below)
+    primes = "'" * (len(name) - len(plain))
+    if low:
+        low = f"_{low}" if len(low) == 1 else f"_{{{low}}}"
+    return _letters(base) + low + primes
+
+
+def _letters(word: str) -> str:
+    if word in GREEK:
+        return f"\\{word}"
+    return word if len(word) == 1 or word.isdigit() else rf"\mathrm{{{word}}}"

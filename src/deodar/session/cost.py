@@ -18,10 +18,17 @@ import numpy as np
 from jax import Array, lax
 
 from deodar.codec import JsonObject
-from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
+from deodar.compiler.arguments import (
+    EitherArray,
+    NoiseKeys,
+    ProgramClock,
+    ProgramState,
+    ProgramValues,
+    packed,
+    unpacked,
+)
 from deodar.compiler.executable import ChunkResult, Executable
 from deodar.compiler.functions import Constants
-from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Plan
 from deodar.compiler.program import Chunk, Port, Program, array_key
 from deodar.element import Arrays

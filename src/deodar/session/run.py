@@ -15,14 +15,13 @@ from jax import Array
 from jax.stages import Compiled
 
 from deodar.compiler import hosts
-from deodar.compiler.arguments import EitherArray, ProgramState, ProgramValues
+from deodar.compiler.arguments import EitherArray, ProgramState, ProgramValues, packed
 from deodar.compiler.body import unbatched
 from deodar.compiler.build import Build, cost
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.executable import ChunkResult, TrialNumbers
 from deodar.compiler.leaf_layout import require_range
-from deodar.compiler.moment import packed
 from deodar.compiler.program import BEGUN, Port
 from deodar.declarations import LIMITING
 from deodar.element import Arrays

@@ -13,8 +13,8 @@ import pytest
 from jax.stages import Compiled
 
 import deodar as dd
+from deodar.compiler.arguments import WHOLE
 from deodar.compiler.executable import Executable
-from deodar.compiler.moment import WHOLE
 from deodar.couplings.convolutions import Convolve
 from deodar.elements.function import Function
 from deodar.errors import TimeError
