@@ -19,14 +19,14 @@ SettingForm = Literal["text", "number", "flag", "numbers"]
 FLAGS = {"yes": True, "true": True, "no": False, "false": False}
 
 
-Above0 = Annotated[float, Recompile(lower=1e-6)]
+PositiveNumber = Annotated[float, Recompile(lower=1e-6)]
 From0 = Annotated[float, Recompile(lower=0.0)]
 Share = Annotated[float, Recompile(lower=0.0, upper=1.0)]
-Count = Annotated[int, Recompile(lower=1)]
+PeriodCount = Annotated[int, Recompile(lower=1)]
 
 
 @dc.dataclass(frozen=True)
-class Settings:
+class WorldSettings:
     """The base class of groups of settings: frozen dataclasses, whose values are checked as they declare."""
 
     def __post_init__(self) -> None:

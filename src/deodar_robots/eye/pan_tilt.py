@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses as dc
 
-from deodar.worlds._settings import Above0, From0, Settings
+from deodar.worlds._settings import From0, PositiveNumber, WorldSettings
 from deodar_robots.eye.optics import Optics
 
 
 @dc.dataclass(frozen=True)
-class PanTilt(Settings, Optics):
+class PanTilt(WorldSettings, Optics):
     """A camera on two servo motors.
 
     Attributes:
@@ -19,7 +19,7 @@ class PanTilt(Settings, Optics):
         lag: time constant of the servo motors, ms; 0: they follow at once.
     """
 
-    gain: Above0 = 0.18
+    gain: PositiveNumber = 0.18
     curvature: From0 = 0.12
     roll: float = 0.06
     lag: From0 = 25.0

@@ -11,7 +11,7 @@ from jax.typing import DTypeLike
 
 from deodar.declarations import Recompile
 from deodar.numerics.noise import uniform, words
-from deodar.worlds._settings import Above0, From0, Settings
+from deodar.worlds._settings import From0, PositiveNumber, WorldSettings
 from deodar_robots.eye.optics import PIXELS, Optics
 
 CANDIDATES = 32
@@ -19,7 +19,7 @@ CANDIDATES = 32
 
 
 @dc.dataclass(frozen=True)
-class EyeScreen(Settings):
+class EyeScreen(WorldSettings):
     """What a screen shows, and how it moves.
 
     Attributes:
@@ -35,13 +35,13 @@ class EyeScreen(Settings):
         endless: whether the screen shows another target after a gaze, when the target is lost, and after 4 s.
     """
 
-    radius: Above0 = 4.0
+    radius: PositiveNumber = 4.0
     contrast: float = 1.0
-    blink: Above0 = 40.0
+    blink: PositiveNumber = 40.0
     distractors: Annotated[int, Recompile(lower=0)] = 0
     speed: From0 = 0.0
     drift: From0 = 0.0
-    reach: Above0 = 600.0
+    reach: PositiveNumber = 600.0
     wait: From0 = 0.0
     endless: bool = True
 

@@ -6,11 +6,11 @@ import dataclasses as dc
 from typing import Annotated
 
 from deodar.declarations import Recompile
-from deodar.worlds._settings import Count, From0, Settings
+from deodar.worlds._settings import From0, PeriodCount, WorldSettings
 
 
 @dc.dataclass(frozen=True)
-class MuJoCoCameras(Settings):
+class MuJoCoCameras(WorldSettings):
     """What the cameras of a scene see, and how often.
 
     Attributes:
@@ -21,7 +21,7 @@ class MuJoCoCameras(Settings):
             (OpenGL by the driver of this machine, where it has EGL).
     """
 
-    camera_every: Count = 4
+    camera_every: PeriodCount = 4
     pixel_noise: From0 = 0.0
     light: From0 = 1.0
     render: Annotated[str, Recompile(choices=("rays", "egl"))] = "rays"

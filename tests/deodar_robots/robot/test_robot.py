@@ -211,9 +211,9 @@ def test_the_world_of_a_robot_has_all_that_it_has_without_the_file(tmp_path: Pat
     model = dd.Model("still")
     model.add(dd.Sensor("eye", [dd.Axis("beam", 0, 7, 8)], sensor="infrared"))
     dd.Trials(model, plan, Robot("epuck"), together=False).run([0])
-    other = dd.Model("near")
-    other.add(dd.Sensor("eye", [dd.Axis("beam", 0, 5, 6)], sensor="beams"))
+    blind = dd.Model("blind")
+    blind.add(dd.Sensor("eye", [dd.Axis("beam", 0, 5, 6)], sensor="beams"))
     file = tmp_path / "mine.json"
     file.write_text(json.dumps(EPUCK | {"sensors": {"beams": {"from": "infrared"}}}))
     with pytest.raises(WorldError, match=r"\[6\]. Choose another vehicle of the arena: vehicle=khepera"):
-        dd.Session(other, world=Robot(file))
+        dd.Session(blind, world=Robot(file))

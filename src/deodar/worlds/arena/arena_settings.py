@@ -6,13 +6,13 @@ import dataclasses as dc
 from typing import Annotated
 
 from deodar.declarations import Recompile
-from deodar.worlds._settings import Above0, Count, From0, Settings, Share
+from deodar.worlds._settings import From0, PeriodCount, PositiveNumber, Share, WorldSettings
 
 PICTURE_NOISES = ("pixel_noise", "hue_noise", "outliers", "clutter")
 
 
 @dc.dataclass(frozen=True)
-class ArenaPhysics(Settings):
+class ArenaPhysics(WorldSettings):
     """Time and surfaces of an arena.
 
     Attributes:
@@ -25,15 +25,15 @@ class ArenaPhysics(Settings):
         camera_every: number of periods for which a picture of the camera is kept.
     """
 
-    period: Above0 = 64.0
+    period: PositiveNumber = 64.0
     contact: Annotated[str, Recompile(choices=("slide", "stick"))] = "slide"
-    reflection: Above0 = 0.6
-    place_every: Count = 1
-    camera_every: Count = 1
+    reflection: PositiveNumber = 0.6
+    place_every: PeriodCount = 1
+    camera_every: PeriodCount = 1
 
 
 @dc.dataclass(frozen=True)
-class ArenaNoise(Settings):
+class ArenaNoise(WorldSettings):
     """Noise of the sensors and wheels of a vehicle in an arena.
 
     Attributes:
