@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import io
+import re
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -146,30 +147,39 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
     path = output.claim(path, force)
     text, packed = dumps(doc, path.stem)
     if path.suffix.lower() == package.SUFFIX:
-        beside = {codec.parse(text)["arrays"]["file"]: packed} if packed is not None else {}
+        beside = {array_file(text): packed} if packed is not None else {}
         output.write(path, package.pack({f"{path.stem}.json": text.encode(), **beside}))
         return
-    old, new = array_file(path), None
+    old, new = own_array_file(path.read_bytes() if path.is_file() else b"", path.stem), ""
     if packed is not None:
-        new = path.with_name(codec.parse(text)["arrays"]["file"])
-        if not (
-            new.is_file()
-            and hashlib.sha256(new.read_bytes()).hexdigest() == codec.parse(text)["arrays"]["sha256"]
-        ):
-            output.write(output.claim(new, force), packed)
+        new = array_file(text)
+        place = path.with_name(new)
+        if not (place.is_file() and place.read_bytes() == packed):
+            output.write(output.claim(place, force), packed)
     output.write(path, text.encode())
-    if old is not None and old != new and old.name.startswith(f"{path.stem}."):  # deodar wrote it
-        old.unlink(missing_ok=True)
+    if old and old != new:
+        path.with_name(old).unlink(missing_ok=True)
 
 
-def array_file(path: Path) -> Path | None:
-    """Return the array file that the document at `path` names; None: there is none beside it."""
+def array_file(content: bytes | str) -> str:
+    """Return the name of the file with the arrays of a document, given as text; "": there is none."""
     try:
-        name = codec.parse(path.read_bytes())["arrays"]["file"]
-        beside = path.with_name(name)
-        return beside if Path(name).name == name and beside.is_file() else None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
+        name = codec.parse(content)["arrays"]["file"]
+        return name if Path(name).name == name else ""
+    except (ValueError, KeyError, TypeError):
+        return ""
+
+
+def own_array_file(content: bytes, stem: str) -> str:
+    """Return the array file of a document if its name is one that `save` gives, so that it is the document's
+    alone; "": there is none.
+
+    Args:
+        content: the document as text.
+        stem: name of its file without the ending.
+    """
+    name = array_file(content)
+    return name if re.fullmatch(re.escape(stem) + r"\.[0-9a-f]{8}\.npz", name) else ""
 
 
 def _key(table: dict[str, Any], base: str, shared: Any) -> str:
@@ -329,6 +339,7 @@ __all__ = [
     "load",
     "loads",
     "of_data",
+    "own_array_file",
     "pack",
     "require_file",
     "require_room",

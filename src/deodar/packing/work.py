@@ -84,7 +84,7 @@ def document_at(place: Path) -> Work:
     doc = opening.load(place).document
     text, arrays = document_files.dumps(doc, place.stem)
     content = {f"{place.stem}.json": text.encode()}
-    content |= {codec.parse(text)["arrays"]["file"]: arrays} if arrays is not None else {}
+    content |= {document_files.array_file(text): arrays} if arrays is not None else {}
     return Work("document", f"{place.stem}.json", content, _of_document(doc), of_document(doc))
 
 
@@ -156,8 +156,8 @@ def _model_files(place: Path, name: str) -> list[Path]:
     if name.startswith(examples.PREFIX):
         return []
     model = _relative(place, name, "the model")
-    arrays = document_files.array_file(model)
-    return [model] if arrays is None else [model, arrays]
+    arrays = model.with_name(document_files.array_file(model.read_bytes()) or model.name)
+    return [model, arrays] if arrays != model and arrays.is_file() else [model]
 
 
 def _figure(place: Path) -> Work:

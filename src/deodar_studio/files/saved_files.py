@@ -12,10 +12,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Literal
 
-from deodar import codec
 from deodar.errors import DeodarError, OutputError, OutputExists, UnknownName
 from deodar.model import output
 from deodar.model.document import Document
+from deodar.model.document_files import own_array_file
 from deodar.recording import stored
 from deodar.session.clock import Clock
 from deodar.session.session_snapshot import SessionSnapshot
@@ -76,10 +76,10 @@ class SavedFolder:
         """Delete a snapshot or preset."""
         path = self._existing(sort, name)
         try:
-            arrays = _arrays(path) if sort == "preset" else None
+            arrays = own_array_file(path.read_bytes(), path.stem) if sort == "preset" else ""
             path.unlink()
-            if arrays is not None:
-                arrays.unlink(missing_ok=True)
+            if arrays:
+                path.with_name(arrays).unlink(missing_ok=True)
         except OSError as error:
             raise output.failed(path, error) from None
 
@@ -123,17 +123,6 @@ class SavedFolder:
         if _plain(name) != name or path.is_symlink() or not path.is_file():
             raise UnknownName(f"no {sort} is called {name!r}")
         return path
-
-
-def _arrays(path: Path) -> Path | None:
-    """Return the array file that a preset names; None if it has none, or one that is not its own."""
-    try:
-        data: Any = codec.parse(path.read_text(encoding="utf-8"))
-        name = str(data["arrays"]["file"])
-    except (OSError, UnicodeDecodeError, DeodarError, KeyError, TypeError, ValueError):
-        return None
-    own = re.fullmatch(re.escape(path.stem) + r"\.[0-9a-f]{8}\.npz", name)
-    return None if own is None else path.with_name(name)
 
 
 def _plain(name: str) -> str:

@@ -15,7 +15,6 @@ import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from deodar import codec
 from deodar.errors import DeodarError, DocumentError, OutputError
 from deodar.importers import opening
 from deodar.model import document_files, output
@@ -198,7 +197,6 @@ def _is(question: Callable[[], bool]) -> bool:
 def _array_file(folder: OpenFolder, place: Path) -> str:
     """Return the array file of the document to be replaced, if its name has the form that deodar writes."""
     try:
-        name = codec.parse(folder.read(place.name, MOST_BYTES))["arrays"]["file"]
-        return name if Path(name).name == name and name.startswith(f"{place.stem}.") else ""
-    except (OSError, DeodarError, ValueError, KeyError, TypeError, RecursionError):
+        return document_files.own_array_file(folder.read(place.name, MOST_BYTES), place.stem)
+    except (OSError, DeodarError):
         return ""
