@@ -12,10 +12,9 @@ from deodar_studio.messages.message import Id
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
 from deodar_studio.requests.request import MESSAGES, Count, Request, Text, asks
-from deodar_studio.streams.kernel_stream import KernelStream
+from deodar_studio.streams import planes
 from deodar_studio.streams.parameter_stream import ParameterStream
 from deodar_studio.streams.stream import Stream
-from deodar_studio.streams.weights_stream import WeightsStream
 
 MOST_STREAMS = 2000
 """Largest number of streams of one page."""
@@ -92,7 +91,7 @@ async def watch_kernel(
 
     Of more than two axes it is sent at lag 0 on the others. `most` and `other` as in `watch`.
     """
-    kernel = KernelStream(stream, element, most, other)
+    kernel = ParameterStream(stream, element, planes.kernel, most, other)
     # the first shape compiles the formula of the kernel, for up to seconds
     await asyncio.to_thread(kernel.compute, hub.source(page))
     _show(hub, page, kernel)
@@ -114,9 +113,8 @@ class WatchWeights(Request, frozen=True, kw_only=True, tag="weights"):
     at: dict[Text, float] = {}
 
     async def serve(self, hub: Hub, page: Page) -> None:
-        section = Section(self.drawn, tuple(self.at.items()))
-        weights = WeightsStream(self.stream, self.element, self.parameter, section, self.most, self.other)
-        _show(hub, page, weights)
+        plane = planes.weights(self.parameter, Section(self.drawn, tuple(self.at.items())))
+        _show(hub, page, ParameterStream(self.stream, self.element, plane, self.most, self.other))
 
 
 @asks()
