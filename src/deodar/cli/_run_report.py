@@ -10,8 +10,8 @@ import warnings
 from collections.abc import Generator
 from typing import TYPE_CHECKING
 
-from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import Answer
 from deodar.cli._run_output import GrownRecord, RunFolder, WrittenRun
 from deodar.codec import Json
 from deodar.errors import RunWarning
@@ -53,8 +53,8 @@ class EndedRun:
     repetition: Repetition | None = None
 
 
-def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: EndedRun) -> int:
-    """Write a run and print where; status 1 if it was stopped, written elsewhere, or differs without a
+def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: EndedRun) -> Answer | int:
+    """Write a run and return where; status 1 if it was stopped, written elsewhere, or differs without a
     reason.
     """
     values, stopped, repetition = run.data, run.stopped, run.repetition
@@ -66,9 +66,7 @@ def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: Ended
     out, record, failure = written
     if "diverged" in values.attrs:
         _say(f"warning: {values.attrs['diverged']}")
-    if args.json:
-        elsewhere = {"instead_of": output.label} if failure else {}
-        print(codec.text(_answer(written, values, run) | elsewhere))
+    data = _data(written, values, run) | ({"instead_of": output.label} if failure else {})
     wrote = f"Wrote {_contents(values)} to {_options.shown(out)}"
     table = record.suffix == SUFFIXES["csv"]
     look = (
@@ -78,21 +76,20 @@ def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: Ended
     )
     if stopped:
         _say(_options.paragraph([stopped, f"{wrote}, marked as incomplete", look]))
-        return 1
+        return Answer(data, status=1)
     if failure:
         instead = (
             f"{wrote} as {record.name} instead" if isinstance(output, GrownRecord) else f"{wrote} instead"
         )
         _say(_options.paragraph([failure, instead, look]))
-        return 1
+        return Answer(data, status=1)
+    text = _options.paragraph([wrote, look])
+    lines = [text if table else text.rstrip(".")]  # a command to copy
     if repetition is not None and (repetition.differences or not repetition.same_bits):
         _say(_options.paragraph([("warning: " if repetition.faithful else "") + str(repetition)]))
-    if not args.json:
-        if repetition is not None and repetition.same_bits and not repetition.differences:
-            print(_options.paragraph([str(repetition)]))
-        text = _options.paragraph([wrote, look])
-        print(text if table else text.rstrip("."))  # a command to copy
-    return 0 if repetition is None or repetition.faithful else 1
+    elif repetition is not None:
+        lines = [_options.paragraph([str(repetition)]), *lines]
+    return Answer(data, lines, 0 if repetition is None or repetition.faithful else 1)
 
 
 def _say(message: str) -> None:
@@ -112,7 +109,7 @@ def _contents(record: xarray.Dataset) -> str:
     return f"{listed} ({trials}{f'{times} times' if times != 1 else 'one time'})"
 
 
-def _answer(written: WrittenRun, record: xarray.Dataset, run: EndedRun) -> dict[str, Json]:
+def _data(written: WrittenRun, record: xarray.Dataset, run: EndedRun) -> dict[str, Json]:
     answer: dict[str, Json] = {
         "out": str(written.out),
         "record": str(written.record),

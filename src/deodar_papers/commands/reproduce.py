@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from deodar import codec
 from deodar.batch.on_cluster import ClusterPool
 from deodar.cli import _machines, _options, _rescue
+from deodar.cli._answer import Answer
 from deodar.codec import Json
 from deodar.errors import OutputError, UnknownName, WorkerError, did_you_mean
 from deodar.experiments.jobs import run_jobs
@@ -64,7 +65,7 @@ def arguments(parser: _options.CommandParser) -> None:
     parser.flag("--no-progress", "show no progress bar")
 
 
-def run(args: argparse.Namespace) -> int:
+def run(args: argparse.Namespace) -> Answer | int:
     """Reproduce a paper; status 1 if a required claim is false, or if the runs were stopped."""
     # start-up time: these bring JAX
     from deodar.compiler.device import find
@@ -136,8 +137,8 @@ def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
 
 def _write(
     args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Json], took: str
-) -> int:
-    """Write report and figures, and print the claims; `took` says how many runs this call computed, and in
+) -> Answer:
+    """Write report and figures, and return the claims; `took` says how many runs this call computed, and in
     what time.
     """
     # start-up time: these bring JAX
@@ -162,29 +163,22 @@ def _write(
         fill(asked)
     except OutputError as error:
         out, why = _rescue.elsewhere(error, asked, fill_second, not args.json), error.at("shell")
-    if args.json:
-        elsewhere = {"instead_of": str(asked)} if why else {}
-        print(codec.text({"out": str(out), **codec.parse(text), **elsewhere}))
-    else:
-        for c in report.claims:
-            mark = "?" if c.holds is None else "yes" if c.holds else "NO"
-            interval = "" if c.interval is None else f", 95 % interval {c.interval[0]:g} to {c.interval[1]:g}"
-            wanted = "no target" if c.origin == "none" else f"wanted {c.target}, {c.origin}"
-            inferred = f"; no evidence, it assumes {c.assumes}" if c.inferred else ""
-            print(
-                f"  {mark:4}{c.name} -> {'nothing yet' if c.value is None else c.value} ({wanted}; n"
-                f" {c.n}{interval}{inferred})"
-            )
-        names = ", ".join(
-            [ROWS, RESULTS, *(f"{n}.md" for n in report.tables), *(f"{n}.png" for n in report.figures)]
-        )
-        print(f"Written to {_options.shown(out)}: {names}.")
-        required = [c for c in report.claims if c.kind == "required"]
-        held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
-        print(
-            f"{settings['runs']} of {settings['of']} runs, {took}. Of {len(required)} required claims {held}"
-            f" hold, {open_} are undecided."
-        )
+    lines: list[str] = []
+    for c in report.claims:
+        mark = "?" if c.holds is None else "yes" if c.holds else "NO"
+        interval = "" if c.interval is None else f", 95 % interval {c.interval[0]:g} to {c.interval[1]:g}"
+        wanted = "no target" if c.origin == "none" else f"wanted {c.target}, {c.origin}"
+        inferred = f"; no evidence, it assumes {c.assumes}" if c.inferred else ""
+        value = "nothing yet" if c.value is None else c.value
+        lines.append(f"  {mark:4}{c.name} -> {value} ({wanted}; n {c.n}{interval}{inferred})")
+    names = [ROWS, RESULTS, *(f"{n}.md" for n in report.tables), *(f"{n}.png" for n in report.figures)]
+    required = [c for c in report.claims if c.kind == "required"]
+    held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
+    lines += [
+        f"Written to {_options.shown(out)}: {', '.join(names)}.",
+        f"{settings['runs']} of {settings['of']} runs, {took}. Of {len(required)} required claims {held}"
+        f" hold, {open_} are undecided.",
+    ]
     if why:
         sentences = [why, f"The report and a copy of the runs are written to {_options.shown(out)} instead"]
         print(
@@ -192,4 +186,5 @@ def _write(
             f" {_again(args, asked)}",
             file=sys.stderr,
         )
-    return 1 if why or failed(report.claims) else 0
+    data = {"out": str(out), **codec.parse(text), **({"instead_of": str(asked)} if why else {})}
+    return Answer(data, lines, 1 if why or failed(report.claims) else 0)
