@@ -1,7 +1,8 @@
 """The command line: one module per command; every module in this folder is a command.
 
-A command is a module with `HELP` (one line), `arguments(parser)` and `run(args)`, which returns an `Answer`,
-or the status if it prints by itself. Heavy imports are inside `run`, so that `deodar --help` starts quickly.
+A command is a module with `HELP` (one line), `arguments(parser)` and `run(args)`, which returns a
+`CommandAnswer`, or the status if it prints by itself. Heavy imports are inside `run`, so that `deodar --help`
+starts quickly.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from types import ModuleType
 from typing import Any
 
 from deodar import __version__
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.cli._options import CommandParser
 from deodar.errors import DeodarError, RunWarning, UnknownName, first_line
 from deodar.extensions import Extensions, requires
@@ -81,7 +82,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             _import(name)
         with _warnings_of(args.command):
             answer = args.run(args)
-            return answer.tell(args.json) if isinstance(answer, Answer) else int(answer)
+            return answer.tell(args.json) if isinstance(answer, CommandAnswer) else int(answer)
     except DeodarError as error:
         print(f"deodar {args.command}: {error.at('shell')}", file=sys.stderr)
     except KeyboardInterrupt:

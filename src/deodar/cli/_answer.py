@@ -13,22 +13,22 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Answer:
+class CommandAnswer:
     """The answer of a command, which `main` prints.
 
     Attributes:
-        data: what `--json` prints.
+        fields: what `--json` prints.
         lines: what is printed without it, one after another; a line may be made when it is printed.
         status: the exit status.
     """
 
-    data: object
+    fields: object
     lines: Iterable[str] = ()
     status: int = 0
 
     def tell(self, as_json: bool) -> int:
         """Print the answer, and return the status."""
-        for line in (codec.text(self.data),) if as_json else self.lines:
+        for line in (codec.text(self.fields),) if as_json else self.lines:
             print(line)
         return self.status
 

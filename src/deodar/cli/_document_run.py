@@ -12,7 +12,7 @@ from deodar.batch import points_file
 from deodar.batch.run_file import Output
 from deodar.batch.simulate import simulate
 from deodar.cli import _long, _machines, _options, _run_report
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.cli._run_output import GrownRecord, RunFolder
 from deodar.cli._run_report import EndedRun
 from deodar.compiler import hosts
@@ -33,7 +33,7 @@ WARNINGS = 3
 """Most warnings of the check that are printed before a run."""
 
 
-def run(args: argparse.Namespace) -> Answer | int:
+def run(args: argparse.Namespace) -> CommandAnswer | int:
     """Simulate a document; status 1 if it was stopped."""
     if args.duration is None and args.file.is_file():
         args.wrong("a document needs --duration, for example --duration 500")

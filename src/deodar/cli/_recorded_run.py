@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from deodar.batch.resume import resume
 from deodar.batch.simulate import simulate
 from deodar.cli import _long, _machines, _options, _question, _run_report
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.cli._run_output import GrownRecord, RunFolder
 from deodar.cli._run_report import EndedRun
 from deodar.errors import Interrupted
@@ -61,7 +61,7 @@ def is_record(path: Path) -> bool:
     )
 
 
-def continued(args: argparse.Namespace) -> Answer | int:
+def continued(args: argparse.Namespace) -> CommandAnswer | int:
     """Continue a run that was killed or stopped; status 1 if it was stopped again."""
     names = [
         *_with_value(args, (name for name in STORED if name not in ("duration", "cluster"))),
@@ -90,7 +90,7 @@ def continued(args: argparse.Namespace) -> Answer | int:
     return _run_report.finish(args, GrownRecord(args.file), EndedRun(doc, record, stopped))
 
 
-def repeated(args: argparse.Namespace) -> Answer | int:
+def repeated(args: argparse.Namespace) -> CommandAnswer | int:
     """Run a record again and compare; status 1 if it was stopped, or differs without a reason."""
     if names := _with_value(args, STORED):
         flags = _options.flags(*names)

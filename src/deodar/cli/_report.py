@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from deodar.importers.report import ImportReport
 
 
-def shown(report: ImportReport, then: Iterable[str]) -> Iterator[str]:
+def told(report: ImportReport, then: Iterable[str]) -> Iterator[str]:
     """Print the summary, the elements and their counterparts, and what was not carried; yield what is printed
     then.
     """

@@ -11,7 +11,7 @@ from collections.abc import Generator
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.cli._run_output import GrownRecord, RunFolder, WrittenRun
 from deodar.codec import Json
 from deodar.errors import RunWarning
@@ -53,7 +53,7 @@ class EndedRun:
     repetition: Repetition | None = None
 
 
-def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: EndedRun) -> Answer | int:
+def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: EndedRun) -> CommandAnswer | int:
     """Write a run and return where; status 1 if it was stopped, written elsewhere, or differs without a
     reason.
     """
@@ -66,7 +66,7 @@ def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: Ended
     out, record, failure = written
     if "diverged" in values.attrs:
         _say(f"warning: {values.attrs['diverged']}")
-    data = _data(written, values, run) | ({"instead_of": output.label} if failure else {})
+    fields = _fields(written, values, run) | ({"instead_of": output.label} if failure else {})
     wrote = f"Wrote {_contents(values)} to {_options.shown(out)}"
     table = record.suffix == SUFFIXES["csv"]
     look = (
@@ -76,20 +76,20 @@ def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: Ended
     )
     if stopped:
         _say(_options.paragraph([stopped, f"{wrote}, marked as incomplete", look]))
-        return Answer(data, status=1)
+        return CommandAnswer(fields, status=1)
     if failure:
         instead = (
             f"{wrote} as {record.name} instead" if isinstance(output, GrownRecord) else f"{wrote} instead"
         )
         _say(_options.paragraph([failure, instead, look]))
-        return Answer(data, status=1)
+        return CommandAnswer(fields, status=1)
     text = _options.paragraph([wrote, look])
     lines = [text if table else text.rstrip(".")]  # a command to copy
     if repetition is not None and (repetition.differences or not repetition.same_bits):
         _say(_options.paragraph([("warning: " if repetition.faithful else "") + str(repetition)]))
     elif repetition is not None:
         lines = [_options.paragraph([str(repetition)]), *lines]
-    return Answer(data, lines, 0 if repetition is None or repetition.faithful else 1)
+    return CommandAnswer(fields, lines, 0 if repetition is None or repetition.faithful else 1)
 
 
 def _say(message: str) -> None:
@@ -109,7 +109,7 @@ def _contents(record: xarray.Dataset) -> str:
     return f"{listed} ({trials}{f'{times} times' if times != 1 else 'one time'})"
 
 
-def _data(written: WrittenRun, record: xarray.Dataset, run: EndedRun) -> dict[str, Json]:
+def _fields(written: WrittenRun, record: xarray.Dataset, run: EndedRun) -> dict[str, Json]:
     answer: dict[str, Json] = {
         "out": str(written.out),
         "record": str(written.record),

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.branch import SteadyBranch
@@ -49,7 +49,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Print the bifurcations, and write the figure."""
     # matrices are small: more threads of BLAS would wait for each other. Read when NumPy is imported
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -86,12 +86,12 @@ def run(args: argparse.Namespace) -> Answer:
     if target is not None and figure is not None:
         _files.save_figure(figure, target, args.force)
     written = [] if save is None else _saved([branch, *side_branches], save, args.force)
-    data = branch.data() | {"switched": [side_branch.data() for side_branch in side_branches]}
-    data |= {"figure": None if target is None else str(target), "files": list(map(str, written))}
+    fields = branch.data() | {"switched": [side_branch.data() for side_branch in side_branches]}
+    fields |= {"figure": None if target is None else str(target), "files": list(map(str, written))}
     lines = [_table(branch)]
     lines += [f"\nA branch that leaves a branch point:\n{_table(side)}" for side in side_branches]
     lines += [] if target is None else [f"\nFigure: {target}"]
-    return Answer(data, [*lines, *(f"Branch: {path}" for path in written)])
+    return CommandAnswer(fields, [*lines, *(f"Branch: {path}" for path in written)])
 
 
 def _saved(branches: Sequence[SteadyBranch], path: Path, force: bool) -> list[Path]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar import __version__, codec
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.errors import DocumentError
 
 if TYPE_CHECKING:
@@ -42,17 +42,17 @@ def arguments(parser: _options.CommandParser) -> None:
     )
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Examine the installation; status 1 if a requirement is missing."""
     if args.plans:
         return _plans()
     if args.sizes:
         return _measure_sizes()
     state = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
-    return Answer(state, [_page(state)], 1 if state["missing"] else 0)
+    return CommandAnswer(state, [_page(state)], 1 if state["missing"] else 0)
 
 
-def _plans() -> Answer:
+def _plans() -> CommandAnswer:
     """Compare the cost model of convolutions with this machine, on one core."""
     # start-up time: these bring JAX
     from rich.console import Console
@@ -65,12 +65,12 @@ def _plans() -> Answer:
     from deodar.compiler.plans import CASES, measure
 
     console = Console(stderr=True)
-    found = [m for case in track(CASES, "measuring", console=console, transient=True) for m in measure(case)]
-    return Answer([{**dc.asdict(m), "case": str(m.case)} for m in found], _table(found))
+    steps = [m for case in track(CASES, "measuring", console=console, transient=True) for m in measure(case)]
+    return CommandAnswer([{**dc.asdict(m), "case": str(m.case)} for m in steps], _table(steps))
 
 
-def _table(found: Sequence[Measured]) -> Iterator[str]:
-    """Print measurements as a table, and yield how good the choice of strategies is."""
+def _table(steps: Sequence[Measured]) -> Iterator[str]:
+    """Print measured steps as a table, and yield how good the choice of strategies is."""
     # start-up time
     from rich.console import Console
     from rich.table import Table
@@ -83,17 +83,17 @@ def _table(found: Sequence[Measured]) -> Iterator[str]:
         "",
         title="One step of the convolution; * marks the chosen strategy",
     )
-    for m in found:
+    for m in steps:
         table.add_row(
             str(m.case),
             m.method,
             f"{m.predicted_us:.1f}",
             f"{m.measured_us:.1f}",
             "*" if m.chosen else "",
-            end_section=m is found[-1],
+            end_section=m is steps[-1],
         )
     Console().print(table)
-    lost = [m.measured_us / min(o.measured_us for o in found if o.case == m.case) for m in found if m.chosen]
+    lost = [m.measured_us / min(o.measured_us for o in steps if o.case == m.case) for m in steps if m.chosen]
     right = sum(ratio <= 1.25 for ratio in lost)
     yield (
         f"The chosen strategy is the fastest, or within 25 % of it, in {right} of {len(lost)} cases; at worst"
@@ -101,7 +101,7 @@ def _table(found: Sequence[Measured]) -> Iterator[str]:
     )
 
 
-def _measure_sizes() -> Answer:
+def _measure_sizes() -> CommandAnswer:
     """Measure the size and the time of an import of each package that deodar needs, the largest first."""
     # start-up time
     from rich.console import Console
@@ -118,7 +118,9 @@ def _measure_sizes() -> Answer:
         lines.append(f"{cost.name:<24}{cost.version:<14}{cost.mb:>8.1f}{seconds:>11}  {cost.needed_by}")
     total = sum(cost.mb for cost in costs)
     lines.append(f"{len(costs)} packages, {total:.0f} MB. The time of an import is CPU time,")
-    return Answer([dc.asdict(cost) for cost in costs], [*lines, "with all that the package itself imports."])
+    return CommandAnswer(
+        [dc.asdict(cost) for cost in costs], [*lines, "with all that the package itself imports."]
+    )
 
 
 def examine() -> dict[str, Any]:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.recording import places
 
 HELP = "draw the architecture in a file as SVG, PDF or PNG"
@@ -30,7 +30,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Draw the model, write the file and print its path."""
     # start-up time: these bring JAX
     from deodar.importers.opening import load
@@ -42,4 +42,4 @@ def run(args: argparse.Namespace) -> Answer:
     width = drawing.size[0] if args.width is None else args.width
     size = [round(width, 2), round(width * drawing.size[1] / drawing.size[0], 2)]
     drew = f"Drew {_options.shown(args.file)} into {_options.shown(out)}, {size[0]:g} x {size[1]:g} inches"
-    return Answer({"out": str(out), "inches": size}, [drew])
+    return CommandAnswer({"out": str(out), "inches": size}, [drew])

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.declarations import range_text
 
 if TYPE_CHECKING:  # this also imports NumPy
@@ -25,7 +25,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Print the list of kinds, or the page of one kind."""
     # start-up time: these bring JAX
     from deodar import docstring, registry
@@ -37,14 +37,14 @@ def run(args: argparse.Namespace) -> Answer:
     if args.kind:
         cls = registry.kind(args.kind)
         source = docstring.source(cls)
-        data = (
+        fields = (
             schema(cls, reference)
             if issubclass(cls, Part)
             else {"title": cls.__name__, "description": source}
         )
         kind = describe(cls)
         values = ["", "Values:", *_values(kind.parameters)] if kind.parameters else []
-        return Answer(data, [f"{kind.name}  ({kind.public_name})\n\n{source}", *values])
+        return CommandAnswer(fields, [f"{kind.name}  ({kind.public_name})\n\n{source}", *values])
     listed = {room: registry.kinds(room) for room in registry.ROOMS}
     names = {name for kinds in listed.values() for name in kinds}
     outside = {
@@ -64,7 +64,7 @@ def run(args: argparse.Namespace) -> Answer:
         for room, kinds in summaries.items()
         for line in (room.split(".")[-1], *(f"  {name:{width}}  {text}" for name, text in kinds.items()))
     ]
-    return Answer(summaries, lines)
+    return CommandAnswer(summaries, lines)
 
 
 def _values(parameters: Sequence[ParameterDescription]) -> Iterator[str]:

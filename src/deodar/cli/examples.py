@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.errors import UnknownName
 from deodar.importers import examples
 from deodar.model import output
@@ -37,7 +37,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer | int:
+def run(args: argparse.Namespace) -> CommandAnswer | int:
     """List, copy or open examples."""
     if args.what == "list":
         if args.name is not None:
@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> Answer | int:
     return _copy(args) if args.what == "copy" else _open(args)
 
 
-def _list() -> Answer:
+def _list() -> CommandAnswer:
     listed = [
         {
             "name": n,
@@ -60,7 +60,7 @@ def _list() -> Answer:
         for kind, names in (("document", examples.names()), ("script", examples.scripts()))
         for n in names
     ]
-    return Answer({"examples": listed}, _tables())
+    return CommandAnswer({"examples": listed}, _tables())
 
 
 def _tables() -> Iterator[str]:
@@ -85,7 +85,7 @@ def _tables() -> Iterator[str]:
     )
 
 
-def _copy(args: argparse.Namespace) -> Answer:
+def _copy(args: argparse.Namespace) -> CommandAnswer:
     sources = examples.parts(args.name)
     folder: Path = args.folder or Path()
     if args.folder is not None and not folder.exists():
@@ -97,7 +97,7 @@ def _copy(args: argparse.Namespace) -> Answer:
     program = {".json": "deodar studio", ".ipynb": "jupyter lab"}.get(targets[0].suffix, "python")
     copied = ", ".join(map(_options.shown, targets))
     text = f"Copied {copied}. Next: {program} {_options.shown(targets[0])}"
-    return Answer({"files": [str(t) for t in targets]}, [text])
+    return CommandAnswer({"files": [str(t) for t in targets]}, [text])
 
 
 def _open(args: argparse.Namespace) -> int:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar import codec
 from deodar.cli import _long, _machines, _options, _package, _work_plan
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.credentials import masked
 from deodar.errors import OutputError, WorkerError
 from deodar.recording import places
@@ -82,7 +82,7 @@ def arguments(parser: _options.CommandParser) -> None:
     parser.flag("--no-progress", "show no progress bar")
 
 
-def run(args: argparse.Namespace) -> Answer | int:
+def run(args: argparse.Namespace) -> CommandAnswer | int:
     """Run an experiment; status 1 if it was stopped, if all trials diverged, or if the repetition of results
     has other rows without a reason.
     """
@@ -96,7 +96,7 @@ def run(args: argparse.Namespace) -> Answer | int:
         return _run(args)
 
 
-def _run(args: argparse.Namespace) -> Answer | int:
+def _run(args: argparse.Namespace) -> CommandAnswer | int:
     # start-up time: these bring JAX
     from deodar.experiments.repeated_results import compare_results
     from deodar.experiments.results import ROWS, run_trials, stored
@@ -173,7 +173,7 @@ def trials(text: str) -> int | tuple[int, int]:
 trials.__name__ = "number of trials, or range A:B"
 
 
-def _merge(args: argparse.Namespace) -> Answer:
+def _merge(args: argparse.Namespace) -> CommandAnswer:
     # start-up time: these bring JAX
     from deodar.experiments.merging import merge_results
 
@@ -188,7 +188,7 @@ def _merge(args: argparse.Namespace) -> Answer:
     if missing:
         listed = ", ".join(missing[:MOST_CELLS]) + (", ..." if len(missing) > MOST_CELLS else "")
         lines.append(f"Trials without a row, as --trials names them: {listed}")
-    return Answer({"out": str(out), "trials": count, "missing": missing}, lines, 1 if missing else 0)
+    return CommandAnswer({"out": str(out), "trials": count, "missing": missing}, lines, 1 if missing else 0)
 
 
 def _follow(args: argparse.Namespace, of: int) -> int:
@@ -278,7 +278,7 @@ def _check(args: argparse.Namespace, setup: Any) -> int:
 
 def _answer(
     args: argparse.Namespace, out: Path, results: xarray.Dataset, repetition: RepeatedResults | None
-) -> Answer:
+) -> CommandAnswer:
     names = sorted(p.name for p in out.iterdir())
     outcomes = {
         str(name): int((results["outcome"] == name).sum())
@@ -288,20 +288,20 @@ def _answer(
     if lost:
         print(f"deodar experiment: warning: {results.attrs['diverged']}", file=sys.stderr)
     count = results.sizes["trial"]
-    data: dict[str, Any] = {"out": str(out), "trials": count, "outcomes": outcomes}
-    data |= {"diverged": lost, "files": names}
+    fields: dict[str, Any] = {"out": str(out), "trials": count, "outcomes": outcomes}
+    fields |= {"diverged": lost, "files": names}
     counts = ", ".join(f"{name} {n}" for name, n in outcomes.items())
     none = "their batch begins before this part, and runs with that one"
     lines = [*_cells(results), f"{count} trials: {counts or none}."]
     lines.append(f"Written to {_options.shown(out)}: {', '.join(names)}.")
     if repetition is not None:
-        data["repetition"] = dc.asdict(repetition)
+        fields["repetition"] = dc.asdict(repetition)
         lines.append(f"{repetition}.")
     if args.records is not None:
-        data["records"] = masked(args.records)
+        fields["records"] = masked(args.records)
         lines.append(f"Records written to {masked(args.records)}; dd.open_records reads them.")
     faithful = repetition is None or repetition.faithful
-    return Answer(data, lines, 1 if 0 < lost == count or not faithful else 0)
+    return CommandAnswer(fields, lines, 1 if 0 < lost == count or not faithful else 0)
 
 
 def _cells(results: xarray.Dataset) -> Iterator[str]:

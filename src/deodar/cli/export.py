@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from deodar.cli import _figure, _options, _report
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.exporters.tools import EXPORTERS, of_models, of_records
 from deodar.resources import Resources
 
@@ -61,7 +61,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Write the file and print its path; status 1 if `--strict` prevents that."""
     _named_first(args)
     format, out = _target(args)
@@ -79,7 +79,7 @@ def run(args: argparse.Namespace) -> Answer:
     else:
         names = _convert(args, format, out)
     written = f"Wrote {', '.join(dict.fromkeys(names))} to {_options.shown(out)}"
-    return Answer({"out": str(out), "format": format, "variables": names}, [written])
+    return CommandAnswer({"out": str(out), "format": format, "variables": names}, [written])
 
 
 def _target(args: argparse.Namespace) -> tuple[str, Path]:
@@ -118,7 +118,7 @@ def _named_first(args: argparse.Namespace) -> None:
         args.to, args.record, args.variables = name, Path(args.variables[0]), []
 
 
-def _write_model(args: argparse.Namespace, format: str, out: Path) -> Answer:
+def _write_model(args: argparse.Namespace, format: str, out: Path) -> CommandAnswer:
     """Write a model as a file of another tool, and show the report."""
     # start-up time: these bring JAX
     from deodar.exporters.exporting import exported
@@ -140,9 +140,9 @@ def _write_model(args: argparse.Namespace, format: str, out: Path) -> Answer:
     failed = args.strict and not done.report.faithful
     if not failed:
         output.write(out, done.content)
-    data = {**done.report.data(), "out": None if failed else str(out)}
+    fields = {**done.report.data(), "out": None if failed else str(out)}
     end = "Nothing was written: --strict." if failed else f"Written: {_options.shown(out)}"
-    return Answer(data, _report.shown(done.report, [end]), int(failed))
+    return CommandAnswer(fields, _report.told(done.report, [end]), int(failed))
 
 
 def _require_options(args: argparse.Namespace, format: str) -> None:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from deodar.cli import _options, _report
-from deodar.cli._answer import Answer, problem_data
+from deodar.cli._answer import CommandAnswer, problem_data
 from deodar.importers.tools import IMPORTERS
 from deodar.model import output
 
@@ -32,7 +32,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_force(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Import a file; status 1 if it cannot be read, or with `--strict` if a part was lost."""
     # start-up time: these bring JAX
     from deodar.importers.opening import read
@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> Answer:
     if args.out is not None and not failed:
         save(Model(document=with_report(doc, report)), args.out, args.force)
     written = str(args.out) if args.out is not None and not failed else None
-    data = {**located(report, doc).data(), "problems": problem_data(problems), "out": written}
+    fields = {**located(report, doc).data(), "problems": problem_data(problems), "out": written}
     lines: list[str] = []
     for severity, title in (
         ("problem", "It does not run as it is:"),
@@ -60,4 +60,4 @@ def run(args: argparse.Namespace) -> Answer:
         lines.append("Nothing was written: --strict.")
     elif args.out is not None:
         lines.append(f"Written: {_options.shown(args.out)}")
-    return Answer(data, _report.shown(report, lines), int(failed))
+    return CommandAnswer(fields, _report.told(report, lines), int(failed))

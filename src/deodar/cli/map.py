@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.locus import Locus
@@ -62,7 +62,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Print the share of each regime, and write the figure."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _options.use_cores(None)
@@ -104,10 +104,10 @@ def run(args: argparse.Namespace) -> Answer:
         _files.save_figure(regime_map_figure(regimes, loci), target, args.force)
     if save is not None:
         regimes.save(save, args.force)
-    data = regimes.data() | ({"loci": [line.data() for line in loci]} if args.loci else {})
+    fields = regimes.data() | ({"loci": [line.data() for line in loci]} if args.loci else {})
     lines = [_table(regimes), *([_lines(regimes, loci)] if args.loci else [])]
     lines += [] if target is None else [f"\nFigure: {target}"]
-    return Answer(data | {"figure": None if target is None else str(target)}, lines)
+    return CommandAnswer(fields | {"figure": None if target is None else str(target)}, lines)
 
 
 def _table(regimes: RegimeMap) -> str:

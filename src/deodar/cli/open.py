@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 
 HELP = "show what a package, a record, an experiment or a figure holds, and what made it"
 EPILOG = """\
@@ -29,7 +29,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Print the contents."""
     # start-up time: this brings JAX
     from deodar.packing import packing
@@ -39,4 +39,4 @@ def run(args: argparse.Namespace) -> Answer:
     if any(module.files for module in contents.modules):
         lines.append(f"Its modules run only with --trust. Read them first: deodar pack {file} --unpack")
     lines += [f"Next: deodar {command.format(file=file)}" for command in COMMANDS[contents.kind]]
-    return Answer(contents.to_data(), lines)
+    return CommandAnswer(contents.to_data(), lines)

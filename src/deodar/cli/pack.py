@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.summary import sized
 
 HELP = "pack a model, a record, an experiment or a figure into one file for a colleague, or unpack one"
@@ -33,7 +33,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Write the package, or extract its files."""
     # start-up time: these bring JAX
     from deodar.model import package
@@ -43,7 +43,7 @@ def run(args: argparse.Namespace) -> Answer:
         if args.with_code:
             args.wrong("--with-code packs modules, and --unpack unpacks")
         inner = packing.unpack(args.file, args.out, force=args.force)
-        return Answer({"out": str(inner)}, [f"Unpacked {_options.shown(inner)}"])
+        return CommandAnswer({"out": str(inner)}, [f"Unpacked {_options.shown(inner)}"])
     if args.out is not None and args.out.suffix.lower() != package.SUFFIX:
         args.wrong(
             f"the name of a package ends in {package.SUFFIX}: --out"
@@ -59,4 +59,4 @@ def run(args: argparse.Namespace) -> Answer:
             lines.append(f"It needs your module {module.name}, which is not in it; --with-code includes it")
         else:
             lines.append(f"Your module {module.name} is in it: {', '.join(module.files)}")
-    return Answer({"out": str(target), "bytes": size}, lines)
+    return CommandAnswer({"out": str(target), "bytes": size}, lines)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options, _work_plan
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 
 if TYPE_CHECKING:
     from deodar.codec import JsonObject
@@ -32,7 +32,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Print the plan of a document."""
     # start-up time: these bring JAX
     from deodar.compiler import device
@@ -61,13 +61,13 @@ def run(args: argparse.Namespace) -> Answer:
     program_plan = plan(Build(model.document, precision, args.accuracy or "default", on))
     if program_plan.shards is None:
         described = program_plan.describe()
-        return Answer({"plan": described.splitlines()}, [described])
+        return CommandAnswer({"plan": described.splitlines()}, [described])
     traffic = planned(program_plan, 8 if precision == "float64" else 4)
     bytes_each = memory.device_bytes(
         [n for g in program_plan.groups for n in g.nodes], precision, program_plan.shards
     )
     of = program_plan.shards, traffic, bytes_each
-    return Answer(_data(*of), [_text(*of)])
+    return CommandAnswer(_fields(*of), [_text(*of)])
 
 
 def _text(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> str:
@@ -81,7 +81,7 @@ def _text(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> str:
     return "\n".join(lines)
 
 
-def _data(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> JsonObject:
+def _fields(shards: Shards, traffic: Sequence[Traffic], bytes_each: int) -> JsonObject:
     return {
         "axis": shards.axis,
         "samples": shards.samples,

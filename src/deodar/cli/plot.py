@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.cli import _analysis, _figure, _options, _package
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.errors import FigureError, RecordError
 
 if TYPE_CHECKING:
@@ -67,13 +67,13 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer | int:
+def run(args: argparse.Namespace) -> CommandAnswer | int:
     """Draw the record, write the file and print its path."""
     with _package.opened(args.record, runs=False) as args.record:
         return _run(args)
 
 
-def _run(args: argparse.Namespace) -> Answer | int:
+def _run(args: argparse.Namespace) -> CommandAnswer | int:
     if args.follow:
         return _followed(args)
     analysis = _analysis.drawn(args)
@@ -94,7 +94,7 @@ def _run(args: argparse.Namespace) -> Answer | int:
     return _answer(args, drawn, out)
 
 
-def _drawn_analysis(args: argparse.Namespace, drawn: _analysis.AnalysisDrawing) -> Answer:
+def _drawn_analysis(args: argparse.Namespace, drawn: _analysis.AnalysisDrawing) -> CommandAnswer:
     """Write the figure of files of analyses and print its path."""
     # start-up time: these bring matplotlib
     from deodar.figures import _files
@@ -102,8 +102,8 @@ def _drawn_analysis(args: argparse.Namespace, drawn: _analysis.AnalysisDrawing) 
     out = _claimed(args, f"{_figure.stem(args.record)}-plot")
     _files.save_figure(drawn.figure, out, args.force)
     words = " and ".join(f"the {kind} of {_options.shown(path)}" for path, kind in drawn.files)
-    data = {"out": str(out), "kinds": {str(path): kind for path, kind in drawn.files}}
-    return Answer(data, [f"Drew {words} into {_options.shown(out)}"])
+    fields = {"out": str(out), "kinds": {str(path): kind for path, kind in drawn.files}}
+    return CommandAnswer(fields, [f"Drew {words} into {_options.shown(out)}"])
 
 
 def _claimed(args: argparse.Namespace, stem: str) -> Path:
@@ -118,17 +118,17 @@ def _claimed(args: argparse.Namespace, stem: str) -> Path:
     return out
 
 
-def _answer(args: argparse.Namespace, drawn: _figure.DrawnFigure, out: Path) -> Answer:
+def _answer(args: argparse.Namespace, drawn: _figure.DrawnFigure, out: Path) -> CommandAnswer:
     """Return what was drawn into which files."""
     also = {key: path for key, path in (("gif", args.gif), ("figure", args.save_as)) if path is not None}
     kinds = dict(zip(drawn.names, drawn.figure.kinds(drawn.record), strict=True))
     names = ", ".join(dict.fromkeys(drawn.names))
     files = " and ".join(map(_options.shown, [out, *also.values()]))
-    data = {"out": str(out), "kinds": kinds, **{key: str(path) for key, path in also.items()}}
-    return Answer(data, [f"Drew {names} into {files}"])
+    fields = {"out": str(out), "kinds": kinds, **{key: str(path) for key, path in also.items()}}
+    return CommandAnswer(fields, [f"Drew {names} into {files}"])
 
 
-def _followed(args: argparse.Namespace) -> Answer | int:
+def _followed(args: argparse.Namespace) -> CommandAnswer | int:
     """Draw again whenever the record has grown, until it is complete, or its run or this command is stopped.
 
     Raises:

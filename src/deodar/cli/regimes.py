@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.confirmation import Confirmation
@@ -47,7 +47,7 @@ def arguments(parser: _options.CommandParser) -> None:
     )
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Print the table, and write the figure."""
     # start-up time: these bring JAX
     from deodar.importers.opening import load
@@ -80,8 +80,8 @@ def run(args: argparse.Namespace) -> Answer:
         folds = confirmed(measured)
     _files.save_figure(regimes_figure(measured), target, args.force)
     computed = {name: fold.data() for name, fold in folds.items()}
-    data = measured.data() | {"folds": computed, "figure": str(target)}
-    return Answer(data, [_table(measured), _folds(folds), f"\nFigure: {target}"])
+    fields = measured.data() | {"folds": computed, "figure": str(target)}
+    return CommandAnswer(fields, [_table(measured), _folds(folds), f"\nFigure: {target}"])
 
 
 def _table(measured: Regimes) -> str:

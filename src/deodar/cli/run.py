@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from deodar.cli import _live, _long, _machines, _options, _package
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.importers import examples
 
 HELP = "run a model and record it, or run a record again and compare"
@@ -90,7 +90,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer | int:
+def run(args: argparse.Namespace) -> CommandAnswer | int:
     """Run a document, or repeat a record; status 1 if stopped, or if a repetition differs without a
     reason.
     """
@@ -98,7 +98,7 @@ def run(args: argparse.Namespace) -> Answer | int:
         return _run(args)
 
 
-def _run(args: argparse.Namespace) -> Answer | int:
+def _run(args: argparse.Namespace) -> CommandAnswer | int:
     # start-up time: these bring JAX
     from deodar.cli import _document_run, _recorded_run
     from deodar.compiler import hosts

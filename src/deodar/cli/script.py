@@ -7,7 +7,7 @@ import itertools
 from pathlib import Path
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.errors import OutputError
 from deodar.model import output
 
@@ -22,7 +22,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Write the script, or print it."""
     # start-up time: this brings JAX
     from deodar.importers.opening import load
@@ -33,9 +33,9 @@ def run(args: argparse.Namespace) -> Answer:
     if args.out is not None:
         output.write(output.claim(args.out, args.force), script.encode())
     if args.out is None:
-        return Answer({"out": None, "script": script}, [script.removesuffix("\n")])
+        return CommandAnswer({"out": None, "script": script}, [script.removesuffix("\n")])
     wrote = f"Wrote {_options.shown(args.out)}. Type: python {_options.shown(args.out)}"
-    return Answer({"out": str(args.out), "script": script}, [wrote])
+    return CommandAnswer({"out": str(args.out), "script": script}, [wrote])
 
 
 def _free(stem: str, script: Path) -> str:

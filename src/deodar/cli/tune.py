@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar import codec
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.errors import DocumentError
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Print what was found, and write the tuned document; status 1 if a requirement is not met."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _options.use_cores(None)
@@ -78,9 +78,9 @@ def run(args: argparse.Namespace) -> Answer:
         notes = "\n\n".join(text for text in (tuned.model.document.notes, tuned.note) if text)
         tuned.model.describe(notes=notes)
         save(tuned.model, args.out, args.force)
-    data = tuned.data() | {"document": str(args.out) if args.out is not None else None}
+    fields = tuned.data() | {"document": str(args.out) if args.out is not None else None}
     written = [] if args.out is None else [f"\nDocument: {args.out}"]
-    return Answer(data, [_table(tuned), *written], 0 if tuned.met else 1)
+    return CommandAnswer(fields, [_table(tuned), *written], 0 if tuned.met else 1)
 
 
 def _table(tuned: Tuned) -> str:

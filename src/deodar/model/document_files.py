@@ -227,8 +227,8 @@ def load(path: str | Path) -> Document:
 def require_file(path: Path) -> None:
     """Refuse a path without a file; the error suggests a document of the same folder with a similar name."""
     if not path.exists():
-        there = [p.name for p in path.parent.glob("*.json")] if path.parent.is_dir() else []
-        raise DocumentError("there is no such file", fix=did_you_mean(path.name, there))
+        documents = [p.name for p in path.parent.glob("*.json")] if path.parent.is_dir() else []
+        raise DocumentError("there is no such file", fix=did_you_mean(path.name, documents))
     if not path.is_file():
         raise DocumentError("is not a file")
 

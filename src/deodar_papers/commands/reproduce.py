@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from deodar import codec
 from deodar.batch.on_cluster import ClusterPool
 from deodar.cli import _machines, _options, _rescue
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.codec import Json
 from deodar.errors import OutputError, UnknownName, WorkerError, did_you_mean
 from deodar.experiments.jobs import run_jobs
@@ -65,7 +65,7 @@ def arguments(parser: _options.CommandParser) -> None:
     parser.flag("--no-progress", "show no progress bar")
 
 
-def run(args: argparse.Namespace) -> Answer | int:
+def run(args: argparse.Namespace) -> CommandAnswer | int:
     """Reproduce a paper; status 1 if a required claim is false, or if the runs were stopped."""
     # start-up time: these bring JAX
     from deodar.compiler.device import find
@@ -137,7 +137,7 @@ def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
 
 def _write(
     args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Json], took: str
-) -> Answer:
+) -> CommandAnswer:
     """Write report and figures, and return the claims; `took` says how many runs this call computed, and in
     what time.
     """
@@ -169,8 +169,8 @@ def _write(
         interval = "" if c.interval is None else f", 95 % interval {c.interval[0]:g} to {c.interval[1]:g}"
         wanted = "no target" if c.origin == "none" else f"wanted {c.target}, {c.origin}"
         inferred = f"; no evidence, it assumes {c.assumes}" if c.inferred else ""
-        value = "nothing yet" if c.value is None else c.value
-        lines.append(f"  {mark:4}{c.name} -> {value} ({wanted}; n {c.n}{interval}{inferred})")
+        reached = "nothing yet" if c.value is None else c.value
+        lines.append(f"  {mark:4}{c.name} -> {reached} ({wanted}; n {c.n}{interval}{inferred})")
     names = [ROWS, RESULTS, *(f"{n}.md" for n in report.tables), *(f"{n}.png" for n in report.figures)]
     required = [c for c in report.claims if c.kind == "required"]
     held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
@@ -186,5 +186,5 @@ def _write(
             f" {_again(args, asked)}",
             file=sys.stderr,
         )
-    data = {"out": str(out), **codec.parse(text), **({"instead_of": str(asked)} if why else {})}
-    return Answer(data, lines, 1 if why or failed(report.claims) else 0)
+    stated = {"out": str(out), **codec.parse(text), **({"instead_of": str(asked)} if why else {})}
+    return CommandAnswer(stated, lines, 1 if why or failed(report.claims) else 0)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.codec import JsonObject
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Print the robots, or the signals of one."""
     # start-up time: these bring JAX
     from deodar_robots.robot import robot_file
@@ -43,7 +43,9 @@ def run(args: argparse.Namespace) -> Answer:
         for name, file in listed.items():
             places = f"; places: {', '.join(file.places)}" if file.places else ""
             lines.append(f"{name:{width}}  {file.kind}{places}")
-        return Answer({name: {"kind": f.kind, "places": list(f.places)} for name, f in listed.items()}, lines)
+        return CommandAnswer(
+            {name: {"kind": f.kind, "places": list(f.places)} for name, f in listed.items()}, lines
+        )
     robot = Robot.open(args.file)
     try:
         found = _check(robot)
@@ -53,7 +55,7 @@ def run(args: argparse.Namespace) -> Answer:
     rows: dict[str, dict[str, Any]] = {"sensor": found["sensors"], "motor": found["motors"]}
     for what, signals in rows.items():
         lines += [f"  {what} {name}: {about}" for name, about in signals.items()]
-    return Answer(found, lines)
+    return CommandAnswer(found, lines)
 
 
 def _check(robot: Robot) -> dict[str, Any]:

@@ -35,7 +35,7 @@ def limit_memory() -> None:
 
 
 def main() -> None:
-    """Answer requests until the input ends."""
+    """CommandAnswer requests until the input ends."""
     # what else writes to the output must not be taken for a message
     output = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
-from deodar.cli._answer import Answer
+from deodar.cli._answer import CommandAnswer
 from deodar.model import output
 from deodar_spikes import options
 
@@ -51,7 +51,7 @@ def arguments(parser: _options.CommandParser) -> None:
     _options.add_json(parser)
 
 
-def run(args: argparse.Namespace) -> Answer:
+def run(args: argparse.Namespace) -> CommandAnswer:
     """Compare, or list chips."""
     if args.what == "chips":
         return _chips()
@@ -77,8 +77,8 @@ def run(args: argparse.Namespace) -> Answer:
         first = {run: {k: v[:, 0] for k, v in r.items()} for run, r in comparison.runs.items()}
         figure = spikes_figure(first, comparison.times, doc.time_unit)
         _files.save_figure(figure, args.out, force=args.force)
-    data = {**comparison.data(), "out": None if args.out is None else str(args.out)}
-    return Answer(data, _lines(comparison, doc.time_unit, args))
+    numbers = {**comparison.data(), "out": None if args.out is None else str(args.out)}
+    return CommandAnswer(numbers, _lines(comparison, doc.time_unit, args))
 
 
 def _seconds(unit: str) -> float:
@@ -120,7 +120,7 @@ def _cell(e: Estimate, kind: str, unit: str) -> str:
     return f"{scale * e.value:.3g}{after}{spread}"
 
 
-def _chips() -> Answer:
+def _chips() -> CommandAnswer:
     """List the chips and their limits."""
     # start-up time: this brings NumPy
     from deodar_spikes.chip_limits import chip_limits, chip_names
@@ -133,7 +133,7 @@ def _chips() -> Answer:
             limit = getattr(c, name)
             shown = ", ".join(f"{k} {v:g}" for k, v in limit.items()) if isinstance(limit, Mapping) else limit
             lines.append(f"  {name:24}{shown!s:28}{source}")
-    return Answer({"chips": [{k: _plain(v) for k, v in vars(c).items()} for c in chips]}, lines)
+    return CommandAnswer({"chips": [{k: _plain(v) for k, v in vars(c).items()} for c in chips]}, lines)
 
 
 def _plain(value: object) -> object:
