@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from deodar import codec
 from deodar.errors import RecordError
@@ -17,9 +18,24 @@ if TYPE_CHECKING:
 class SavedAnalysis(ABC):
     """A result that is saved with the document, the arguments and the versions that made it."""
 
+    KIND: ClassVar[str]
+    """Its name in the provenance of its record."""
+
+    PHRASE: ClassVar[str]
+    """What it is, in words with an article."""
+
     @abstractmethod
     def dataset(self) -> xarray.Dataset:
-        """Return the result as a Dataset."""
+        """Return the result as a Dataset, with the document, its arguments and the versions that made it."""
+
+    @classmethod
+    @abstractmethod
+    def of_record(cls, record: xarray.Dataset, provenance: Mapping[str, Any]) -> Self:
+        """Return the result that `dataset` made a record of.
+
+        Raises:
+            RecordError: it is of another version.
+        """
 
     def save(self, path: str | Path, force: bool = False) -> Path:
         """Write the result as NetCDF (.nc) or Zarr (.zarr), with the document, arguments and versions.
@@ -36,20 +52,28 @@ class SavedAnalysis(ABC):
 
         return save_record(self.dataset(), path, force=force)
 
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read a result that `save` wrote.
 
-def opened(path: str | Path, kind: str, words: str) -> tuple[xarray.Dataset, Mapping[str, Any]]:
-    """Return the record of a result, and its provenance.
+        The model is that of the document in the file, so that a branch can be left at a branch point, its
+        ports can be read, and its folds have sensitivities.
 
-    Raises:
-        RecordError: the file does not exist, is damaged, or its provenance lacks `kind`; `words` say what it
-            should be.
-    """
-    # start-up time: these bring xarray
-    from deodar.recording.files import load_record
-    from deodar.recording.provenance import KEY
+        Args:
+            path: the file.
 
-    record = load_record(path)
-    provenance = codec.parse(record.attrs[KEY])
-    if kind not in provenance:
-        raise RecordError(f"is a record without {words}", where=str(path))
-    return record, provenance
+        Raises:
+            RecordError: the file does not exist, is damaged, or is another record.
+        """
+        # start-up time: these bring xarray
+        from deodar.recording.files import load_record
+        from deodar.recording.provenance import KEY
+
+        record = load_record(path)
+        provenance = codec.parse(record.attrs[KEY])
+        if cls.KIND not in provenance:
+            raise RecordError(f"is a record without {cls.PHRASE}", where=str(path))
+        try:
+            return cls.of_record(record, provenance)
+        except RecordError as error:
+            raise RecordError([replace(p, where=str(path)) for p in error.problems]) from None

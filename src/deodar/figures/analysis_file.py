@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
-from deodar.analysis.continuation import branch_file, locus_file
 from deodar.analysis.continuation.branch import SteadyBranch
 from deodar.analysis.continuation.locus import Locus
-from deodar.analysis.maps import map_result
 from deodar.analysis.maps.map_result import RegimeMap
 from deodar.errors import FigureError
 from deodar.figures.bifurcation import bifurcation_diagram
@@ -25,7 +23,7 @@ if TYPE_CHECKING:
 MAP, BRANCH, LOCUS = "map of regimes", "branch", "locus"
 """What a file may hold, in words."""
 
-_KINDS = {map_result.KIND: MAP, branch_file.KIND: BRANCH, locus_file.KIND: LOCUS}
+_KINDS = {RegimeMap.KIND: MAP, SteadyBranch.KIND: BRANCH, Locus.KIND: LOCUS}
 
 
 def kind_of(data: xarray.Dataset) -> str:

@@ -2,24 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from deodar import codec
 from deodar.analysis.continuation import switching
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.naming import named
+from deodar.analysis.continuation.right_hand_side import RightHandSide
 from deodar.analysis.continuation.walk import Walk, growing, with_step_values
 from deodar.analysis.saved import SavedAnalysis
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError
+from deodar.numerics.axes import Axis
 from deodar.summary import Summarised, Summary
 
 if TYPE_CHECKING:
     import xarray
+
+
+STATE, BIFURCATION = "state", "bifurcation"
+"""Dimensions of a record: steady states, and bifurcations."""
+
+STATED = (
+    *("kind", "instability", "where", "value", "rate", "frequency", "index"),
+    *("step_value", "fine_value", "by_grid"),
+)
+"""What a record states of a bifurcation, beside its arrays."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,6 +50,9 @@ class SteadyBranch(Summarised, SavedAnalysis):
         line: the model along its parameter.
         not_refined: why it was not followed on a grid twice as fine; empty if it was, or was not to be.
     """
+
+    KIND = "steady_branch"
+    PHRASE = "a branch of steady states"
 
     parameter: str
     values: np.ndarray
@@ -87,35 +103,72 @@ class SteadyBranch(Summarised, SavedAnalysis):
         return branches
 
     def dataset(self) -> xarray.Dataset:
-        """Return the branch as a Dataset, with the document, its arguments and the versions that made it."""
-        # start-up time: this brings xarray
-        from deodar.analysis.continuation import branch_file
+        """Return the branch as a Dataset, with the document, its arguments and the versions that made it.
 
-        numbers = {"value": self.values, "rate": self.rates, "growing": self.growing}
+        The arrays of states are variables by path, such as `u.activation`; those at bifurcations and the
+        modes there are `bifurcation:u.activation` and `mode:u.activation`.
+        """
+        # start-up time: these bring xarray
+        import xarray
+
+        from deodar.analysis.continuation import line_file
+        from deodar.recording.provenance import KEY
+
+        equations = self.line.right_hand_side
+        taken: dict[str, Axis | None] = {STATE: None, BIFURCATION: None}
+        variables: dict[str, Any] = {
+            "rate": (STATE, self.rates, {"long_name": "largest growth rate"}),
+            "growing": (STATE, self.growing.astype(np.int64), {"long_name": "growing modes"}),
+        }
+        dims = {f"{p.path}.{p.name}": _dims(p.path, p.name, p.shape, p.axes, taken) for p in equations.parts}
+        for prefix, lead, rows in (
+            ("", STATE, self.states),
+            ("bifurcation:", BIFURCATION, [b.state for b in self.bifurcations]),
+            ("mode:", BIFURCATION, [b.vector for b in self.bifurcations]),
+        ):
+            for path, arrays in _by_path(equations, rows).items():
+                variables[prefix + path] = ((lead, *dims[path]), arrays)
+        coordinates: dict[str, Any] = {
+            dim: (dim, axis.points, {"units": axis.unit} if axis.unit else {})
+            for dim, axis in taken.items()
+            if axis is not None
+        }
+        over = {"long_name": self.parameter}
+        coordinates["value"] = (STATE, self.values, over)
+        coordinates[BIFURCATION] = (BIFURCATION, [b.value for b in self.bifurcations], over)
         description = {
             "parameter": self.parameter,
             "ended": list(self.ended),
             "not_refined": self.not_refined,
+            "bifurcations": [{name: getattr(b, name) for name in STATED} for b in self.bifurcations],
         }
-        return branch_file.dataset(self.line, numbers, self.states, self.bifurcations, description)
+        made_by = codec.line({**line_file.made(self.line), self.KIND: description})
+        return xarray.Dataset(variables, coordinates, {KEY: made_by, "title": equations.doc.name})
 
     @classmethod
-    def load(cls, path: str | Path) -> SteadyBranch:
-        """Read a branch that `save` wrote.
-
-        The model is that of the document in the file, so that the branch can be left at a branch point, its
-        ports can be read, and its folds have sensitivities.
-
-        Args:
-            path: the file.
-
-        Raises:
-            RecordError: the file does not exist, is damaged, or is another record.
-        """
+    def of_record(cls, record: xarray.Dataset, provenance: Mapping[str, Any]) -> SteadyBranch:
         # start-up time: this brings xarray
-        from deodar.analysis.continuation import branch_file
+        from deodar.analysis.continuation import line_file
 
-        return cls(**branch_file.fields(path))
+        line, description = line_file.line_of(provenance), provenance[cls.KIND]
+        assert line is not None
+        states, places, modes = (
+            _rows(line.right_hand_side, record, prefix) for prefix in ("", "bifurcation:", "mode:")
+        )
+        return cls(
+            description["parameter"],
+            record["value"].values,
+            states,
+            record["rate"].values,
+            record["growing"].values,
+            tuple(
+                Bifurcation(state=x, vector=v, line=line, **b)
+                for b, x, v in zip(description["bifurcations"], places, modes, strict=True)
+            ),
+            (description["ended"][0], description["ended"][1]),
+            line,
+            description["not_refined"],
+        )
 
     def data(self) -> JsonObject:
         """Return what was found as plain data, without the states."""
@@ -155,4 +208,36 @@ def branch(parameter: str, walked: tuple[ParameterLine, Walk], begin: str = "sta
         tuple(bifurcations),
         (begin, walk.ended),
         line,
+    )
+
+
+def _dims(
+    path: str, name: str, shape: Sequence[int], axes: Sequence[Axis], taken: dict[str, Axis | None]
+) -> tuple[str, ...]:
+    """Return the dimensions of an array, named by axes; others that have a name already are named by path."""
+    out: list[str] = []
+    for d, axis in enumerate(axes or [None] * len(shape)):
+        dim = f"{path}.{name}.{d}" if axis is None else axis.name
+        if dim in out or (dim in taken and taken[dim] != axis):
+            dim = f"{path}.{name}.{dim}"
+        taken[dim] = axis
+        out.append(dim)
+    return tuple(out)
+
+
+def _by_path(equations: RightHandSide, rows: Sequence[np.ndarray] | np.ndarray) -> Mapping[str, np.ndarray]:
+    """Return states by path, states first."""
+    states = [equations.state(x) for x in rows]
+    return {
+        f"{p.path}.{p.name}": np.array([s[f"{p.path}.{p.name}"] for s in states]).reshape(-1, *p.shape)
+        for p in equations.parts
+    }
+
+
+def _rows(equations: RightHandSide, record: xarray.Dataset, prefix: str) -> np.ndarray:
+    """Return states by path as rows."""
+    arrays = {(path := f"{p.path}.{p.name}"): record[prefix + path].values for p in equations.parts}
+    number = len(record["value"] if not prefix else record[BIFURCATION])
+    return np.array([equations.vector({k: a[n] for k, a in arrays.items()}) for n in range(number)]).reshape(
+        number, equations.size
     )

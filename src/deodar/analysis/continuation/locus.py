@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from deodar import codec
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.fold_plane import FoldPlane
 from deodar.analysis.continuation.hopf_plane import HopfPlane
@@ -40,6 +40,9 @@ class Locus(Summarised, SavedAnalysis):
         frequencies: angular frequency at each point of the line of a Hopf point, per document time; empty for
             other bifurcations.
     """
+
+    KIND = "locus"
+    PHRASE = "a locus"
 
     of: str
     parameters: tuple[str, str]
@@ -111,26 +114,39 @@ class Locus(Summarised, SavedAnalysis):
         return distance, nearest_point * scale
 
     def dataset(self) -> xarray.Dataset:
-        """Return the locus as a Dataset, with the document, its arguments and the versions that made it."""
-        # start-up time: this brings xarray
-        from deodar.analysis.continuation import locus_file
+        """Return the locus as a Dataset: `first` and `second` over its points, `frequency` of Hopf points."""
+        # start-up time: these bring xarray
+        import xarray
 
-        return locus_file.dataset(self.line, self.data())
+        from deodar.analysis.continuation import line_file
+        from deodar.recording.provenance import KEY
+
+        description = {key: v for key, v in self.data().items() if key not in ("values", "frequencies")}
+        values = self.values.reshape(-1, 2)
+        variables: dict[str, Any] = {
+            name: ("point", values[:, k], {"long_name": self.parameters[k]})
+            for k, name in enumerate(("first", "second"))
+        }
+        if frequencies := self.frequencies.tolist():
+            variables["frequency"] = ("point", frequencies, {"long_name": "angular frequency"})
+        made_by = codec.line({**line_file.made(self.line), self.KIND: description})
+        return xarray.Dataset(variables, attrs={KEY: made_by})
 
     @classmethod
-    def load(cls, path: str | Path) -> Locus:
-        """Read a locus that `save` wrote.
-
-        Args:
-            path: the file.
-
-        Raises:
-            RecordError: the file does not exist, is damaged, or is another record.
-        """
+    def of_record(cls, record: xarray.Dataset, provenance: Mapping[str, Any]) -> Locus:
         # start-up time: this brings xarray
-        from deodar.analysis.continuation import locus_file
+        from deodar.analysis.continuation import line_file
 
-        return cls(**locus_file.fields(path))
+        description = provenance[cls.KIND]
+        first, second = description["parameters"]
+        return cls(
+            description["of"],
+            (first, second),
+            np.column_stack([record["first"].values, record["second"].values]),
+            tuple(LocusPoint(p["kind"], (p["values"][0], p["values"][1])) for p in description["points"]),
+            line_file.line_of(provenance),
+            record["frequency"].values if "frequency" in record else np.zeros(0),
+        )
 
     def data(self) -> JsonObject:
         """Return the line as plain data."""

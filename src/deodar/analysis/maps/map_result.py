@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +11,7 @@ import numpy as np
 from deodar import codec
 from deodar.analysis.maps.labels import WORDS
 from deodar.analysis.maps.request import MapRequest
-from deodar.analysis.saved import SavedAnalysis, opened
+from deodar.analysis.saved import SavedAnalysis
 from deodar.codec import JsonObject
 from deodar.compiler import device as devices
 from deodar.errors import RecordError
@@ -23,9 +22,6 @@ from deodar.summary import Summarised, Summary
 
 if TYPE_CHECKING:
     import xarray
-
-KIND = "regime_map"
-"""Name of the labels in a file, and of the arguments in its provenance."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -42,6 +38,9 @@ class RegimeMap(Summarised, SavedAnalysis):
             `dt`, `precision`, `inputs` that were kept.
         provenance: the document, and the versions and the machine that made the map.
     """
+
+    KIND = "regime_map"
+    PHRASE = "a map of regimes"
 
     parameters: tuple[str, str]
     values: tuple[np.ndarray, np.ndarray]
@@ -125,34 +124,28 @@ class RegimeMap(Summarised, SavedAnalysis):
         meanings = " ".join(word.replace(" ", "_") for word in WORDS)
         flags = {"flag_values": list(range(len(WORDS))), "flag_meanings": meanings}
         name = {"long_name": f"regime of {self.about['field']}"}
-        description = {**self.provenance, KIND: {**self.about, "at": list(self.at), "words": list(WORDS)}}
+        settings = {**self.about, "at": list(self.at), "words": list(WORDS)}
         return xarray.Dataset(
             {
-                KIND: (self.parameters, self.labels, name | flags),
+                self.KIND: (self.parameters, self.labels, name | flags),
                 "computed": (self.parameters, self.computed),
             },
             dict(zip(self.parameters, self.values, strict=True)),
-            {KEY: codec.line(description)},
+            {KEY: codec.line({**self.provenance, self.KIND: settings})},
         )
 
     @classmethod
-    def load(cls, path: str | Path) -> RegimeMap:
-        """Read a map that `save` wrote.
-
-        Raises:
-            RecordError: the file does not exist, is damaged, or is another record.
-        """
-        record, stored_map = opened(path, KIND, "a map of regimes")
-        stored_provenance, settings = dict(stored_map), dict(stored_map[KIND])
-        del stored_provenance[KIND]
-        first, second = (str(name) for name in record[KIND].dims)
+    def of_record(cls, record: xarray.Dataset, provenance: Mapping[str, Any]) -> RegimeMap:
+        stored_provenance, settings = dict(provenance), dict(provenance[cls.KIND])
+        del stored_provenance[cls.KIND]
+        first, second = (str(name) for name in record[cls.KIND].dims)
         if settings.pop("words") != list(WORDS):
-            raise RecordError("has labels of another version of deodar", where=str(path))
+            raise RecordError("has labels of another version of deodar")
         at = settings.pop("at")
         return cls(
             (first, second),
             (record[first].values, record[second].values),
-            record[KIND].values,
+            record[cls.KIND].values,
             record["computed"].values,
             (at[0], at[1]),
             settings,
