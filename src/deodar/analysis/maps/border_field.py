@@ -15,8 +15,8 @@ from deodar.analysis.continuation.right_hand_side import RightHandSide, right_ha
 from deodar.analysis.continuation.walk import begun, walk
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.maps.map_result import RegimeMap
-from deodar.analysis.maps.request import driven_alone
 from deodar.analysis.peaks import peaks
+from deodar.analysis.settling_copies import driven_alone
 from deodar.errors import AnalysisError
 from deodar.model import edit, find
 from deodar.model.document import Document

@@ -62,14 +62,14 @@ class RegimeMap(Summarised, SavedAnalysis):
             "strength": request.strength,
             "sigma": list(isolated.sigma),
             "center": list(isolated.center),
-            "places": [list(place) for place in request.places],
+            "places": [[at] for at in request.places],
             "limit": request.limit,
             "tolerance": request.tolerance,
             "dt": isolated.session.dt,
-            "precision": request.precision,
+            "precision": isolated.session.precision,
             "inputs": list(isolated.background),
         }
-        made_by = provenance.made_by(devices.find(), request.precision)
+        made_by = provenance.made_by(devices.find(), isolated.session.precision)
         stored_provenance = {**provenance.stored(doc), "made_by": made_by}
         first, second = (float(np.ravel(find.value(doc, path))[0]) for path in request.paths)
         return cls(

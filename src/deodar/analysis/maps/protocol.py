@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import jax
@@ -15,29 +14,20 @@ from jax import Array
 from deodar.analysis.isolated import WHOLE
 from deodar.analysis.maps.labels import RegimeLabel
 from deodar.analysis.maps.patterns import count, widest
-from deodar.analysis.maps.request import INPUTS, MapRequest
+from deodar.analysis.maps.request import MapRequest
 from deodar.analysis.selection import HEAD_START
-from deodar.analysis.settling_copies import SettlingCopies
+from deodar.analysis.settling_copies import INPUTS, LEAST_BLOCKS, SettlingLanes
 from deodar.compiler.arguments import ProgramState
 from deodar.compiler.functions import Constants
-from deodar.compiler.program import precision_context
-from deodar.model import find
-from deodar.numerics.axes import Axes
 
 REST, ONE, NONE, AHEAD, EQUAL = range(5)
 """The stages: no input, one input, none again; two inputs, one of them ahead; two equal inputs."""
 
-MOST_LANES, LEAST_LANES = 64, 8
+MOST_LANES = 64
 """Cells that are computed at once."""
-
-LANE_BYTES = 8 * 2**20
-"""Largest number of bytes of the matrices of all lanes, if each has its own; more than `LEAST_LANES` need."""
 
 BLOCKS = 400
 """Blocks of steps in one call, between which progress is shown."""
-
-LEAST_BLOCKS = 2
-"""Blocks after which a stage may end."""
 
 FAR = 1e4
 """Activation, relative to inputs and resting level, beyond which it grows without limit."""
@@ -67,7 +57,7 @@ class Lanes(NamedTuple):
     labels: Array
 
 
-class RegimeProtocol:
+class RegimeProtocol(SettlingLanes[MapRequest]):
     """The stages of a map, for any of its cells.
 
     A lane takes the next cell of the queue when it has finished one, so that cells that settle late delay no
@@ -78,27 +68,7 @@ class RegimeProtocol:
     """
 
     def __init__(self, request: MapRequest) -> None:
-        self._request = request
-        doc = request.model.document
-        entry = find.element(doc, "field")
-        inputs = [((find.element(doc, name).id, "amplitude"),) for name in INPUTS]
-        leaves = [*request.leaves, *inputs]
-        self.axes: Axes = request.isolated.axes
-        dt = request.isolated.session.dt
-
-        def copies(lanes: int) -> SettlingCopies:
-            return SettlingCopies(request.model, leaves, lanes, request.precision, dt)
-
-        self.copies = copies(MOST_LANES)
-        matrix = sum(axis.samples**2 for axis in self.axes) * self.copies.dtype.itemsize
-        if self.copies.rebuilt and matrix * MOST_LANES > LANE_BYTES:
-            self.copies = copies(max(LEAST_LANES, LANE_BYTES // matrix))
-        self._lanes = self.copies.count
-        self._place = self.copies.dynamics.executable.plan.row[entry.id]
-        tau = request.isolated.field.tau
-        self._steps = max(2, math.ceil(tau / dt))
-        # blocks last a time constant
-        self._longest = max(LEAST_BLOCKS, math.ceil(request.limit * tau / (self._steps * dt)))
+        super().__init__(request, INPUTS, MOST_LANES)
         self._columns = len(request.values[1])
         self._cells = math.prod(len(values) for values in request.values)
 
@@ -112,29 +82,21 @@ class RegimeProtocol:
         """
         queue = np.zeros(self._cells, np.int32)
         queue[: len(cells)] = cells
-        lanes = self._call("begin", np.append(labels, 0).astype(np.uint8))
+        lanes = self.call(self._begin, np.append(labels, 0).astype(np.uint8))
         while True:
-            lanes = self._call("blocks", lanes, queue, np.int32(len(cells)))
+            lanes = self.call(self._blocks, lanes, queue, np.int32(len(cells)))
             going = int((np.asarray(lanes.cell) >= 0).sum())
             done = int(lanes.taken) - going
             progress(done)
             if done == len(cells):
                 return np.asarray(lanes.labels)[:-1]
 
-    def _call(self, name: str, *args: Any) -> Any:
-        with precision_context(self._request.precision), jax.default_matmul_precision("highest"):
-            return self._compiled[name](*args)
-
-    @cached_property
-    def _compiled(self) -> dict[str, Callable[..., Any]]:
-        return {"begin": jax.jit(self._begin), "blocks": jax.jit(self._blocks)}
-
     # ----------------------------------------------------------------------------------------------- compiled
 
     def _begin(self, labels: Array) -> Lanes:
         """Return idle lanes."""
-        none = jnp.full(self._lanes, -1, jnp.int32)
-        zero = jnp.zeros(self._lanes, jnp.int32)
+        none = jnp.full(self.lanes, -1, jnp.int32)
+        zero = jnp.zeros(self.lanes, jnp.int32)
         parameters = self._parameters(none, zero)
         return Lanes(
             none,
@@ -163,7 +125,7 @@ class RegimeProtocol:
     def _filled(self, lanes: Lanes, queue: Array, total: Array) -> Lanes:
         """Give the next cells of the queue to idle lanes; where constants are rebuilt, to several at once."""
         idle = lanes.cell < 0
-        least = self._lanes // 8 if self.copies.rebuilt else 1
+        least = self.lanes // 8 if self.copies.rebuilt else 1
         ready = (lanes.taken < total) & (idle.sum() >= jnp.minimum(least, total - lanes.taken))
 
         def fill(lanes: Lanes) -> Lanes:
@@ -186,13 +148,13 @@ class RegimeProtocol:
     def _block(self, lanes: Lanes) -> Lanes:
         """Advance all lanes by a block of steps, and those that have settled to their next stage."""
         parameters = self._parameters(lanes.cell, lanes.stage)
-        begin = self._activation(lanes.state)
-        before, state = self.copies.run(parameters, lanes.constants, lanes.state, self._steps)
-        last, activation = self._activation(before), self._activation(state)
+        begin = self.activation(lanes.state)
+        before, state = self.copies.run(parameters, lanes.constants, lanes.state, self.steps)
+        last, activation = self.activation(before), self.activation(state)
         settled, far = self._judged(begin, last, activation)
         settled &= lanes.blocks + 1 >= LEAST_BLOCKS
-        late = ~settled & (lanes.blocks + 1 >= self._longest)
-        above = activation - self._threshold(parameters)[:, None]
+        late = ~settled & (lanes.blocks + 1 >= self.longest)
+        above = activation - self.threshold(parameters)[:, None]
         peaks = count(above if self.axes else above[:, 0], self.axes)
         covers = jnp.zeros_like(settled)
         if self.axes:
@@ -218,9 +180,8 @@ class RegimeProtocol:
     def _joined(self, above: Array) -> Array:
         """Return whether both places of the two inputs are active."""
         if not self.axes:
-            return jnp.zeros(self._lanes, bool)
-        samples = [int(np.abs(self.axes[0].points - at).argmin()) for (at,) in self._request.places]
-        return (above[:, np.array(samples)] > 0).all(-1)
+            return jnp.zeros(self.lanes, bool)
+        return (above[:, np.array(self.request.samples)] > 0).all(-1)
 
     def _decided(
         self, lanes: Lanes, peaks: Array, covers: Array, joined: Array
@@ -230,7 +191,7 @@ class RegimeProtocol:
         """
         stage, some = lanes.stage, peaks > 0
         outlasts = jnp.where(stage == NONE, some, lanes.kept)
-        label = jnp.full(self._lanes, -1, jnp.int32)
+        label = jnp.full(self.lanes, -1, jnp.int32)
         label = jnp.where((stage == REST) & some, RegimeLabel.ACTIVE, label)
         label = jnp.where((stage == ONE) & ~some, RegimeLabel.SILENT, label)
         label = jnp.where(((stage == ONE) | (stage == NONE)) & covers, RegimeLabel.UNBOUNDED, label)
@@ -246,35 +207,20 @@ class RegimeProtocol:
         """Return whether each lane has settled, over the block and in its last step, and whether its
         activation is far beyond what inputs and resting level explain.
         """
-        tau, dt = self._request.isolated.field.tau, self.copies.dynamics.dt
-        slow = jnp.abs(activation - begin).max(-1) * (tau / (self._steps * dt))
-        fast = jnp.abs(activation - last).max(-1) * (tau / dt)
         most = jnp.abs(activation).max(-1)
-        far = ~(most < FAR * (self._request.isolated.scale + self._request.strength))
-        return jnp.maximum(slow, fast) <= self._request.tolerance, far
+        far = ~(most < FAR * (self.request.isolated.scale + self.request.strength))
+        return self.change(begin, last, activation) <= self.request.tolerance, far
 
     def _parameters(self, cell: Array, stage: Array) -> Array:
         """Return both parameters and the strengths of the inputs, (lanes, parameters)."""
         one, two = stage == ONE, stage >= AHEAD
         dtype = self.copies.dtype
-        strength = jnp.asarray(self._request.strength, dtype)
+        strength = jnp.asarray(self.request.strength, dtype)
         first = two * strength * jnp.where(stage == AHEAD, 1 + HEAD_START, 1.0)
         cell = jnp.maximum(cell, 0)
         places = (cell // self._columns, cell % self._columns)
-        values = [jnp.asarray(v, dtype)[k] for v, k in zip(self._request.values, places, strict=True)]
+        values = [jnp.asarray(v, dtype)[k] for v, k in zip(self.request.values, places, strict=True)]
         return jnp.stack([*values, one * strength, first, two * strength], axis=1).astype(dtype)
-
-    def _threshold(self, parameters: Array) -> Array:
-        """Return the activation above which a peak exists, for each lane."""
-        number = self._request.threshold_of
-        if number is not None:
-            return parameters[:, number]
-        return jnp.full(self._lanes, self._request.isolated.threshold, parameters.dtype)
-
-    def _activation(self, state: ProgramState) -> Array:
-        """Return the activation of the field, lanes first; a node has one sample."""
-        group, row = self._place
-        return state["groups"][group]["activation"][:, row].reshape(self._lanes, -1)
 
 
 def _where(chosen: Array, new: Any, old: Any) -> Any:

@@ -2,38 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from deodar.analysis.isolated import Isolated, Isolation, isolate
-from deodar.analysis.selection import DISTANCE, places
+from deodar.analysis.isolated import Isolation, isolate
+from deodar.analysis.settling_copies import (
+    STRONG,
+    SettlingRequest,
+    driven_alone,
+    only_field,
+    positive,
+    require_one_axis,
+    with_inputs,
+)
 from deodar.compiler.driven import driven
-from deodar.elements.field import Field
-from deodar.elements.stimuli import GaussianStimulus
-from deodar.errors import AnalysisError, ParameterError
-from deodar.model import edit, find
-from deodar.model.document import Document, Leaf
+from deodar.errors import ParameterError
+from deodar.model import edit
+from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.parameters import real, show
-
-STRONG = 1.2
-"""Default input relative to the distance between resting level and threshold: it makes a peak without
-interaction.
-"""
-
-TOLERANCE = 2e-4
-"""Change of activation per time constant that counts as settled, relative to the same distance."""
+from deodar.parameters import show
 
 LIMIT = 500.0
 """Longest stage, in time constants. Beside a fold the passage takes at most about 100, as slower changes
 count as settled; an edge of a peak that hardly moves takes longer.
 """
-
-INPUTS = ("middle", "first", "second")
-"""The inputs of the protocol: one alone, and two at equal distances from it."""
 
 
 class MapOptions(Isolation, total=False):
@@ -42,45 +37,17 @@ class MapOptions(Isolation, total=False):
     limit: float
 
 
-@dataclass(frozen=True)
-class MapRequest:
-    """One field alone, with the inputs of the protocol, and the parameters over which it is mapped.
+@dataclass(frozen=True, kw_only=True)
+class MapRequest(SettlingRequest):
+    """One field alone, and the parameters over which it is mapped.
 
     Attributes:
-        isolated: the field, as other measurements see it.
-        model: the same field with the inputs `middle`, `first` and `second`.
         paths: paths of both parameters in the original model.
         values: values of each.
-        leaves: numbers of `model` that each drives.
-        strength: amplitude of each input.
-        limit: longest stage, in time constants.
-        precision: float32 or float64.
     """
 
-    isolated: Isolated
-    model: Model
     paths: tuple[str, str]
     values: tuple[np.ndarray, np.ndarray]
-    leaves: tuple[tuple[Leaf, ...], tuple[Leaf, ...]]
-    strength: float
-    limit: float
-    precision: str
-
-    @property
-    def places(self) -> tuple[tuple[float, ...], ...]:
-        """The positions of the two inputs; none on a node."""
-        return places(self.isolated, DISTANCE) if self.isolated.axes else ()
-
-    @property
-    def tolerance(self) -> float:
-        """The largest change of activation per time constant that counts as settled."""
-        return TOLERANCE * self.isolated.scale
-
-    @property
-    def threshold_of(self) -> int | None:
-        """Which parameter is the threshold above which a peak exists; None if it is the same in all cells."""
-        ident = find.element(self.model.document, "field").id
-        return next((k for k, leafs in enumerate(self.leaves) if (ident, "sigmoid.threshold") in leafs), None)
 
 
 def requested(
@@ -97,7 +64,8 @@ def requested(
         ParameterError: a path is unknown, changing the parameter needs another program, or its values are
             not those of an axis of a map.
     """
-    isolation, limit = _divided(**options)
+    isolation: Any = {**options}
+    longest = positive("limit", isolation.pop("limit", LIMIT))
     doc = model.document
     path = field or only_field(doc)
     if len(over) != 2:
@@ -107,66 +75,20 @@ def requested(
         )
     values = {name: _values(doc, name, points) for name, points in over.items()}
     isolated = isolate(model, path, **isolation)
-    if len(isolated.axes) > 1:
-        raise AnalysisError(
-            f"has {len(isolated.axes)} axes; a map counts peaks on one axis, or measures a node",
-            where=isolated.path,
-            fix="Measure one cell with dd.regimes, or map the same field over one axis",
-        )
+    fix = "Measure one cell with dd.regimes, or map the same field over one axis"
+    require_one_axis(isolated, "a map", fix)
     amplitude = STRONG * isolated.scale if strength is None else positive("strength", strength)
     small = with_inputs(isolated, model.trusted)
-    leaves = {name: driven_alone(doc, small.document, isolated, name) for name in values}
     first, second = values
     return MapRequest(
-        isolated,
-        small,
-        (first, second),
-        (values[first], values[second]),
-        (leaves[first], leaves[second]),
-        amplitude,
-        positive("limit", limit),
-        isolated.session.precision,
+        isolated=isolated,
+        model=small,
+        paths=(first, second),
+        values=(values[first], values[second]),
+        leaves=tuple(driven_alone(doc, small.document, isolated, name) for name in values),
+        strength=amplitude,
+        limit=longest,
     )
-
-
-def _divided(
-    *,
-    sigma: float | Sequence[float] | None = None,
-    center: Sequence[float] | None = None,
-    precision: str = "float32",
-    dt: float | None = None,
-    inputs: Sequence[str] = (),
-    limit: float = LIMIT,
-) -> tuple[Isolation, float]:
-    """Return the arguments of `isolate`, and the longest stage."""
-    return {"sigma": sigma, "center": center, "precision": precision, "dt": dt, "inputs": inputs}, limit
-
-
-def only_field(doc: Document) -> str:
-    """Return the path of the only field of a document.
-
-    Raises:
-        AnalysisError: the document has none, or several.
-    """
-    fields = [e.path for e in doc.entries if isinstance(e.element, Field)]
-    if len(fields) != 1:
-        raise AnalysisError(
-            f"the model has {len(fields)} fields" if fields else "the model has no field",
-            fix=f"Name one: field={fields[0]!r}" if fields else "",
-        )
-    return fields[0]
-
-
-def positive(name: str, value: Any) -> float:
-    """Return a finite number above 0.
-
-    Raises:
-        ParameterError: the value is none.
-    """
-    number = real(value)
-    if number is None or not 0 < number < float("inf"):
-        raise ParameterError(f"{name} is {show(value)}; expected a number above 0")
-    return number
 
 
 def _values(doc: Document, path: str, points: Any) -> np.ndarray:
@@ -196,45 +118,3 @@ def _values(doc: Document, path: str, points: Any) -> np.ndarray:
     for number in (numbers[0], numbers[-1]):
         edit.change(doc, path, float(number))
     return numbers
-
-
-def with_inputs(isolated: Isolated, trusted: bool) -> Model:
-    """Return the isolated field with the inputs of the protocol."""
-    small = Model(document=isolated.session.document, trusted=trusted)
-    for name in ("input", "second", "boost"):
-        small.remove(name)
-    axes = isolated.axes
-    where = dict.fromkeys(INPUTS, isolated.center)
-    if axes:
-        where["first"], where["second"] = places(isolated, DISTANCE)
-    for name in INPUTS:
-        stimulus = GaussianStimulus(
-            name, axes, center=where[name] or 0.0, sigma=isolated.sigma or 1.0, amplitude=0.0
-        )
-        small.add(stimulus) >> small["field"]
-    return small
-
-
-def driven_alone(doc: Document, small: Document, isolated: Isolated, path: str) -> tuple[Leaf, ...]:
-    """Return the numbers of the isolated field that a parameter of the model drives."""
-    ids = {find.element(doc, isolated.path).id: find.element(small, "field").id}
-    for path_of_input in isolated.background:
-        ids[find.element(doc, path_of_input).id] = find.element(small, f"background.{path_of_input}").id
-    leaves = driven(doc, path)
-    driven_leaves = tuple((ids[ident], leaf) for ident, leaf in leaves if ident in ids)
-    if not driven_leaves:
-        raise AnalysisError(
-            f"does not belong to {isolated.path}, which is measured alone",
-            where=path,
-            fix="Name parameters of the field, or keep the stimulus as constant input: inputs=[PATH]",
-        )
-    field_id = find.element(small, "field").id
-    for ident, leaf in driven_leaves:
-        name = leaf.split(".")[0]
-        if ident == field_id and name in ("noise", "noise_length"):
-            raise AnalysisError("changes no regime: noise is off in the measurement", where=path)
-        if ident == field_id and name == "tau":
-            raise AnalysisError(
-                "changes no regime: the steady states of a field do not depend on it", where=path
-            )
-    return driven_leaves

@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any, Unpack
-
-import numpy as np
+from typing import Any
 
 from deodar.analysis.isolated import Isolated, Isolation, isolate
-from deodar.analysis.maps.request import STRONG, TOLERANCE, driven_alone, only_field, positive, with_inputs
-from deodar.analysis.selection import DISTANCE, places
+from deodar.analysis.settling_copies import (
+    STRONG,
+    SettlingRequest,
+    driven_alone,
+    only_field,
+    positive,
+    require_one_axis,
+    with_inputs,
+)
 from deodar.analysis.tuning.candidates import CandidateSpace, candidate_space
 from deodar.analysis.tuning.requirement import Requirement, detects
 from deodar.elements.stimuli import Boost
 from deodar.errors import AnalysisError, ParameterError
-from deodar.model import find
-from deodar.model.document import Leaf
 from deodar.model.model import Model
 from deodar.parameters import show
 
@@ -43,66 +46,25 @@ class TuneOptions(Isolation, total=False):
     limit: float
 
 
-@dataclass(frozen=True)
-class SearchOptions:
-    """Arguments of the search; see `tune`."""
-
-    strength: float | None
-    seed: int
-    budget: int
-    limit: float
-
-
-@dataclass(frozen=True)
-class TuningRequest:
-    """One field alone, with the inputs of the protocol, and what is wanted of it.
+@dataclass(frozen=True, kw_only=True)
+class TuningRequest(SettlingRequest):
+    """One field alone, and what is wanted of it; its model has the input `boost` too.
 
     Attributes:
         original: the whole model.
-        isolated: the field, as other measurements see it.
-        model: the same field with the inputs of the protocol; document parameters drive what is tuned.
         space: the parameters and their bounds.
-        names: names of these document parameters.
-        leaves: numbers of `model` that each parameter drives.
+        names: names of the document parameters of `model` that drive what is tuned.
         requirements: what the field is to do.
-        strength: amplitude of the inputs.
-        limit: longest stage, in time constants.
         seed: seed of the search.
         budget: most candidates of the search.
     """
 
     original: Model
-    isolated: Isolated
-    model: Model
     space: CandidateSpace
     names: tuple[str, ...]
-    leaves: tuple[tuple[Leaf, ...], ...]
     requirements: tuple[Requirement, ...]
-    strength: float
-    limit: float
     seed: int
     budget: int
-
-    @property
-    def places(self) -> tuple[float, ...]:
-        """The positions of the two inputs; none on a node."""
-        return tuple(at for (at,) in places(self.isolated, DISTANCE)) if self.isolated.axes else ()
-
-    @property
-    def samples(self) -> tuple[int, ...]:
-        """The samples of the two inputs; none on a node."""
-        return tuple(int(np.abs(self.isolated.axes[0].points - at).argmin()) for at in self.places)
-
-    @property
-    def tolerance(self) -> float:
-        """The largest change of activation per time constant that counts as settled."""
-        return TOLERANCE * self.isolated.scale
-
-    @property
-    def threshold_of(self) -> int | None:
-        """Which parameter is the threshold above which a peak exists; None if none is."""
-        ident = find.element(self.model.document, "field").id
-        return next((k for k, leafs in enumerate(self.leaves) if (ident, "sigmoid.threshold") in leafs), None)
 
 
 def requested(
@@ -120,8 +82,10 @@ def requested(
             requirements contradict each other.
         ParameterError: a path or value is not one.
     """
-    isolation, search = _divided(**options)
-    for name, number in (("seed", search.seed), ("budget", search.budget)):
+    isolation: Any = {**options}
+    strength, seed = isolation.pop("strength", None), isolation.pop("seed", 0)
+    budget, longest = isolation.pop("budget", BUDGET), isolation.pop("limit", LIMIT)
+    for name, number in (("seed", seed), ("budget", budget)):
         if not isinstance(number, int) or isinstance(number, bool) or number < 0:
             raise ParameterError(f"{name} is {show(number)}; expected an integer of 0 or above")
     doc = model.document
@@ -132,12 +96,7 @@ def requested(
         # what a field settles to does not depend on the step
         isolation["dt"] = isolated.field.tau / STEPS
         isolated = isolate(model, path, **isolation)
-    if len(isolated.axes) > 1:
-        raise AnalysisError(
-            f"has {len(isolated.axes)} axes; dd.tune counts peaks on one axis, or measures a node",
-            where=isolated.path,
-            fix="Tune the same field over one axis",
-        )
+    require_one_axis(isolated, "dd.tune", "Tune the same field over one axis")
     required = _possible(requirements, bool(isolated.axes))
     small = with_inputs(isolated, model.trusted)
     small.add(Boost("boost", isolated.axes, amplitude=0.0)) >> small["field"]
@@ -152,33 +111,19 @@ def requested(
         small.parameter(name, float(value))
         for ident, leaf in leafs:
             small.link(f"{small.document.by_id()[ident].path}.{leaf}", name)
-    strength = search.strength
-    amplitude = _amplitude(required, isolated) if strength is None else positive("strength", strength)
     return TuningRequest(
-        model,
-        isolated,
-        small,
-        space,
-        names,
-        leaves,
-        required,
-        amplitude,
-        positive("limit", search.limit),
-        search.seed,
-        search.budget,
+        original=model,
+        isolated=isolated,
+        model=small,
+        space=space,
+        names=names,
+        leaves=leaves,
+        requirements=required,
+        strength=_amplitude(required, isolated) if strength is None else positive("strength", strength),
+        limit=positive("limit", longest),
+        seed=seed,
+        budget=budget,
     )
-
-
-def _divided(
-    *,
-    strength: float | None = None,
-    seed: int = 0,
-    budget: int = BUDGET,
-    limit: float = LIMIT,
-    **isolation: Unpack[Isolation],
-) -> tuple[Isolation, SearchOptions]:
-    """Return the arguments of `isolate`, and those of the search."""
-    return isolation, SearchOptions(strength, seed, budget, limit)
 
 
 def _amplitude(required: Sequence[Requirement], isolated: Isolated) -> float:

@@ -9,6 +9,7 @@ import pytest
 import deodar as dd
 from deodar.analysis.maps import protocol
 from deodar.analysis.maps.request import requested
+from deodar.analysis.settling_copies import LANE_BYTES
 from tests.deodar.analysis.maps.test_regime_map import EXCITATION, INHIBITION, line
 
 WIDTH = "u.kernel.0.sigma"
@@ -35,7 +36,7 @@ def test_lanes_that_differ_by_a_width_have_a_matrix_each():
 
 def test_large_matrices_of_lanes_are_bounded():
     lanes, shape = shapes(WIDTH, 301)
-    assert lanes * 301**2 * 4 <= protocol.LANE_BYTES < protocol.MOST_LANES * 301**2 * 4
+    assert lanes * 301**2 * 4 <= LANE_BYTES < protocol.MOST_LANES * 301**2 * 4
     assert (lanes, 1, 301, 301) in shape
 
 
