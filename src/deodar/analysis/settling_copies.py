@@ -21,7 +21,7 @@ from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.functions import Constants
 from deodar.compiler.program import precision_context
 from deodar.elements.field import Field
-from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.stimuli import GaussianStimulus
 from deodar.errors import AnalysisError, ParameterError
 from deodar.model import edit, find
 from deodar.model.document import Document, Leaf

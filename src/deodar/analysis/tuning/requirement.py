@@ -13,11 +13,8 @@ from deodar.family import Family
 from deodar.parameters import Part, Recompile, parameters
 
 QuantityKind = Literal["detection", "reverse detection", "forgetting", "width", "amplitude"]
-Tolerance = Annotated[float, Recompile(lower=1e-9, meaning="its tolerance")]
-Strength = Annotated[
-    float | None,
-    Recompile(lower=1e-9, meaning="amplitude of the input that makes the peak; none: that of `dd.tune`"),
-]
+Tolerance = Annotated[float, Recompile(lower=1e-9)]
+Strength = Annotated[float | None, Recompile(lower=1e-9)]
 
 NONE = FieldInput()
 """A stage without input."""
@@ -118,6 +115,7 @@ class detects(Requirement):
 
     Attributes:
         at: the threshold, an amplitude of the localised input.
+        within: its tolerance.
     """
 
     at: float
@@ -144,6 +142,8 @@ class reverse(Requirement):
 
     Attributes:
         at: the threshold, an amplitude of the localised input.
+        within: its tolerance.
+        strength: amplitude of the input that makes the peak; None: that of `dd.tune`.
     """
 
     at: float
@@ -201,10 +201,12 @@ class forgets(Requirement):
 
     Attributes:
         at: the forgetting threshold, a homogeneous input; None: a peak vanishes with its input.
+        within: the tolerance of `at`.
+        strength: amplitude of the input that makes the peak; None: that of `dd.tune`.
     """
 
     at: float | None = None
-    within: Annotated[float | None, Recompile(lower=1e-9, meaning="the tolerance of `at`")] = None
+    within: Annotated[float | None, Recompile(lower=1e-9)] = None
     strength: Strength = None
 
     def validate(self) -> Iterator[tuple[str, str]]:
@@ -251,6 +253,7 @@ class relaxes_within(Requirement):
 
     Attributes:
         time: the longest time.
+        strength: amplitude of the input that makes the peak; None: that of `dd.tune`.
     """
 
     time: Annotated[float, Recompile("time", lower=1e-9, role="duration")]
@@ -299,6 +302,7 @@ class multi_peak(Requirement):
 
     Attributes:
         strength: amplitude of each input; None: that of `dd.tune`.
+        within: its tolerance.
     """
 
     strength: Annotated[float | None, Recompile(lower=1e-9)] = None
@@ -330,6 +334,8 @@ class peak_width(PeakRequirement):
 
     Attributes:
         width: the width.
+        within: its tolerance.
+        strength: amplitude of the input that makes the peak; None: that of `dd.tune`.
     """
 
     width: Annotated[float, Recompile("axis", lower=1e-9)]
@@ -354,6 +360,8 @@ class peak_amplitude(PeakRequirement):
 
     Attributes:
         amplitude: the activation.
+        within: its tolerance.
+        strength: amplitude of the input that makes the peak; None: that of `dd.tune`.
     """
 
     amplitude: Annotated[float, Recompile("activation")]
