@@ -16,6 +16,7 @@ An element may rely on these rules:
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, NoReturn, Self
 
@@ -31,7 +32,7 @@ from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.positions import PositionCode, PositionUnits
 from deodar.numerics.scalar import Scalar
-from deodar.numerics.signs import Sign
+from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Part
 
 Arrays = dict[str, Array]
@@ -197,12 +198,14 @@ class Element(Part):
 
     Class attributes:
         inputs: names of the input ports.
+        optional: for an input port that exists only if a parameter is true, the name of the parameter.
         direct: for each output port that depends on inputs of the same step, the names of these inputs; other
             output ports depend on the state only.
         follows: for an input port that has the axes of another input port, the name of that port.
         external: input without connections, with the axes of `output`; its value comes from outside the
             model: from the world for a `Sensor` and classes derived from it, else it is 0. "": none.
-        stateful: whether the element has `advance`; if not, all outputs follow from inputs, time and noise.
+        stateful: whether the element has a state, as it has if it defines `advance`; if not, all outputs
+            follow from inputs, time and noise.
         reads_own_output: output ports that `advance` receives among its inputs, with their values of the same
             step.
         linear: whether the default output is linear in the one input.
@@ -210,6 +213,7 @@ class Element(Part):
             other couplings first.
         convolution: the port that it convolves with its `kernels`, and the port that uses the integral; None:
             no convolution.
+        signed_by: parameters whose signs, multiplied, are the sign of the output's effect.
         scaled_by: the parameter that is the factor from `input` to `output`; "" if `output` is not a multiple
             of `input`.
         levels: for a port, the parameters that are levels on its scale, by their names in plots, which draw
@@ -221,6 +225,7 @@ class Element(Part):
     name: str = dc.field(default="", kw_only=True)
 
     inputs: ClassVar[tuple[str, ...]] = ("input",)
+    optional: ClassVar[Mapping[str, str]] = {}
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     follows: ClassVar[Mapping[str, str]] = {}
     external: ClassVar[str] = ""
@@ -229,9 +234,15 @@ class Element(Part):
     linear: ClassVar[bool] = False
     jumps: ClassVar[bool] = False
     convolution: ClassVar[Convolution | None] = None
+    signed_by: ClassVar[tuple[str, ...]] = ()
     scaled_by: ClassVar[str] = ""
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {}
     maps: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        if "advance" in vars(cls):
+            cls.stateful = True
 
     def __rshift__(self, other: object) -> Any:
         raise ModelError(
@@ -243,7 +254,8 @@ class Element(Part):
 
     def ports(self) -> tuple[str, ...]:
         """Return the names of the input ports."""
-        return self.inputs
+        needs = self.optional
+        return tuple(port for port in self.inputs if port not in needs or getattr(self, needs[port]))
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         """Return the axes of an input port; None if those of the connection with the most axes are used."""
@@ -253,9 +265,11 @@ class Element(Part):
     def outputs(self, ins: Ports) -> Ports:
         """Return the axes of every output port; the first is the default port.
 
-        Elements whose outputs are states ignore `ins`.
+        By default the port is `output`, over the parameter `axes`, or else over the axes of `input`. Elements
+        whose outputs are states ignore `ins`.
         """
-        raise NotImplementedError
+        axes: Axes | None = getattr(self, "axes", None)
+        return {"output": ins.get("input", ()) if axes is None else tuple(axes)}
 
     def steady(self) -> bool:
         """Return whether outputs of a stateless element are constant while its inputs and parameters are."""
@@ -338,7 +352,8 @@ class Element(Part):
         """Return the sign of the output's effect on its targets; pictures show inhibition and excitation
         by it.
         """
-        return "+"
+        signs: list[Sign] = [sign_of(getattr(self, name)) for name in self.signed_by]
+        return functools.reduce(product, signs, "+")
 
     def recurrence(self) -> Mapping[str, Sign]:
         """Return the signs of the element's interactions with itself, by name; pictures show them as
@@ -412,15 +427,20 @@ class Element(Part):
 
 @dc.dataclass(frozen=True)
 class Coupling(Element):
-    """The base class of elements between elements, whose output depends on the input of the same step."""
+    """The base class of elements between elements, whose output depends on the input of the same step.
+
+    The output of a coupling without a state depends on all inputs, unless it declares others.
+    """
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
 
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        if "inputs" in vars(cls) and "direct" not in vars(cls) and not cls.stateful:
+            cls.direct = {"output": cls.inputs}
+
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": ins["input"]}
 
     @classmethod
     def example(cls) -> Self:

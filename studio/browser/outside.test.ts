@@ -41,7 +41,6 @@ class LeakyCounter(Element):
     rate: Annotated[float, Live("activation", lower=0, upper=20)] = 2.0
     alarm: Annotated[float, Live("activation")] = 4.0
 
-    stateful: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {"count": {"alarm": "alarm"}}
 

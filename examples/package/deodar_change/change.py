@@ -36,11 +36,7 @@ class Change(dd.Element):
     axes: Sequence[dd.Axis] = ()
     tau: Annotated[float, dd.Live("time", role="time constant", lower=1e-6)] = 100.0
 
-    stateful: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
-
-    def outputs(self, ins: Mapping[str, dd.Axes]) -> Mapping[str, dd.Axes]:
-        return {"output": tuple(self.axes)}
 
     def init(self, at: dd.Setting) -> dd.Arrays:
         return {"z": at.full(tuple(self.axes), 0.0)}

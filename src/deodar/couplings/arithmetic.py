@@ -12,7 +12,6 @@ from jax import Array
 from deodar.element import Arrays, Bounds, Coupling, Ports, PortUnits, Setting
 from deodar.numerics.intervals import ZERO, hull, times
 from deodar.numerics.sigmoids import Logistic, SigmoidFunction
-from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -72,7 +71,6 @@ class Product(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "factor")
     follows: ClassVar[Mapping[str, str]] = {"factor": "input"}
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "factor")}
 
     def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": times(inputs["input"], inputs["factor"])}
@@ -108,7 +106,6 @@ class Quotient(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "divisor")
     follows: ClassVar[Mapping[str, str]] = {"divisor": "input"}
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "divisor")}
 
     def jumps_at(self) -> Sequence[str]:
         return ("least",)
@@ -141,15 +138,13 @@ class Gain(Coupling):
 
     linear: ClassVar[bool] = True
     scaled_by: ClassVar[str] = "factor"
+    signed_by: ClassVar[tuple[str, ...]] = ("factor",)
 
     def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {} if self.factor == 0 else {"output": times((self.factor, self.factor), inputs["input"])}
 
     def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
         return {"output": tuple(p and p.scaled(self.factor) for p in inputs["input"])}
-
-    def polarity(self) -> Sign:
-        return sign_of(self.factor)
 
     def output(self, at: Setting) -> Arrays:
         return {"output": self.factor * at.inputs["input"]}
@@ -182,7 +177,6 @@ class Envelope(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "other")
     follows: ClassVar[Mapping[str, str]] = {"other": "input"}
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "other")}
 
     def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         (a, b), (c, d) = inputs["input"], inputs["other"]
@@ -281,8 +275,7 @@ class Logarithm(Coupling):
     factor: Annotated[float, Live()] = 1.0
     scale: Annotated[float, Live(lower=1e-6)] = 1.0
 
-    def polarity(self) -> Sign:
-        return sign_of(self.factor)
+    signed_by: ClassVar[tuple[str, ...]] = ("factor",)
 
     def output(self, at: Setting) -> Arrays:
         return {"output": self.factor * jnp.log1p(jnp.maximum(at.inputs["input"], 0.0) / self.scale)}

@@ -107,7 +107,6 @@ class SteeredConvolve(Coupling):
     boundary: Annotated[Sequence[str] | None, Recompile(choices=BOUNDARIES)] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "kernel")
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "kernel")}
 
     def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         here, there = ins["input"], ins["kernel"]
@@ -296,7 +295,6 @@ class SteeredShift(Coupling):
     offset: Annotated[float, Live("axis")] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "by")
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "by")}
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.along:

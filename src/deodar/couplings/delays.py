@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import jax.numpy as jnp
 from jax import Array
@@ -41,11 +41,6 @@ class Delay(Element):
 
     axes: Sequence[Axis] = ()
     initial: Annotated[float, Live()] = 0.0
-
-    stateful: ClassVar[bool] = True
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": hull((self.initial, self.initial), inputs["input"])}
@@ -103,11 +98,6 @@ class DelayLine(Element):
     delay: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6)] = 100.0
     slots: Annotated[int, Recompile(lower=1, upper=100_000)] = 100
     initial: Annotated[float, Live()] = 0.0
-
-    stateful: ClassVar[bool] = True
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
         return {"output": hull((self.initial, self.initial), inputs["input"])}

@@ -106,14 +106,11 @@ class Hebbian(Coupling):
     start: Annotated[ArrayLike | None, Rebuild()] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
-    stateful: ClassVar[bool] = True
     reads_own_output: ClassVar[tuple[str, ...]] = ("output",)
+    optional: ClassVar[Mapping[str, str]] = {"gate": "gated", "pre": "apart"}
 
     def polarity(self) -> Sign:
         return sign_of(self.initial, self.start)
-
-    def ports(self) -> tuple[str, ...]:
-        return ("input", "post", *(("gate",) if self.gated else ()), *(("pre",) if self.apart else ()))
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)

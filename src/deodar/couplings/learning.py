@@ -66,13 +66,10 @@ class AdaptiveWeights(Coupling):
     start: Annotated[ArrayLike | None, Rebuild()] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
-    stateful: ClassVar[bool] = True
+    optional: ClassVar[Mapping[str, str]] = {"gate": "gated", "pre": "apart"}
 
     def polarity(self) -> Sign:
         return "±"
-
-    def ports(self) -> tuple[str, ...]:
-        return ("input", "post", *(("gate",) if self.gated else ()), *(("pre",) if self.apart else ()))
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
@@ -167,13 +164,8 @@ class RewardGate(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "gate")}
-    stateful: ClassVar[bool] = True
-
-    def polarity(self) -> Sign:
-        return sign_of(self.strength)
-
-    def ports(self) -> tuple[str, ...]:
-        return self.inputs if self.gated else self.inputs[:1]
+    signed_by: ClassVar[tuple[str, ...]] = ("strength",)
+    optional: ClassVar[Mapping[str, str]] = {"gate": "gated"}
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if port == "input" else ()
@@ -263,13 +255,10 @@ class GainAdaptation(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "error", "gate")
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "value": ("input",)}
-    stateful: ClassVar[bool] = True
+    optional: ClassVar[Mapping[str, str]] = {"gate": "gated"}
 
     def polarity(self) -> Sign:
         return sign_of(self.initial, self.start)
-
-    def ports(self) -> tuple[str, ...]:
-        return self.inputs if self.gated else self.inputs[:2]
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if port == "input" else ()

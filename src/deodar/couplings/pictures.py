@@ -13,7 +13,7 @@ from jax import Array, lax
 from deodar.element import Arrays, Bounds, Coupling, Ports, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics import homography
-from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
+from deodar.numerics.axes import Axis, shape, wrong_shape
 from deodar.numerics.colors import CHANNELS, cells, from_hues, hue_saturation_value, same_side
 from deodar.numerics.convolution import along
 from deodar.numerics.resampling import INTERPOLATIONS
@@ -58,12 +58,6 @@ class ColorSpace(Coupling):
     axes: Sequence[Axis] = ()
     sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, off=True)] = 0.0
     darkest: Annotated[float, Live(lower=0, upper=1)] = 0.15
-
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Ports) -> Iterator[str]:
         source = ins["input"]
@@ -137,9 +131,6 @@ class ColorHistogram(Coupling):
     sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, off=True)] = 0.0
     palest: Annotated[float, Live(lower=0, upper=1)] = 0.3
     darkest: Annotated[float, Live(lower=0, upper=1)] = 0.15
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Ports) -> Iterator[str]:
         source = ins["input"]
@@ -289,9 +280,6 @@ class Homography(Coupling):
     interpolation: Annotated[str, Recompile(choices=INTERPOLATIONS)] = "nearest"
 
     linear: ClassVar[bool] = True
-
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
 
     def outputs(self, ins: Ports) -> Ports:
         return {"output": (*self.axes, *ins["input"][2:])}

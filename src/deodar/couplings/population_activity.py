@@ -15,7 +15,6 @@ from deodar.errors import ParameterError
 from deodar.leaves import per_axis
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, cell, shape
-from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild
 from deodar.registry import register
 
@@ -59,15 +58,13 @@ class PopulationActivity(Coupling):
 
     linear: ClassVar[bool] = True
     maps: ClassVar[Mapping[str, tuple[str, ...]]] = {"tuning": ("input", "output")}
+    signed_by: ClassVar[tuple[str, ...]] = ("tuning", "amplitude")
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
         neurons = arriving if arriving is not None and len(arriving) == 1 else axes[:1]
         tuning = starting.map_of_places(neurons, axes) if neurons else None
         return {} if tuning is None else {"tuning": FrozenArray(tuning * cell(axes))}
-
-    def polarity(self) -> Sign:
-        return product(sign_of(self.tuning), sign_of(self.amplitude))
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:
@@ -81,9 +78,6 @@ class PopulationActivity(Coupling):
                     f" {list(shape(self.axes))}"
                 ),
             )
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         arriving, neurons = (

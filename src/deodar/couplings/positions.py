@@ -17,7 +17,6 @@ from deodar.numerics.axes import Axes, Axis, cell, one_axis, shape
 from deodar.numerics.centres import centre
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.positions import PositionCode, PositionUnit
-from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, PeakBoundary, PerAxis
 from deodar.registry import register
 
@@ -110,13 +109,9 @@ class MaximumPosition(Coupling):
     absent: Annotated[float, Live("axis")] = 0.0
 
     jumps: ClassVar[bool] = True
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
 
     def jumps_at(self) -> Sequence[str]:
         return "input", "least"
-
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
 
     def outputs(self, ins: Ports) -> Ports:
         n = len(ins["input"])
@@ -253,13 +248,7 @@ class SpaceCode(Coupling):
     normalized: bool = dc.field(default=False, kw_only=True)
     boundary: PeakBoundary = dc.field(default=None, kw_only=True)
 
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
-
-    def polarity(self) -> Sign:
-        return sign_of(self.amplitude)
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
+    signed_by: ClassVar[tuple[str, ...]] = ("amplitude",)
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.axes:

@@ -58,12 +58,6 @@ class Project(Coupling):
         """Whether the output is linear in the input: an integral, a sum or a mean."""
         return self.reduce in ("integral", "sum", "mean")
 
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
-
     def validate_axes(self, ins: Ports) -> Iterator[str]:
         source, here = self._source(ins["input"]), {a.name: a for a in self.axes}
         for old in dict(self._renames()):
@@ -180,12 +174,6 @@ class Resample(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
-
     def validate_axes(self, ins: Ports) -> Iterator[str]:
         there, here = [a.name for a in ins["input"]], [a.name for a in self.axes]
         if there != here:
@@ -256,12 +244,6 @@ class DiagonalSum(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
-
     def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         given = shape(ins["input"])
         if len(given) != 2:
@@ -312,12 +294,6 @@ class DiagonalExpansion(Coupling):
     axes: Sequence[Axis] = needed("[x, y]")
 
     linear: ClassVar[bool] = True
-
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         given, own = shape(ins["input"]), shape(self.axes)

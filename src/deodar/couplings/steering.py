@@ -52,7 +52,6 @@ class AttractorVelocity(Coupling):
     fastest: Annotated[float, Live("axis/time", role="speed", lower=0, neutral=0.0, off=True)] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "position")
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "position")}
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes) if port == "input" and self.axes else arriving
@@ -138,9 +137,6 @@ class ObstacleRepulsion(Coupling):
     reach: Annotated[float, Live(lower=1e-6)] = 30.0
     size: Annotated[float, Live(lower=1e-6)] = 100.0
     view: Annotated[float, Live(lower=0, upper=179)] = 45.0
-
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
 
     def outputs(self, ins: Ports) -> Ports:
         return {"output": ()}

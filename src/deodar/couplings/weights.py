@@ -18,7 +18,7 @@ from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
 from deodar.numerics.convolution import along
 from deodar.numerics.intervals import times, total
 from deodar.numerics.positions import PositionUnit, PositionUnits
-from deodar.numerics.signs import Sign, sign_of
+from deodar.numerics.signs import Sign
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild
 from deodar.registry import register
 
@@ -53,20 +53,12 @@ class Weights(Coupling):
 
     linear: ClassVar[bool] = True
     maps: ClassVar[Mapping[str, tuple[str, ...]]] = {"weights": ("output", "input")}
+    signed_by: ClassVar[tuple[str, ...]] = ("weights",)
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
         weights = starting.map_of_places(axes, axes if arriving is None else arriving)
         return {} if weights is None else {"weights": FrozenArray(weights)}
-
-    def polarity(self) -> Sign:
-        return sign_of(self.weights)
-
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
@@ -146,12 +138,7 @@ class AxisWeights(Coupling):
     along: str = ""
 
     linear: ClassVar[bool] = True
-
-    def polarity(self) -> Sign:
-        return sign_of(self.weights)
-
-    def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
-        return arriving
+    signed_by: ClassVar[tuple[str, ...]] = ("weights",)
 
     def outputs(self, ins: Ports) -> Ports:
         return {"output": tuple(self.axis if a.name == self._name else a for a in ins["input"])}
@@ -221,19 +208,14 @@ class Weighting(Coupling):
     axes: tuple[Axis, ...] = needed("[x]")
 
     linear: ClassVar[bool] = True
+    signed_by: ClassVar[tuple[str, ...]] = ("weights",)
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
         return {"weights": FrozenArray(np.ones(shape(axes)))}
 
-    def polarity(self) -> Sign:
-        return sign_of(self.weights)
-
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("weights", self.weights, shape(self.axes))

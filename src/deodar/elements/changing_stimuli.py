@@ -20,7 +20,7 @@ from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import Interval, signed
-from deodar.numerics.signs import Sign, product, sign_of
+from deodar.numerics.signs import Sign
 from deodar.numerics.windows import gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
@@ -67,8 +67,7 @@ class MovingGaussian(Stimulus):
     velocity: Annotated[PerAxis, Live("axis/time", role="speed", exact=True)] = 0.0
     waypoints: Annotated[ArrayLike | None, Rebuild("axis", exact=True)] = None
 
-    def polarity(self) -> Sign:
-        return sign_of(self.amplitude)
+    signed_by: ClassVar[tuple[str, ...]] = ("amplitude",)
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
@@ -201,13 +200,12 @@ class TimeSeries(Stimulus):
         ),
     ] = 0.0
 
+    signed_by: ClassVar[tuple[str, ...]] = ("values", "amplitude")
+
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
         two = np.stack([starting.hill(axes, 0.3), starting.hill(axes, 0.7)])
         return {"values": FrozenArray(two), "amplitude": starting.STRENGTH}
-
-    def polarity(self) -> Sign:
-        return product(sign_of(self.values), sign_of(self.amplitude))
 
     def validate(self) -> Iterator[tuple[str, str]]:
         times = self.times.data if isinstance(self.times, FrozenArray) else np.zeros(0)
@@ -309,13 +307,9 @@ class Noise(Element):
     length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True)] = 0.0
 
     inputs: ClassVar[tuple[str, ...]] = ()
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
 
     def polarity(self) -> Sign:
         return "±"
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def steady(self) -> bool:
         return False

@@ -79,7 +79,6 @@ class Field(Element):
     noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, section="noise")] = 0.0
     quadrature: Annotated[str, Recompile(choices=QUADRATURES, section="axes")] = "point"
 
-    stateful: ClassVar[bool] = True
     convolution: ClassVar[Convolution | None] = Convolution("output", into="input")
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {
         "activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}

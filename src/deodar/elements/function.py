@@ -6,13 +6,13 @@ import importlib
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 
 import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
-from deodar.element import Arrays, Element, Ports, Setting, Time
+from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import DeodarError, ModelError, UnknownName, first_line
 from deodar.numerics.axes import Axis
 from deodar.numerics.scalar import Scalar
@@ -57,8 +57,6 @@ class Function(Element):
     initial: Annotated[float, Live()] = 0.0
     values: Annotated[Mapping[str, float], Live()] = ()  # type: ignore[assignment]
 
-    stateful: ClassVar[bool] = True
-
     def validate(self) -> Iterator[tuple[str, str]]:
         names = tuple(self.ports_in)
         for name in names:
@@ -75,9 +73,6 @@ class Function(Element):
 
     def ports(self) -> tuple[str, ...]:
         return tuple(self.ports_in)
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def init(self, at: Setting) -> Arrays:
         return {"state": at.full(tuple(self.axes), self.initial)}

@@ -85,10 +85,7 @@ class MemoryTrace(Element):
     activity: SigmoidFunction | None = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
-    stateful: ClassVar[bool] = True
-
-    def ports(self) -> tuple[str, ...]:
-        return self.inputs if self.gated else self.inputs[:1]
+    optional: ClassVar[Mapping[str, str]] = {"gate": "gated"}
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "gate" else tuple(self.axes)
@@ -181,8 +178,6 @@ class History(Element):
     interval: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6)] = 1.0
     empty: Annotated[str, Recompile(choices=EMPTY)] = "zero"
 
-    stateful: ClassVar[bool] = True
-
     def outputs(self, ins: Ports) -> Ports:
         return {"output": (self.slots, *self.axes)}
 
@@ -261,8 +256,6 @@ class SampledHistory(Element):
     slots: Axis = needed("slot")
     times: Annotated[ArrayLike, Rebuild("time", role="moment")] = FrozenArray([1.0, 5.0, 10.0])
     empty: Annotated[str, Recompile(choices=EMPTY)] = "zero"
-
-    stateful: ClassVar[bool] = True
 
     def outputs(self, ins: Ports) -> Ports:
         return {"output": (self.slots, *self.axes)}

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from deodar.element import Arrays, Element, Ports, Setting
+from deodar.element import Arrays, Element, Setting
 from deodar.numerics.axes import Axis
 from deodar.registry import register
 
@@ -39,9 +39,6 @@ class Placeholder(Element):
 
     # stateful with a constant state, so that it may close a loop, as the missing element might
     stateful: ClassVar[bool] = True
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def init(self, at: Setting) -> Arrays:
         return {"nothing": at.full(tuple(self.axes), 0.0)}

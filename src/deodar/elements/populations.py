@@ -60,7 +60,6 @@ class RateNode(Element):
     self_excitation: Annotated[float, Live("activation", section="interaction")] = 0.0
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, section="noise")] = 0.0
 
-    stateful: ClassVar[bool] = True
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {
         "activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}
     }
@@ -136,7 +135,6 @@ class TransientDetector(Element):
     tau: Annotated[float, Live("time", role="time constant", lower=1e-6)] = 100.0
     initial: Annotated[float, Live()] = 0.0
 
-    stateful: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",), "off": ("input",)}
 
     def polarity(self) -> Sign:
@@ -225,8 +223,6 @@ class SoftWinnerTakeAll(Element):
         ),
     ] = 0.0
 
-    stateful: ClassVar[bool] = True
-
     def recurrence(self) -> Mapping[str, Sign]:
         return {
             "excitation": together([sign_of(self.self_excitation), *(k.polarity() for k in self.kernel)]),
@@ -273,7 +269,3 @@ class SoftWinnerTakeAll(Element):
         r = at.state["rate"]
         neighbours = interaction.apply(at.constants["kernel"], tuple(self.axes), r) if self.kernel else 0.0
         return self.self_excitation * r + neighbours - self.inhibition * at.state["inhibition"]
-
-    @classmethod
-    def example(cls) -> SoftWinnerTakeAll:
-        return cls("example", [Axis("x", 0, 20, samples=21)])

@@ -17,7 +17,6 @@ from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.intervals import ANY, ZERO, Interval, hull, signed, times
-from deodar.numerics.signs import Sign, product, sign_of
 from deodar.numerics.windows import Window, gate
 from deodar.parameters import ArrayLike, FrozenArray, Live, PeakBoundary, PerAxis, Rebuild
 from deodar.registry import register
@@ -35,7 +34,6 @@ class Stimulus(Element):
     windows: Sequence[Window] = dc.field(default=(), kw_only=True)
 
     inputs: ClassVar[tuple[str, ...]] = ()
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
 
     def pattern(self, at: Setting) -> Array:
         """The value of the stimulus over its axes while it is on."""
@@ -114,9 +112,6 @@ class Stimulus(Element):
     def steady(self) -> bool:
         return not self.windows
 
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
-
     def output(self, at: Setting) -> Arrays:
         return {"output": self.pattern(at) * gate(self.windows, at.time, at.dtype)}
 
@@ -151,11 +146,10 @@ class Boost(Stimulus):
 
     amplitude: Annotated[float, Live("activation")] = 1.0
 
+    signed_by: ClassVar[tuple[str, ...]] = ("amplitude",)
+
     def strength(self) -> Interval:
         return self.amplitude, self.amplitude
-
-    def polarity(self) -> Sign:
-        return sign_of(self.amplitude)
 
     def pattern(self, at: Setting) -> Array:
         return jnp.broadcast_to(jnp.asarray(self.amplitude, at.dtype), shape(self.axes))
@@ -196,6 +190,8 @@ class GaussianStimulus(Stimulus):
     normalized: bool = dc.field(default=False, kw_only=True)
     boundary: PeakBoundary = dc.field(default=None, kw_only=True)
 
+    signed_by: ClassVar[tuple[str, ...]] = ("amplitude",)
+
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
         return (
@@ -207,9 +203,6 @@ class GaussianStimulus(Stimulus):
             if axes
             else {"amplitude": starting.STRENGTH}
         )
-
-    def polarity(self) -> Sign:
-        return sign_of(self.amplitude)
 
     def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
@@ -270,6 +263,8 @@ class BoxStimulus(Stimulus):
     width: Annotated[PerAxis, Live("axis", lower=1e-6)] = 10.0
     amplitude: Annotated[float, Live("activation")] = 1.0
 
+    signed_by: ClassVar[tuple[str, ...]] = ("amplitude",)
+
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
         if not axes:
@@ -283,9 +278,6 @@ class BoxStimulus(Stimulus):
 
     def strength(self) -> Interval:
         return signed(self.amplitude)
-
-    def polarity(self) -> Sign:
-        return sign_of(self.amplitude)
 
     def pattern(self, at: Setting) -> Array:
         y = self.amplitude * jnp.ones((), at.dtype)
@@ -328,12 +320,11 @@ class Pattern(Stimulus):
     values: Annotated[ArrayLike, Rebuild("activation")] = FrozenArray([float(k % 7 == 3) for k in range(21)])
     amplitude: Annotated[float, Live()] = 1.0
 
+    signed_by: ClassVar[tuple[str, ...]] = ("values", "amplitude")
+
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
         return {"values": FrozenArray(starting.hill(axes)), "amplitude": starting.STRENGTH}
-
-    def polarity(self) -> Sign:
-        return product(sign_of(self.values), sign_of(self.amplitude))
 
     def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import jax.numpy as jnp
 import numpy as np
@@ -51,11 +51,6 @@ class Integrator(Element):
     rate: Annotated[float, Live("1/time", role="speed")] = 0.1
     initial: Annotated[float, Live()] = 0.0
     start: Annotated[ArrayLike | None, Rebuild()] = None
-
-    stateful: ClassVar[bool] = True
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("start", self.start, shape(self.axes))
@@ -119,8 +114,6 @@ class Attractor(Element):
     gain: Annotated[float, Live("motor/axis")] = 1.0
     offset: Annotated[float, Live("motor")] = 0.0
     fastest: Annotated[float, Live("motor/time", role="speed", lower=0, neutral=0.0, off=True)] = 0.0
-
-    stateful: ClassVar[bool] = True
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if self.axis is None else (self.axis,)

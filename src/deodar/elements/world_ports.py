@@ -38,10 +38,6 @@ class Sensor(Element):
 
     inputs: ClassVar[tuple[str, ...]] = ()
     external: ClassVar[str] = "reading"
-    direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def sensor_name(self) -> str:
         return self.sensor
@@ -80,11 +76,7 @@ class Motor(Element):
     axes: Sequence[Axis] = ()
     motor: str = "left"
 
-    inputs: ClassVar[tuple[str, ...]] = ("input",)
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
-
-    def outputs(self, ins: Ports) -> Ports:
-        return {"output": tuple(self.axes)}
 
     def motor_name(self) -> str:
         return self.motor
