@@ -3,21 +3,12 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import weakref
-from collections import deque
 from collections.abc import Sequence
 
 from deodar.errors import ModelError, Problem
 from deodar.model.document import Document
 from deodar.model.order import Act, order
 from deodar.model.resolve import Node, resolve
-
-MOST_GRAPHS = 32
-"""Number of documents that keep their graphs: a history of edits has many documents, and a graph needs about
-1.5 KiB for each element.
-"""
-
-_latest: deque[weakref.ref[Document]] = deque()
 
 
 @dc.dataclass(frozen=True)
@@ -43,12 +34,10 @@ class DocumentGraph:
 
 def graph(doc: Document) -> DocumentGraph:
     """Return the graph of a document, which the document keeps."""
-    if "_graph" not in doc.__dict__:
-        doc.__dict__["_graph"] = _resolved(doc)
-        _latest.append(weakref.ref(doc))
-        if len(_latest) > MOST_GRAPHS and (oldest := _latest.popleft()()) is not None:
-            oldest.__dict__.pop("_graph", None)
-    return doc.__dict__["_graph"]
+    resolved = doc.__dict__.get("_graph")
+    if resolved is None:  # another thread may make it, or let the document forget it
+        resolved = doc.__dict__["_graph"] = _resolved(doc)
+    return resolved
 
 
 def _resolved(doc: Document) -> DocumentGraph:

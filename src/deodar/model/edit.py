@@ -535,6 +535,7 @@ class UndoHistory(Generic[T]):
         """Add a new document; documents that were undone are discarded."""
         if document is self.document:
             return
+        self.document.forget()
         self._past.append(self.document)
         self._future.clear()
         self.document = document
@@ -562,6 +563,7 @@ class UndoHistory(Generic[T]):
         """Return to the previous document; False if it does not exist."""
         if not self._past:
             return False
+        self.document.forget()
         self._future.append(self.document)
         self.document = self._past.pop()
         return True

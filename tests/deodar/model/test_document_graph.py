@@ -38,10 +38,14 @@ def test_the_graph_of_a_document_does_not_travel_with_it() -> None:
     assert "_graph" not in pickle.loads(pickle.dumps(doc)).__dict__
 
 
-def test_only_the_latest_documents_keep_their_graphs() -> None:
-    docs = [chain().document for _ in range(graphs.MOST_GRAPHS + 1)]
-    first, *_, last = [graph(doc) for doc in docs]
-    assert graph(docs[-1]) is last and graph(docs[0]) is not first
+def test_documents_of_the_past_keep_no_graph() -> None:
+    model = chain()
+    model.check()
+    model.set("b.amplitude", 2.0)
+    model.check()
+    assert ["_graph" in doc.__dict__ for doc in model.history.documents[-2:]] == [False, True]
+    model.history.undo()
+    assert not any("_graph" in doc.__dict__ for doc in model.history.documents)
 
 
 def test_a_graph_with_problems_has_no_order() -> None:
