@@ -535,7 +535,7 @@ class UndoHistory(Generic[T]):
         """Add a new document; documents that were undone are discarded."""
         if document is self.document:
             return
-        self.document.forget()
+        _leave(self.document)
         self._past.append(self.document)
         self._future.clear()
         self.document = document
@@ -563,7 +563,7 @@ class UndoHistory(Generic[T]):
         """Return to the previous document; False if it does not exist."""
         if not self._past:
             return False
-        self.document.forget()
+        _leave(self.document)
         self._future.append(self.document)
         self.document = self._past.pop()
         return True
@@ -575,6 +575,12 @@ class UndoHistory(Generic[T]):
         self._past.append(self.document)
         self.document = self._future.pop()
         return True
+
+
+def _leave(document: object) -> None:
+    """Let a document of the past forget what it computed about itself."""
+    if isinstance(document, Document):
+        document.forget()
 
 
 def _with_axis(part: Any, old: Axis, new: Axis) -> Any:

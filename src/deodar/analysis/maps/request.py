@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -64,8 +64,8 @@ def requested(
         ParameterError: a path is unknown, changing the parameter needs another program, or its values are
             not those of an axis of a map.
     """
-    isolation: Any = {**options}
-    longest = positive("limit", isolation.pop("limit", LIMIT))
+    isolation, limit = _divided(**options)
+    longest = positive("limit", limit)
     doc = model.document
     path = field or only_field(doc)
     if len(over) != 2:
@@ -89,6 +89,11 @@ def requested(
         strength=amplitude,
         limit=longest,
     )
+
+
+def _divided(*, limit: float = LIMIT, **isolation: Unpack[Isolation]) -> tuple[Isolation, float]:
+    """Return the options of `isolate`, and the longest stage."""
+    return isolation, limit
 
 
 def _values(doc: Document, path: str, points: Any) -> np.ndarray:

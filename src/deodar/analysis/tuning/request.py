@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import Any, Unpack
 
 from deodar.analysis.isolated import Isolated, Isolation, isolate
 from deodar.analysis.settling_copies import (
@@ -67,6 +67,18 @@ class TuningRequest(SettlingRequest):
     budget: int
 
 
+def _divided(
+    *,
+    strength: float | None = None,
+    seed: int = 0,
+    budget: int = BUDGET,
+    limit: float = LIMIT,
+    **isolation: Unpack[Isolation],
+) -> tuple[Isolation, tuple[float | None, int, int, float]]:
+    """Return the options of `isolate`, and those of the search."""
+    return isolation, (strength, seed, budget, limit)
+
+
 def requested(
     model: Model,
     parameters: Sequence[str],
@@ -82,9 +94,7 @@ def requested(
             requirements contradict each other.
         ParameterError: a path or value is not one.
     """
-    isolation: Any = {**options}
-    strength, seed = isolation.pop("strength", None), isolation.pop("seed", 0)
-    budget, longest = isolation.pop("budget", BUDGET), isolation.pop("limit", LIMIT)
+    isolation, (strength, seed, budget, longest) = _divided(**options)
     for name, number in (("seed", seed), ("budget", budget)):
         if not isinstance(number, int) or isinstance(number, bool) or number < 0:
             raise ParameterError(f"{name} is {show(number)}; expected an integer of 0 or above")
