@@ -61,7 +61,7 @@ def screen(width: int, height: int, hz: float):  # type: ignore[no-untyped-def]
 
 def plant(at: str, size: tuple[int, int], hz: float, pipe: Any) -> None:
     """Serve pictures until the other end says so; send what was measured after each request."""
-    from deodar_robots.zenoh.message import WireMessage
+    from deodar_robots.zenoh.about import WireMessage
     from deodar_robots.zenoh.server import WorldServer
 
     world = screen(*size, hz)

@@ -13,8 +13,7 @@ import numpy as np
 
 from deodar.errors import Fix, WorldError
 from deodar.worlds import _capture
-from deodar.worlds._address import Address
-from deodar.worlds._reachable import Unreachable, unreachable
+from deodar.worlds._address import Address, Unreachable, unreachable
 
 LEAVING = 1.0
 """s that closing a camera, also at the end of a program, waits for a picture that is being read (a guessed

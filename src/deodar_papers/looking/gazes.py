@@ -24,8 +24,7 @@ from deodar.resources import Resources
 from deodar.session.exchange import embodied
 from deodar.session.run import Run
 from deodar_robots.eye.eye import Eye
-from deodar_robots.eye.optics import CENTRE, PIXELS
-from deodar_robots.eye.pan_tilt import PanTilt
+from deodar_robots.eye.pan_tilt import CENTRE, PIXELS, PanTilt
 from deodar_robots.eye.screen import EyeScreen
 
 STEP = 10.0

@@ -57,8 +57,8 @@ def run(args: argparse.Namespace) -> int:
     """Serve until Ctrl-C or SIGTERM, then print what became of the messages."""
     # start-up time: these bring JAX
     from deodar_robots.zenoh import link
+    from deodar_robots.zenoh.link import TlsFiles
     from deodar_robots.zenoh.server import WorldServer, free_name
-    from deodar_robots.zenoh.tls_files import TlsFiles
 
     _options.use_rounding(args.separate_rounding)
     ended: list[int] = []

@@ -13,8 +13,7 @@ from deodar.worlds._base import World
 from deodar_robots.environments.loop import Bounds, RewardFunction, loop, require_copies
 
 if TYPE_CHECKING:
-    from deodar_robots.environments.single import LoopEnv
-    from deodar_robots.environments.vector import LoopVectorEnv
+    from deodar_robots.environments.single_and_vector import LoopEnv, LoopVectorEnv
 
 
 def as_env(
@@ -63,8 +62,7 @@ def as_env(
     """
     try:
         # an extra
-        from deodar_robots.environments.single import LoopEnv
-        from deodar_robots.environments.vector import LoopVectorEnv
+        from deodar_robots.environments.single_and_vector import LoopEnv, LoopVectorEnv
     except ImportError as error:
         if (error.name or "").partition(".")[0] != "gymnasium":
             raise

@@ -15,6 +15,6 @@ HELP = "a bag of ROS 2 with a topic for each variable (extra network)"
 def save(data: xarray.Dataset, path: str | Path, force: bool = False) -> Path:
     """Write a record."""
     # start-up time: this brings NumPy
-    from deodar_robots.ros_bag import records as rosbag
+    from deodar_robots.ros_bag import bag_file as rosbag
 
     return rosbag.save(data, path, force)

@@ -1,4 +1,4 @@
-"""The pixels of an event camera, as pure functions of one copy: an event for each change of log luminance."""
+"""The pixels of an event camera, as pure functions of one copy, and the picture of its events."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from jax import Array
 from deodar.element import Arrays
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import box_muller, uniform, words
+from deodar.worlds._scene import ScenePicture
 
 LEAST = 0.2
 """Smallest threshold of a pixel, as a share of the mean one: none is 0 or negative, whatever the spread."""
@@ -101,3 +102,46 @@ def shares(axis: Axis, pixels: int) -> np.ndarray:
     edges = np.arange(pixels + 1) - 0.5
     overlap = np.minimum(high[:, None], edges[None, 1:]) - np.maximum(low[:, None], edges[None, :-1])
     return np.maximum(overlap, 0.0) / axis.step
+
+
+FADES = 40.0
+"""Time after which an event has faded to 1/e, ms: longer than the page takes for a picture."""
+
+FULL = 3.0
+"""Events of a pixel that give it the full colour."""
+
+NOTHING, ON, OFF = (np.asarray(c, float) for c in ((22, 24, 28), (255, 176, 64), (84, 160, 255)))
+"""Red, green and blue of pixels without events, with on events and with off events: orange and blue differ
+for people who do not see red and green apart.
+"""
+
+
+class EventPicture:
+    r"""Events that fade, drawn in one colour for brighter and in another one for darker pixels.
+
+    Equation:
+        p \leftarrow p\, e^{-T / \mathrm{fades}} + n_{\mathrm{on}} - n_{\mathrm{off}}
+
+    Args:
+        side: columns and rows of the camera.
+    """
+
+    def __init__(self, side: int) -> None:
+        self._levels = np.zeros((side, side))
+
+    def clear(self) -> None:
+        """Forget all events."""
+        self._levels[:] = 0
+
+    def add(self, on: np.ndarray, off: np.ndarray, period: float) -> None:
+        """Add the numbers of events of a period (ms), columns first."""
+        self._levels *= math.exp(-period / FADES)
+        self._levels += on
+        self._levels -= off
+
+    def scene(self) -> ScenePicture:
+        """Return the picture for the view of a world, with row 0 at the bottom, as plots draw it."""
+        level = np.clip(self._levels.T[::-1] / FULL, -1, 1)[..., None]
+        drawn = NOTHING + np.maximum(level, 0) * (ON - NOTHING) + np.maximum(-level, 0) * (OFF - NOTHING)
+        rows, columns = drawn.shape[:2]
+        return ScenePicture("events", columns, rows, drawn.round().astype(np.uint8).tobytes())

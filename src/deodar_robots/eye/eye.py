@@ -23,10 +23,8 @@ from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody
 from deodar.worlds._settings import arguments, finite_rows, number, of, parse_argument
-from deodar_robots.eye.event_camera import EventCamera, rate
-from deodar_robots.eye.event_picture import EventPicture
-from deodar_robots.eye.optics import CENTRE, PIXELS
-from deodar_robots.eye.pan_tilt import PanTilt
+from deodar_robots.eye.event_camera import EventCamera, EventPicture, rate
+from deodar_robots.eye.pan_tilt import CENTRE, PIXELS, PanTilt
 from deodar_robots.eye.screen import EyeScreen, drawn, headings, luminance
 
 LOWEST, HIGHEST = 0.0, 2000.0

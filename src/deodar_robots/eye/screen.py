@@ -12,7 +12,7 @@ from jax.typing import DTypeLike
 from deodar.declarations import Recompile
 from deodar.numerics.noise import uniform, words
 from deodar.worlds._settings import From0, PositiveNumber, WorldSettings
-from deodar_robots.eye.optics import PIXELS, Optics
+from deodar_robots.eye.pan_tilt import PIXELS, PanTilt
 
 CANDIDATES = 32
 """Random places from which the place of a new object is taken: the first one within the screen."""
@@ -66,7 +66,7 @@ def luminance(places: Array, bright: Array, radius: float, dtype: DTypeLike) -> 
 
 
 def drawn(
-    optics: Optics, pose: Array, middle: float, reach: float, margin: float, key: Array, block: Array
+    optics: PanTilt, pose: Array, middle: float, reach: float, margin: float, key: Array, block: Array
 ) -> Array:
     """Return a random direction of a new object: visible, and on the screen if possible.
 

@@ -17,8 +17,7 @@ from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._settings import number
 from deodar_robots.gymnasium import space_parts
-from deodar_robots.gymnasium.argument import parse_argument, require_registered
-from deodar_robots.gymnasium.package import errors_in, made, package
+from deodar_robots.gymnasium.package import errors_in, made, package, parse_argument, require_registered
 from deodar_robots.gymnasium.space_parts import SpacePart
 
 AT_END = ("reset", "hold")

@@ -20,14 +20,12 @@ from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._scene import Scene, SceneBody, SceneBox, pair
 from deodar.worlds._settings import arguments, number, parse_argument
-from deodar_robots.mujoco import camera as pictures
+from deodar_robots.mujoco import cameras as pictures
 from deodar_robots.mujoco import solids
-from deodar_robots.mujoco.cameras import CAMERAS, MuJoCoCameras
+from deodar_robots.mujoco.cameras import CAMERAS, MuJoCoCameras, Renderer, visible
 from deodar_robots.mujoco.objects import PlacedObject
 from deodar_robots.mujoco.reach import Arm
-from deodar_robots.mujoco.rendering import Renderer
 from deodar_robots.mujoco.scene_file import ROBOTS, SCENES, SceneFile, compiled, is_scalar, simulator
-from deodar_robots.mujoco.visibility import visible
 
 CONTROL = 0.01
 """Interval between two commands to the joints, s, if the time step of the scene is shorter."""

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar.worlds._solids import Mesh, Solid, SolidShape
-from deodar_robots.mujoco.camera import VISIBLE
+from deodar.worlds._scene import Mesh, Solid, SolidShape
+from deodar_robots.mujoco.cameras import VISIBLE
 from deodar_robots.mujoco.scene_file import simulator
 
 UNNAMED = "body"

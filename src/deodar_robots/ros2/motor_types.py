@@ -1,22 +1,106 @@
-"""The types of messages that motors send: Twist, TwistStamped, Float64MultiArray and JointTrajectory."""
+"""Types of messages that motors send: the setting of a motor, the contract, and a command of each type."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Annotated, Any
 
+import msgspec
 import numpy as np
-from msgspec import UNSET
+from msgspec import UNSET, Meta, UnsetType
 
 from deodar.errors import WorldError
 from deodar.worlds._base import Signal
-from deodar_robots.ros2.command import MotorCommand
+from deodar.worlds._motor_rule import STOPS_AFTER, MotorRule
 from deodar_robots.ros2.message_types import full_name, header, make
-from deodar_robots.ros2.reading import chosen_fields
-from deodar_robots.ros2.topic_motor import TopicMotor
-from deodar_robots.ros2.topic_sensor import entries
+from deodar_robots.ros2.reading import ArraySamples, chosen_fields, entries
 from deodar_robots.ros2.wire import require_topic
+
+Above0 = Annotated[float, Meta(gt=0)]
+
+
+class TopicMotor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A motor whose commands go to a topic. Several motors may command parts of one message.
+
+    Attributes:
+        topic: name of the topic.
+        type: type of its messages, such as geometry_msgs/Twist.
+        shape: number of values, where the type leaves it open.
+        fields: which numbers of a message the command is; a single name instead of a list is one number.
+        joints: names of the joints, in the order of the command.
+        limits: smallest and largest value of each sample.
+        slew: largest change of each sample per second.
+        rest: value of each sample at rest; null: nothing is sent, and the robot keeps the last command.
+        stops_after: time without a command after which the command at rest is sent, ms.
+        duration: time in which joints reach the commanded point, ms; by default two exchanges.
+    """
+
+    topic: str
+    type: str
+    shape: ArraySamples | None = None
+    fields: str | list[str] | None = None
+    joints: list[str] | None = None
+    limits: tuple[float, float] | None = None
+    slew: Above0 | None = None
+    rest: float | UnsetType | None = UNSET
+    stops_after: Above0 = STOPS_AFTER
+    duration: Above0 | None = None
+
+
+class MotorCommand:
+    """What a motor sends to a topic.
+
+    Args:
+        entry: the setting of the motor.
+        where: its place, for messages.
+        period: ms between two exchanges.
+
+    Attributes:
+        signal: signal of the motor.
+        rule: limits, rate of change and rest.
+        rests: whether a message is sent at rest; without one the robot keeps the last command.
+        fields: names of the parts of the message that the motor commands; two motors share none.
+    """
+
+    settings: Sequence[str] = ()
+    """Settings that the type uses, besides those of all motors."""
+
+    fields: Sequence[str] = ()
+
+    def __init__(self, entry: TopicMotor, where: str, period: float) -> None:
+        for name in ("shape", "fields", "joints", "duration"):
+            if getattr(entry, name) is not None and name not in self.settings:
+                raise WorldError(f"the type {entry.type} has no setting {name!r}", where)
+        self.entry, self.where, self.period = entry, where, period
+        self.signal = self.declared()
+        rest = self.default_rest() if entry.rest is UNSET else entry.rest
+        self.rests = rest is not None
+        if entry.slew is not None and rest is None:
+            raise WorldError("a rate of change begins at the command at rest, and this motor has none", where)
+        low, high = entry.limits or (0.0, 0.0)
+        # without a rest none is sent, but a rule has one within its limits
+        value = min(max(0.0, low), high) if rest is None else float(rest)  # type: ignore[arg-type]
+        rule = {"limits": entry.limits, "slew": entry.slew, "stops_after": entry.stops_after, "rest": value}
+        self.rule = MotorRule.from_data(rule, where)
+
+    def declared(self) -> Signal:
+        """Return the signal of the motor."""
+        raise NotImplementedError
+
+    def default_rest(self) -> float | None:
+        """Return the value at rest of a motor that states none; None: no message is sent."""
+        return 0.0
+
+    @classmethod
+    def message(cls, commands: Sequence[tuple[Any, np.ndarray]]) -> Any:
+        """Return the message of all motors of a topic, each with its command."""
+        raise NotImplementedError
+
+    def values(self, command: np.ndarray) -> Mapping[str, float]:
+        """Return the number of each field."""
+        return dict(zip(self.fields, np.reshape(command, -1).astype(float).tolist(), strict=True))
+
 
 VELOCITIES = {
     f"{kind}.{axis}": unit for kind, unit in (("linear", "m/s"), ("angular", "rad/s")) for axis in "xyz"

@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from deodar.errors import WorldError
-from deodar_robots.ros2.command import MotorCommand
 from deodar_robots.ros2.message_types import to_bytes
+from deodar_robots.ros2.motor_types import MotorCommand
 
 Publish = Callable[[str, bytes, bool], None]
 """Sends a message on a topic, and waits for the network where asked for."""

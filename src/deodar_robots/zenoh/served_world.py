@@ -8,8 +8,8 @@ import threading
 from deodar.worlds._base import World
 from deodar_robots.zenoh import link
 from deodar_robots.zenoh.about import RobotClock
+from deodar_robots.zenoh.link import TlsFiles
 from deodar_robots.zenoh.server import WorldServer
-from deodar_robots.zenoh.tls_files import TlsFiles
 
 
 class ServedWorld:

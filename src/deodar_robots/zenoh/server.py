@@ -24,10 +24,20 @@ from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
 from deodar_robots.motor_limiter import MotorLimiter
 from deodar_robots.zenoh import link
-from deodar_robots.zenoh.about import About, RobotClock, key, reading_keys, requests_from_data
-from deodar_robots.zenoh.command_inbox import CommandInbox
-from deodar_robots.zenoh.message import MOST_BYTES, BadMessage, WireMessage, bundle, unbundle
-from deodar_robots.zenoh.tls_files import TlsFiles
+from deodar_robots.zenoh.about import (
+    MOST_BYTES,
+    About,
+    BadMessage,
+    RobotClock,
+    WireMessage,
+    bundle,
+    key,
+    reading_keys,
+    requests_from_data,
+    unbundle,
+)
+from deodar_robots.zenoh.inboxes import CommandInbox
+from deodar_robots.zenoh.link import TlsFiles
 
 MOST_WAITING = 64
 """Most queries that wait for the world; more are refused, so that memory is bounded."""

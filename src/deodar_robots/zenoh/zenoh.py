@@ -25,11 +25,19 @@ from deodar.worlds._settings import number, parse_argument
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.motor_limiter import MotorLimiter
 from deodar_robots.zenoh import link
-from deodar_robots.zenoh.about import About, Requests, key, reading_keys, requests_to_data
-from deodar_robots.zenoh.message import WireMessage, bundle, unbundle
-from deodar_robots.zenoh.reading_inbox import ReadingInbox
+from deodar_robots.zenoh.about import (
+    About,
+    Requests,
+    WireMessage,
+    bundle,
+    key,
+    reading_keys,
+    requests_to_data,
+    unbundle,
+)
+from deodar_robots.zenoh.inboxes import ReadingInbox
+from deodar_robots.zenoh.link import TlsFiles
 from deodar_robots.zenoh.served_world import ServedWorld
-from deodar_robots.zenoh.tls_files import TlsFiles
 
 SLOWEST = 60.0
 """Time after which a robot that still answers is no longer waited for, s."""

@@ -9,7 +9,7 @@ from deodar.family import Family
 from deodar.importers.report import Verdict
 from deodar.numerics.signs import Sign
 from deodar.parameters import ValueForm
-from deodar.worlds._solids import SolidShape
+from deodar.worlds._scene import SolidShape
 from deodar_studio.messages.message import Data, Id, Message
 
 MESSAGES = Family(Message)

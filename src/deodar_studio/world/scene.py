@@ -6,7 +6,7 @@ import base64
 
 from deodar.worlds import _scene
 from deodar.worlds._base import World
-from deodar.worlds._solids import Solid
+from deodar.worlds._scene import Solid
 from deodar_studio.live.published import PublishedState
 from deodar_studio.live.track import Trail
 from deodar_studio.messages.message import made_of

@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.errors import WorldError
 from deodar.worlds._settings import arguments
 from deodar_robots.eye.event_camera import EventCamera
-from deodar_robots.eye.optics import CENTRE, Optics
+from deodar_robots.eye.pan_tilt import CENTRE, PanTilt
 
 PLANE = dd.Eye.example_axes("events")
 PAIR = dd.Eye.example_axes("pose")
@@ -54,7 +54,7 @@ def test_a_motor_without_a_signal_stays() -> None:
 
 @pytest.mark.parametrize("curvature", [0.0, 0.12, 0.3])
 def test_the_optics_are_inverted(curvature: float) -> None:
-    optics = Optics(0.18, curvature, 0.06)
+    optics = PanTilt(0.18, curvature, 0.06)
     places = np.random.default_rng(1).uniform(0, 127, (200, 2))
     back = optics.to_retina(optics.to_direction(places))
     assert np.abs(np.asarray(back) - places).max() < 0.05

@@ -8,7 +8,7 @@ import pytest
 import deodar as dd
 from deodar.architectures.looking import SAMPLES, looking, retina, shifts
 from deodar.errors import ParameterError
-from deodar_robots.eye.optics import CENTRE, Optics
+from deodar_robots.eye.pan_tilt import CENTRE, PanTilt
 
 EYE = dd.Eye()
 
@@ -124,7 +124,7 @@ def test_at_rest_nothing_is_done() -> None:
 
 def test_a_finer_sampling_looks_at_the_same_place() -> None:
     (column, row), (pan, tilt) = retina(48), shifts(37)
-    optics = Optics(0.18, 0.12, 0.06)
+    optics = PanTilt(0.18, 0.12, 0.06)
     places = np.stack(np.meshgrid(column.points, row.points, indexing="ij"), axis=-1)
     goals = np.asarray(optics.to_direction(places))
     away = [(axis.points[:, None, None] - goals[None, ..., k]) for k, axis in enumerate((pan, tilt))]

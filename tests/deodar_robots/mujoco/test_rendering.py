@@ -11,7 +11,7 @@ import pytest
 
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axis
-from deodar_robots.mujoco import rendering
+from deodar_robots.mujoco import cameras
 from deodar_robots.mujoco.cameras import MuJoCoCameras
 from deodar_robots.mujoco.mujoco import MuJoCo
 
@@ -27,7 +27,7 @@ def example(**settings: object) -> MuJoCo:
 
 def has_egl() -> bool:
     try:
-        rendering.context()
+        cameras.context()
     except WorldError as error:
         assert 'render="rays"' in str(error)
         return False
@@ -79,7 +79,7 @@ def test_without_the_library_the_error_names_it(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(ctypes, "CDLL", absent)
     with pytest.raises(WorldError, match=r"there is no libEGL\.so\.1"):
-        rendering.Context()
+        cameras.Context()
 
 
 def test_the_setting_is_part_of_the_description_and_of_the_command_line():

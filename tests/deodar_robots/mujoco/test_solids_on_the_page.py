@@ -11,7 +11,7 @@ import numpy as np
 import deodar as dd
 from deodar.elements.world_ports import Sensor
 from deodar.numerics.axes import Axis
-from deodar.worlds._solids import POSE
+from deodar.worlds._scene import POSE
 from deodar_robots.mujoco.mujoco import MuJoCo
 from tests.deodar_studio.page import Page, page, play, studio
 

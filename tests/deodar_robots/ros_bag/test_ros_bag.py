@@ -13,7 +13,7 @@ from rosbags.typesys import Stores, get_typestore
 import deodar as dd
 from deodar.errors import RecordError, WorldError
 from deodar_robots.ros_bag import bag_file
-from deodar_robots.ros_bag import records as rosbag
+from deodar_robots.ros_bag import bag_file as rosbag
 from tests.command_line import typed
 from tests.deodar_robots.ros2.fake import distance, scan
 

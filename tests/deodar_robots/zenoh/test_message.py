@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from deodar_robots.zenoh.message import HEADER, MAGIC, MOST_BYTES, BadMessage, WireMessage, bundle, unbundle
+from deodar_robots.zenoh.about import HEADER, MAGIC, MOST_BYTES, BadMessage, WireMessage, bundle, unbundle
 
 NUMBERS = st.sampled_from(
     [np.dtype(t) for t in ("f4", "f8", "u1", "u2", "i4", "i8", "u4", "u8", "i1", "i2", "?", ">f8", ">i4")]

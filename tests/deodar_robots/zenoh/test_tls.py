@@ -16,8 +16,8 @@ from deodar.errors import WorldError
 from deodar.recording.opened import again
 from deodar_robots.robot.robot import Robot
 from deodar_robots.zenoh import link
+from deodar_robots.zenoh.link import TlsFiles
 from deodar_robots.zenoh.served_world import ServedWorld, free_endpoint
-from deodar_robots.zenoh.tls_files import TlsFiles
 from deodar_robots.zenoh.zenoh import Zenoh
 from tests.command_line import typed
 from tests.deodar_robots.zenoh.wheel import Wheel

@@ -16,8 +16,7 @@ from deodar.errors import WorldError
 from deodar.worlds._base import Signal
 from deodar.worlds._motor_rule import MotorRule
 from deodar_robots.zenoh import link
-from deodar_robots.zenoh.about import key
-from deodar_robots.zenoh.message import WireMessage
+from deodar_robots.zenoh.about import WireMessage, key
 from deodar_robots.zenoh.served_world import ServedWorld
 from deodar_robots.zenoh.zenoh import Zenoh
 from tests.deodar_robots.zenoh.wheel import Wheel

@@ -31,15 +31,13 @@ from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
 from deodar.worlds._settings import arguments, of, parse_argument
 from deodar.worlds.arena.arena_layout import UNITS, ArenaObject, LayoutSource, builtin, load_each
 from deodar.worlds.arena.arena_settings import NOISE, PHYSICS, PICTURE_NOISES, ArenaNoise, ArenaPhysics
-from deodar.worlds.arena.color_camera import picture_rays, surfaces
+from deodar.worlds.arena.color_camera import PictureNoise, picture, picture_rays, surfaces
 from deodar.worlds.arena.contact import move
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.infrared import distances, readings
 from deodar.worlds.arena.objects import ArenaObjects, made
 from deodar.worlds.arena.overlaps import BlockCheck
-from deodar.worlds.arena.picture_noise import PictureNoise, picture
-from deodar.worlds.arena.room import Room
-from deodar.worlds.arena.starts_and_goals import Places, rows_of
+from deodar.worlds.arena.starts_and_goals import Places, Room, rows_of
 from deodar.worlds.arena.vehicle import Vehicle, drive, limited, wrapped
 from deodar.worlds.arena.vehicles import VEHICLES, vehicle_of
 from deodar.worlds.arena.view import coloured, judge_plane, require_plane, sides

@@ -17,7 +17,7 @@ from deodar.errors import UnknownName, WorldError
 from deodar.worlds._settings import arguments
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.arena_layout import load
-from deodar.worlds.arena.room import FINE, Room
+from deodar.worlds.arena.starts_and_goals import FINE, Room
 
 EMPTY: dict[str, Any] = {"arena": {"x": [0, 3], "y": [0, 3]}}
 COMPILED: dict[Any, Any] = {}

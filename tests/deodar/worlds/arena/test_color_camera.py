@@ -16,10 +16,9 @@ from deodar.errors import WorldError
 from deodar.worlds._settings import arguments
 from deodar.worlds.arena import arena as arena_file
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.arena.color_camera import AT_ONCE
+from deodar.worlds.arena.color_camera import AT_ONCE, BACKGROUND, picture
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.khepera import KHEPERA
-from deodar.worlds.arena.picture_noise import BACKGROUND, picture
 from deodar.worlds.arena.vehicle import Vehicle, VehicleCamera
 from deodar.worlds.arena.view import FLOOR, OUTSIDE
 
