@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
+import msgspec
 import numpy as np
+from msgspec import Meta
 
 from deodar.codec import JsonObject
 from deodar.errors import WorldError
-from deodar.parameters import real, show
+from deodar.parameters import show
 
 STOPS_AFTER = 200.0
 """Time without a command after which a motor goes to rest, ms (a guess: two periods of a slow robot)."""
@@ -29,12 +31,21 @@ class MotorRule:
     """
 
     limits: tuple[float, float] | None = None
-    slew: float | None = None
+    slew: Annotated[float, Meta(gt=0)] | None = None
     rest: float = 0.0
-    stops_after: float = STOPS_AFTER
+    stops_after: Annotated[float, Meta(gt=0)] = STOPS_AFTER
 
     def __post_init__(self) -> None:
         low, high = self.limits or (-math.inf, math.inf)
+        if self.limits is not None and not -math.inf < low < high < math.inf:
+            raise WorldError(f"limits is {show(self.limits)}; expected two finite numbers, the lower first")
+        for name, value in (
+            ("slew", self.slew or 0.0),
+            ("rest", self.rest),
+            ("stops_after", self.stops_after),
+        ):
+            if not math.isfinite(value):
+                raise WorldError(f"{name} is {show(value)}; expected a finite number")
         if not low <= self.rest <= high:
             raise WorldError(f"rest is {self.rest:g}; expected a value within the limits {low:g} to {high:g}")
 
@@ -72,30 +83,9 @@ class MotorRule:
         Raises:
             WorldError: a value is not what the rule needs.
         """
-        limits = data.get("limits")
-        pair = (
-            [real(v) for v in limits]
-            if isinstance(limits, (list, tuple))
-            else []
-            if limits is None
-            else [None]
-        )
-        if limits is not None and (len(pair) != 2 or not _finite(*pair) or not pair[0] < pair[1]):  # type: ignore[operator]
-            raise WorldError(f"limits is {show(limits)}; expected two finite numbers, the lower first", where)
-        numbers = {}
-        for name, lowest in (("slew", 0.0), ("rest", -math.inf), ("stops_after", 0.0)):
-            if data.get(name) is None:
-                continue
-            value = real(data[name])
-            if value is None or not math.isfinite(value) or value <= lowest:
-                above = "" if lowest < 0 else " above 0"
-                raise WorldError(f"{name} is {show(data[name])}; expected a finite number{above}", where)
-            numbers[name] = float(value)
         try:
-            return cls((float(pair[0]), float(pair[1])) if pair else None, **numbers)  # type: ignore[arg-type]
+            return msgspec.convert({k: v for k, v in data.items() if v is not None}, cls)
+        except msgspec.ValidationError as error:
+            raise WorldError(str(error), where) from None
         except WorldError as error:
             raise WorldError(error.problems[0].what, where) from None
-
-
-def _finite(*values: float | None) -> bool:
-    return all(number is not None and math.isfinite(number) for number in values)
