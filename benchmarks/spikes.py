@@ -53,13 +53,12 @@ from deodar.recording.provenance import machine  # noqa: E402
 from deodar_spikes.build import build  # noqa: E402
 from deodar_spikes.chip_limits import chip_limits  # noqa: E402
 from deodar_spikes.comparison import compare_spikes  # noqa: E402
-from deodar_spikes.drive import NetworkInput, network_input  # noqa: E402
 from deodar_spikes.fitting import fit  # noqa: E402
 from deodar_spikes.graph import NirGraph  # noqa: E402
 from deodar_spikes.mismatch import chip, differing  # noqa: E402
 from deodar_spikes.norse import norse_version, run_norse  # noqa: E402
 from deodar_spikes.prepare import SpikingOptions  # noqa: E402
-from deodar_spikes.running import rates  # noqa: E402
+from deodar_spikes.running import NetworkInput, network_input, rates  # noqa: E402
 from deodar_spikes.simulator import SpikingSimulator  # noqa: E402
 from deodar_spikes.translate import translate  # noqa: E402
 

@@ -58,7 +58,6 @@ ROLES: Mapping[str, tuple[str, ...]] = {
         for paper in ("looking", "pointing", "saliency", "serial_order", "spa", "story")
     ),
     "figures of papers": ("deodar_papers/figures", "deodar_papers/*/figures"),
-    "the parser of a world on the command line": ("deodar_robots/*/argument",),
 }
 """Modules that may share a name, by what they are: their places in `src`; `*` is one folder or module."""
 

@@ -35,7 +35,7 @@ class TranslationSetup:
         neurons: neurons of a cell.
         step, membrane: dt and tau_mem, in s.
         unit: the document's unit of time, in s.
-        tonic: whether tonic neurons give the resting levels (see `tonic.py`).
+        tonic: whether tonic neurons give the resting levels (see `translate.py`).
     """
 
     neurons: int

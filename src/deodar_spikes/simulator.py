@@ -1,14 +1,18 @@
 """Simulate a graph of NIR in JAX, many copies at once: trials, and chips with different neurons.
 
-A step computes the nodes in the order of `order.py`. A CubaLIF advances by one Euler step:
+A step computes the nodes in the order of `graph.py`. A CubaLIF advances by one Euler step:
 
     I += dt/tau_syn (-I + w_in x),  then  v += dt/tau_mem (v_leak - v + r I),
     then a spike if v > v_threshold, and v = v_reset.
+
+The neurons of a cell have equal synapses, so that a matrix of 600 x 600 weights is one of 30 x 30 between the
+sums over blocks of inputs and copies of the results.
 """
 
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from collections.abc import Callable, Hashable, Mapping
 from typing import TypeAlias
 
@@ -20,9 +24,43 @@ from numpy.typing import NDArray
 
 from deodar.errors import GraphError, TimeError
 from deodar.numerics.processor import on_cpu
-from deodar_spikes.factors import factors
-from deodar_spikes.graph import INPUT, OUTPUT, AffineNode, NeuronNode, NirGraph
-from deodar_spikes.order import order
+from deodar_spikes.graph import INPUT, OUTPUT, AffineNode, NeuronNode, NirGraph, order
+
+
+@dc.dataclass(frozen=True, eq=False)
+class Factors:
+    """y = core (sums of x over blocks), repeated.
+
+    Attributes:
+        core: blocks of rows x blocks of columns.
+        rows, columns: rows and columns of a block.
+    """
+
+    core: NDArray[np.float32]
+    rows: int
+    columns: int
+
+    def __call__(self, x: Array) -> Array:
+        """Return the product for copies x values."""
+        if self.columns > 1:
+            x = x.reshape(*x.shape[:-1], -1, self.columns).sum(-1)
+        y = jnp.matmul(x, self.core.T, precision="highest")
+        return jnp.repeat(y, self.rows, axis=-1) if self.rows > 1 else y
+
+
+def factors(weight: NDArray[np.float32]) -> Factors:
+    """Return the factors of a matrix with the largest blocks of equal rows and columns."""
+    rows = _block(weight)
+    core = weight[::rows]
+    columns = _block(core.T)
+    return Factors(np.ascontiguousarray(core[:, ::columns]), rows, columns)
+
+
+def _block(rows: NDArray[np.float32]) -> int:
+    """Return the largest number of which all runs of equal neighbouring rows are multiples."""
+    changes = np.flatnonzero((rows[1:] != rows[:-1]).any(axis=1)) + 1
+    return math.gcd(len(rows), *(int(k) for k in changes))
+
 
 Copies: TypeAlias = Mapping[str, Mapping[str, NDArray[np.float32]]]
 """Parameters of nodes that differ between copies: copies x values, by name of the node and the parameter

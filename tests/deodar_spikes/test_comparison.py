@@ -8,12 +8,10 @@ import pytest
 import deodar as dd
 from deodar.errors import ModelError, ParameterError, TimeError, TooLarge
 from deodar_spikes.build import build
-from deodar_spikes.comparison import compare_spikes
-from deodar_spikes.drive import network_input
+from deodar_spikes.comparison import compare_spikes, outcomes
 from deodar_spikes.norse import norse_version, run_norse
-from deodar_spikes.outcomes import outcomes
 from deodar_spikes.prepare import SpikingOptions
-from deodar_spikes.running import SpikingTrials, simulated
+from deodar_spikes.running import SpikingTrials, network_input, simulated
 from deodar_spikes.translate import translate
 from tests.deodar_spikes.scenes import pairs, winner_take_all
 

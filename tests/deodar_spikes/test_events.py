@@ -10,8 +10,8 @@ import pytest
 import deodar as dd
 from deodar_spikes.build import build
 from deodar_spikes.comparison import SpikingComparison, compare_spikes
-from deodar_spikes.drive import network_input
 from deodar_spikes.prepare import SpikingOptions
+from deodar_spikes.running import network_input
 from deodar_spikes.translate import translate
 from tests.deodar_spikes.scenes import Targets, chosen, targets
 
