@@ -11,8 +11,7 @@ from deodar.element import Element
 from deodar.importers.report import Verdict
 from deodar.numerics.axes import Axis
 from deodar_interop.importers._axes import LengthAxes
-from deodar_interop.importers._foreign import Foreign
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import Foreign, FreeNames
 from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, axes, projection
 
 

@@ -14,9 +14,8 @@ from deodar.model.model import Model
 from deodar.model.paths import display
 from deodar_interop.importers._axes import LengthAxes, SizeLimit
 from deodar_interop.importers._element import ElementKind, FileElement
-from deodar_interop.importers._foreign import Foreign
+from deodar_interop.importers._foreign import Foreign, FreeNames
 from deodar_interop.importers._missing import or_placeholder, placeholder_lines, unknown
-from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, axes
 from deodar_interop.importers._wiring import SourceWiring
 

@@ -26,8 +26,7 @@ from deodar.element import Element
 from deodar.elements.stimuli import Boost
 from deodar.importers.report import Line, Verdict
 from deodar.numerics.axes import Axis, shape
-from deodar_interop.importers._foreign import Foreign, Source
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import Foreign, FreeNames, Source
 from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, axes, projection
 
 SourceWire = tuple[str, str, str, str, str]

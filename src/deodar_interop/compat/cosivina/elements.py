@@ -9,8 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from deodar.errors import ParameterError, UnknownName, did_you_mean
-from deodar_interop.importers.cosivina.components import components
-from deodar_interop.importers.cosivina.constructors import CONSTRUCTORS
+from deodar_interop.importers.cosivina.constructors import CONSTRUCTORS, components
 
 
 class Element:

@@ -22,7 +22,7 @@ from deodar.model.paths import display
 from deodar.session.session import Session
 from deodar.session.session_snapshot import SessionSnapshot
 from deodar_interop.exporters.cosivina.layout import size
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import FreeNames
 from deodar_interop.importers._piece import Outlet, axes
 from deodar_interop.importers.cosivina import file
 from deodar_interop.importers.cosivina.translate import Translation

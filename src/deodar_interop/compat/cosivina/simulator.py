@@ -26,8 +26,7 @@ from deodar.model.model import Model
 from deodar_interop.compat.cosivina.elements import CLASSES, Element, FileElement
 from deodar_interop.compat.cosivina.running import Running
 from deodar_interop.importers.cosivina import file
-from deodar_interop.importers.cosivina.components import components
-from deodar_interop.importers.cosivina.constructors import is_fixed
+from deodar_interop.importers.cosivina.constructors import components, is_fixed
 from deodar_interop.importers.cosivina.translate import read
 from deodar_interop.records import mat
 

@@ -16,7 +16,7 @@ from deodar.numerics.convolution import boundaries
 from deodar.numerics.kernels.separable import NARROWEST
 from deodar.parameters import PerAxis
 from deodar_interop.importers._piece import Dims
-from deodar_interop.importers.cosivina.sizes import NAMES
+from deodar_interop.importers.cosivina.values import NAMES
 
 
 def layout(axes: Axes) -> Dims:

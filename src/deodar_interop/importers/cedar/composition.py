@@ -17,7 +17,7 @@ from deodar.importers.report import Verdict
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.sigmoids import Step
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import FreeNames
 from deodar_interop.importers._piece import projection
 from deodar_interop.importers.cedar.file import CedarStep
 from deodar_interop.importers.cedar.grid import Counts, SampleGrid

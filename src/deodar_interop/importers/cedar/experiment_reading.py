@@ -21,11 +21,11 @@ from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.model.paths import display
 from deodar.numerics.sigmoids import Step
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import FreeNames
 from deodar_interop.importers.cedar import translate
 from deodar_interop.importers.cedar.condition import DataCondition, TrialCondition, condition, rounded, short
 from deodar_interop.importers.cedar.file import StepPath, items, members, pairs, text
-from deodar_interop.importers.cedar.trial_values import ChangedParameter, TrialParameters, named
+from deodar_interop.importers.cedar.held import ChangedParameter, TrialParameters, named
 from deodar_interop.importers.cedar.values import number
 from deodar_interop.importers.cedar.wiring import BUFFER
 

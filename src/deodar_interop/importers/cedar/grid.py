@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 
 from deodar.numerics.axes import MOST_SAMPLES, Axis
 from deodar_interop.importers._axes import MOST_CELLS, LengthAxes, SizeLimit
-from deodar_interop.importers.cedar.border import CedarBorder
+from deodar_interop.importers.cedar.convolution_kernels import CedarBorder
 from deodar_interop.importers.cedar.file import CedarFile, CedarStep, items
 from deodar_interop.importers.cedar.values import number
 

@@ -1,4 +1,4 @@
-"""The order in which cedar computes the steps of a file.
+"""The step of a file, and the order in which cedar computes its steps.
 
 Looped steps (those with a state) are called by triggers, in the order of their listeners. Each one computes,
 then runs the steps that follow from it, up to the next looped steps; a step runs at most once in an
@@ -12,6 +12,50 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from deodar.importers.report import Line
 from deodar_interop.importers.cedar.file import CedarGroup, StepPath
+from deodar_interop.importers.cedar.values import milliseconds
+
+DEFAULT = 20.0
+"""cedar's step in simulated time, ms."""
+
+ROOT = ("simulation euler step", "time factor", "loop mode", "default CPU step", "min computation time")
+
+
+def clock(root: CedarGroup) -> tuple[float, list[Line]]:
+    """Return the step in ms, and report lines.
+
+    cedar moves all triggers by one step in simulated time: `simulation euler step` of the root, in older
+    files the smallest `fake Euler step size` of the triggers, else 20 ms. In real time a step is as long as
+    the last one took.
+    """
+    lines: list[Line] = []
+    step: float | None = None
+    if "simulation euler step" in root.values:
+        step = milliseconds(root.values["simulation euler step"])
+        good = step is not None and 0 < step < 1e9
+        why = "the step dt" if good else f"is no time; {DEFAULT:g} ms is used"
+        lines.append(Line("", "file", "simulation euler step", "carried" if good else "approximated", why))
+        step = step if good else DEFAULT
+    for trigger in root.triggers:
+        for key in trigger.values:
+            if key in ("name", "listeners"):
+                continue
+            if key == "fake Euler step size" and step is None:
+                continue
+            why = "cedar's threads have no counterpart: all elements take the step of the document"
+            lines.append(Line(trigger.name, "parameter", key, "carried", why))
+    if step is None:
+        fakes = [milliseconds(t.values.get("fake Euler step size")) for t in root.triggers]
+        good_ones = [s for s in fakes if s is not None and 0 < s < 1e9]
+        step = min(good_ones, default=DEFAULT)
+        why = "the smallest step of its triggers" if good_ones else "cedar's default in simulated time"
+        lines.append(
+            Line("", "file", "step", "carried" if good_ones else "approximated", f"{step:g} ms, {why}")
+        )
+    for key in ROOT[1:]:
+        if key in root.values:
+            lines.append(Line("", "file", key, "carried", "of cedar's clock only: deodar runs at any speed"))
+    return step, lines
+
 
 FIRST = ("default thread", "default trigger")
 """Names of the trigger that all looped steps belong to at first."""

@@ -13,19 +13,18 @@ from deodar.importers.report import ImportReport, Line
 from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.model.model import Model
+from deodar_interop.importers._foreign import FreeNames
 from deodar_interop.importers._missing import or_placeholder, placeholder_lines
-from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers.cedar import file
 from deodar_interop.importers.cedar.box_layout import layout
 from deodar_interop.importers.cedar.classes import CLASSES, LOOPED, SIZED
 from deodar_interop.importers.cedar.classes.missing import placeholder
-from deodar_interop.importers.cedar.clock import clock
 from deodar_interop.importers.cedar.composition import SourceStep
 from deodar_interop.importers.cedar.file import CedarFile, CedarStep, StepPath
 from deodar_interop.importers.cedar.grid import Counts, SampleGrid
 from deodar_interop.importers.cedar.parameter_links import linked
 from deodar_interop.importers.cedar.piece import Refused, StepPiece
-from deodar_interop.importers.cedar.sequence import sequence
+from deodar_interop.importers.cedar.sequence import clock, sequence
 from deodar_interop.importers.cedar.side_file import SideFile
 from deodar_interop.importers.cedar.wiring import CedarWiring, StepWire, buffers, halts, loaded, step_wires
 

@@ -25,7 +25,7 @@ from deodar.element import Element
 from deodar.elements.placeholder import Placeholder
 from deodar.elements.stimuli import Boost
 from deodar.importers.report import Line
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import FreeNames
 from deodar_interop.importers.cedar.file import CedarGroup, CedarWire, StepPath, text
 from deodar_interop.importers.cedar.grid import Counts, SampleGrid
 from deodar_interop.importers.cedar.piece import OutputSlot, StepPiece

@@ -6,12 +6,10 @@ from collections.abc import Set as AbstractSet
 
 from deodar_interop.importers._axes import LengthAxes
 from deodar_interop.importers._element import FileElement
-from deodar_interop.importers._foreign import Foreign
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import Foreign, FreeNames
 from deodar_interop.importers._piece import Dims
 from deodar_interop.importers.cosivina.file import Simulator
-from deodar_interop.importers.cosivina.sizes import output_size
-from deodar_interop.importers.cosivina.values import Values
+from deodar_interop.importers.cosivina.values import Values, output_size
 
 
 class SourceElement(FileElement):

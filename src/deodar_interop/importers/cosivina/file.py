@@ -14,8 +14,7 @@ from deodar import codec
 from deodar.errors import DocumentError
 from deodar.importers.report import Line
 from deodar.parameters import show
-from deodar_interop.importers._foreign import Foreign, Source, plain_text
-from deodar_interop.importers._repeated import repeated_keys
+from deodar_interop.importers._foreign import Foreign, Source, plain_text, repeated_keys
 
 MOST_ELEMENTS = 4000
 """Largest number of elements; more are refused (a guess: ten times the largest published)."""

@@ -20,7 +20,7 @@ from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.model.kept_presets import KeptPreset, with_presets
 from deodar.model.paths import display
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import FreeNames
 from deodar_interop.importers.cosivina import file
 from deodar_interop.importers.cosivina.controls import (
     BUTTONS,
@@ -34,9 +34,8 @@ from deodar_interop.importers.cosivina.controls import (
     Targets,
 )
 from deodar_interop.importers.cosivina.responses import Follower, LeafPath, Responses, Unfollowed, aligned
-from deodar_interop.importers.cosivina.sizes import SIZES
 from deodar_interop.importers.cosivina.translate import Translation
-from deodar_interop.importers.cosivina.values import size
+from deodar_interop.importers.cosivina.values import SIZES, size
 
 PINS = "pins"
 """Key of the layout for pinned sliders."""

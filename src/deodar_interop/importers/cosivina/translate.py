@@ -15,10 +15,10 @@ from deodar_interop.importers._translation import ListTranslation, component_lin
 from deodar_interop.importers._wiring import SourceWiring
 from deodar_interop.importers.cosivina import file
 from deodar_interop.importers.cosivina.classes import CLASSES
-from deodar_interop.importers.cosivina.components import components
+from deodar_interop.importers.cosivina.constructors import components
 from deodar_interop.importers.cosivina.element import SourceElement
 from deodar_interop.importers.cosivina.file import Simulator
-from deodar_interop.importers.cosivina.sizes import Dimensions, output_size
+from deodar_interop.importers.cosivina.values import Dimensions, output_size
 
 MISSING = {
     "AttractorDynamics": "turns a peak into the rate of change of a heading direction",

@@ -1,8 +1,9 @@
-"""The context in which one element of a simulation is translated."""
+"""The context in which one element is translated, and what stimuli show after the initialisation."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 
 import numpy as np
@@ -12,12 +13,10 @@ from deodar.importers.report import Line
 from deodar.parameters import show
 from deodar_interop.importers._axes import LengthAxes
 from deodar_interop.importers._element import FileElement
-from deodar_interop.importers._foreign import Foreign
-from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._foreign import Foreign, FreeNames
 from deodar_interop.importers._piece import Dims, Unfit
 from deodar_interop.importers.dnf_composer.file import StoredSimulation, number
-from deodar_interop.importers.dnf_composer.sizes import is_plane, samples, size
-from deodar_interop.importers.dnf_composer.values import StoredValues
+from deodar_interop.importers.dnf_composer.values import StoredValues, is_plane, samples, size
 
 MOST_VALUES = 20_000_000
 """Largest number of array values in a model, of all elements together (a guess; they take 160 MB)."""
@@ -119,3 +118,34 @@ class StoredElement(FileElement):
                 "carried" if whole else "approximated",
                 why if whole else f"{why}; dnf-composer refuses an extent that is not whole",
             )
+
+
+ADDING = ("gauss stimulus", "gauss stimulus 2d", "boost stimulus", "boost stimulus 2d")
+"""Labels whose inputs are added at the start, and never again."""
+
+
+def added(elements: Sequence[Foreign], contexts: Mapping[str, StoredElement]) -> dict[str, np.ndarray]:
+    """Return for each stimulus with inputs the sum that it adds, one number for each sample.
+
+    All elements are initialised twice, in the order of the file: without inputs, then with them. So a
+    stimulus adds the final output of the sources before it, and what those after it show without inputs.
+    A sum that exceeds the budget is left out.
+    """
+    out: dict[str, np.ndarray] = {}
+    for e in elements:
+        if e.kind not in ADDING or not e.sources:
+            continue
+        count = math.prod(size(e))
+        try:
+            contexts[e.label].budget.take(count)
+        except Unfit:
+            continue
+        total = np.zeros(count)
+        for s in e.sources:
+            b = contexts[s.label]
+            level = b.start if s.component == "output" else b.levels.get(s.component, 0.0)
+            total += level() if callable(level) else level
+            if s.component == "output" and s.label in out:
+                total += out[s.label]
+        out[e.label] = total
+    return out

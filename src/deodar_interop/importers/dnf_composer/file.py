@@ -1,4 +1,6 @@
-"""The file of a simulation of dnf-composer as plain data: names, labels, parameters and inputs."""
+"""The file of a simulation of dnf-composer as plain data: names, labels, parameters and inputs; and forms of
+older versions, which today's dnf-composer refuses or drops.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +14,7 @@ from deodar import codec
 from deodar.errors import DocumentError
 from deodar.importers.report import Line
 from deodar.parameters import show
-from deodar_interop.importers._foreign import Foreign, Source, plain_text
-from deodar_interop.importers._names import FreeNames
-from deodar_interop.importers._repeated import repeated_keys
+from deodar_interop.importers._foreign import Foreign, FreeNames, Source, plain_text, repeated_keys
 
 MOST_ELEMENTS = 4000
 """Largest number of elements; more are refused (a guess: a hundred times the largest published)."""
@@ -194,3 +194,25 @@ def _sources(label: str, body: dict[str, Any], labels: Mapping[str, str], lines:
         else:
             out.append(Source(labels[pair[0]], plain_text(pair[1])))
     return out
+
+
+RENAMED = {"sigma": "width", "sigmaExc": "widthExc", "sigmaInh": "widthInh"}
+"""Parameters until June 2024, and their names today."""
+
+LABELS = {"lateral interactions": "mexican hat kernel"}
+"""Labels until July 2024, and the labels of today with the same equation."""
+
+
+def modern(e: Foreign) -> tuple[Foreign, list[Line]]:
+    """Return an element in the form of today, and the report of what was renamed."""
+    lines, values = list[Line](), dict[str, Any]()
+    for name, value in e.values.items():
+        new = RENAMED.get(name, name)
+        if new != name and new in e.values:
+            lines.append(Line(e.label, "parameter", name, "dropped", f"{new} is in the file too"))
+            continue
+        if new != name:
+            why = f"as {new}, its name since 2024; today's dnf-composer refuses the file"
+            lines.append(Line(e.label, "parameter", name, "approximated", why))
+        values[new] = value
+    return dc.replace(e, kind=LABELS.get(e.kind, e.kind), values=values), lines

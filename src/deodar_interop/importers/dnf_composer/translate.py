@@ -18,13 +18,12 @@ from deodar.numerics.axes import shape
 from deodar_interop.importers._foreign import Foreign
 from deodar_interop.importers._piece import Inlet, Outlet, Piece, axes
 from deodar_interop.importers._translation import ListTranslation, component_lines
-from deodar_interop.importers.dnf_composer import file, legacy, start
+from deodar_interop.importers.dnf_composer import element, file
 from deodar_interop.importers.dnf_composer.classes import CLASSES
 from deodar_interop.importers.dnf_composer.element import StoredElement, ValueBudget
 from deodar_interop.importers.dnf_composer.file import StoredSimulation
-from deodar_interop.importers.dnf_composer.links import admitted
-from deodar_interop.importers.dnf_composer.sizes import SampleAxes, size
-from deodar_interop.importers.dnf_composer.wiring import FlatWiring
+from deodar_interop.importers.dnf_composer.values import SampleAxes, size
+from deodar_interop.importers.dnf_composer.wiring import FlatWiring, admitted
 
 MISSING = {"field projection": "a reduction or an expansion of 2026, which collapse and expand replaced"}
 """What each label that is not translated was."""
@@ -53,7 +52,7 @@ class SimulationTranslation(ListTranslation[StoredElement]):
 
     def __init__(self, simulation: StoredSimulation, beside: Beside) -> None:
         self.kinds = {e.label: e.kind for e in simulation.elements}
-        renamed = [legacy.modern(e) for e in simulation.elements]
+        renamed = [file.modern(e) for e in simulation.elements]
         self.old = {e.label: lines for e, lines in renamed}
         modern = dc.replace(simulation, elements=tuple(e for e, _ in renamed))
         self.simulation, refused = admitted(modern)
@@ -96,15 +95,15 @@ class SimulationTranslation(ListTranslation[StoredElement]):
     def _parameters(self, b: StoredElement) -> list[Line]:
         """Return the lines of the parameters; those of an older form keep their names of then."""
         old = self.old[b.label]
-        as_now = {legacy.RENAMED[line.what] for line in old if line.verdict == "approximated"}
+        as_now = {file.RENAMED[line.what] for line in old if line.verdict == "approximated"}
         return [*old, *(line for line in b.values.rest(b.element.kind) if line.what not in as_now)]
 
     def add_inputs_of_stimuli(self) -> list[Foreign]:
         """Add to each stimulus the sum of its inputs at the start; return the elements without them."""
-        sums = start.added(self.simulation.elements, self.contexts)
+        sums = element.added(self.simulation.elements, self.contexts)
         out: list[Foreign] = []
         for e in self.simulation.elements:
-            if e.kind not in start.ADDING or isinstance(self.pieces[e.label].elements[0], Placeholder):
+            if e.kind not in element.ADDING or isinstance(self.pieces[e.label].elements[0], Placeholder):
                 out.append(e)
                 continue
             verdict, why = "carried", "added once, at the start"

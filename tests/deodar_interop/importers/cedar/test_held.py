@@ -6,9 +6,8 @@ import pytest
 
 from deodar.model.document import Document
 from deodar_interop.importers.cedar import file, translate
-from deodar_interop.importers.cedar.held import held
+from deodar_interop.importers.cedar.held import TrialParameters, held
 from deodar_interop.importers.cedar.parameter_links import linked
-from deodar_interop.importers.cedar.trial_values import TrialParameters
 from tests.deodar_interop.importers.cedar.models import Many, Model, gauss
 
 DIRECT = "cedar.aux.DirectParameterLink"

@@ -11,7 +11,7 @@ import deodar as dd
 from deodar.elements.placeholder import Placeholder
 from deodar.importers.opening import read
 from deodar.model import find
-from deodar_interop.importers.cosivina.components import COMPONENTS, components
+from deodar_interop.importers.cosivina.constructors import COMPONENTS, components
 from tests.deodar_interop.importers.cosivina.files import element, written
 from tests.deodar_interop.importers.cosivina.oracle import Sim
 

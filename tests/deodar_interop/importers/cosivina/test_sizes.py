@@ -7,7 +7,7 @@ import pytest
 from deodar.numerics.axes import MOST_SAMPLES
 from deodar_interop.importers._axes import LengthAxes, SizeLimit
 from deodar_interop.importers.cosivina import file
-from deodar_interop.importers.cosivina.sizes import output_size
+from deodar_interop.importers.cosivina.values import output_size
 from tests.deodar_interop.importers.cosivina.files import element, text
 
 

@@ -11,7 +11,7 @@ import deodar as dd
 from deodar.importers.opening import read
 from deodar.model.check import problems
 from deodar_interop.importers.dnf_composer.classes import CLASSES
-from deodar_interop.importers.dnf_composer.interpolation import METHODS, matrix
+from deodar_interop.importers.dnf_composer.sample_values import METHODS, matrix
 from tests.deodar_interop.importers.dnf_composer.files import BELL, FIELD, KERNEL, element, plane, written
 from tests.deodar_interop.importers.dnf_composer.oracle import Simulation
 

@@ -12,8 +12,8 @@ from deodar.elements.placeholder import Placeholder
 from deodar.elements.populations import RateNode
 from deodar.elements.variables import Integrator
 from deodar.parameters import FrozenArray
+from deodar_interop.exporters.cosivina.classes.algebra import logistic
 from deodar_interop.exporters.cosivina.classes.kernels import field_kernels
-from deodar_interop.exporters.cosivina.classes.logistic import logistic
 from deodar_interop.exporters.cosivina.classes.stimuli import noise_part
 from deodar_interop.exporters.cosivina.draft import Given, Unwritable
 from deodar_interop.exporters.cosivina.inverse import inverse

@@ -8,9 +8,8 @@ from deodar.elements.memories import History, SampledHistory
 from deodar.numerics.axes import Axis
 from deodar.numerics.windows import FOR_EVER
 from deodar.parameters import FrozenArray
-from deodar_interop.exporters.cosivina.draft import Given
+from deodar_interop.exporters.cosivina.draft import FilePart, Given
 from deodar_interop.exporters.cosivina.layout import layout
-from deodar_interop.exporters.cosivina.part import FilePart
 from deodar_interop.importers._piece import Dims
 from deodar_interop.importers.cosivina.classes.fields import MOST_COUNTED
 

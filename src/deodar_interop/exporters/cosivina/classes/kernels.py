@@ -22,9 +22,8 @@ from deodar.numerics.kernels.separable import NARROWEST, Gaussian, Shifted, Trun
 from deodar.parameters import FrozenArray
 from deodar_interop.exporters.cosivina.classes.gaussians import Bell, bells
 from deodar_interop.exporters.cosivina.classes.stimuli import kernel_values
-from deodar_interop.exporters.cosivina.draft import Given, Unwritable
+from deodar_interop.exporters.cosivina.draft import FilePart, Given, Unwritable
 from deodar_interop.exporters.cosivina.layout import circular, is_row, layout, widths
-from deodar_interop.exporters.cosivina.part import FilePart
 from deodar_interop.importers._piece import Dims
 
 MOST_DIMENSIONS = 3

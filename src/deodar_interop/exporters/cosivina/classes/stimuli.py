@@ -19,7 +19,7 @@ from deodar.model.document import Entry
 from deodar.numerics.axes import Axes, cell, shape
 from deodar.numerics.windows import FOR_EVER, Window
 from deodar.parameters import FrozenArray, PerAxis
-from deodar_interop.exporters.cosivina.draft import Given, Unwritable
+from deodar_interop.exporters.cosivina.draft import FilePart, Given, Unwritable
 from deodar_interop.exporters.cosivina.layout import (
     circular,
     is_row,
@@ -30,7 +30,6 @@ from deodar_interop.exporters.cosivina.layout import (
     width,
     widths,
 )
-from deodar_interop.exporters.cosivina.part import FilePart
 from deodar_interop.importers._piece import Dims
 from deodar_interop.importers.cosivina.classes.stimuli import LETTERS
 

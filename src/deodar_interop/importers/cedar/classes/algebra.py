@@ -10,9 +10,8 @@ from deodar.couplings.convolutions import SteeredConvolve
 from deodar.elements.stimuli import Pattern
 from deodar.numerics.sigmoids import Absolute
 from deodar_interop.importers._piece import Unfit
-from deodar_interop.importers.cedar.border import CedarBorder, border
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
-from deodar_interop.importers.cedar.convolution_kernels import kernels, too_long
+from deodar_interop.importers.cedar.convolution_kernels import CedarBorder, border, kernels, too_long
 from deodar_interop.importers.cedar.file import members, text
 from deodar_interop.importers.cedar.piece import Refused
 from deodar_interop.importers.cedar.transfer import transferred

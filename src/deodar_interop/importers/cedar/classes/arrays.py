@@ -11,8 +11,8 @@ from deodar.couplings.positions import SpaceCode
 from deodar.elements.stimuli import Pattern
 from deodar.numerics.axes import Axis
 from deodar_interop.importers._piece import Unfit
-from deodar_interop.importers.cedar.border import CedarBorder
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
+from deodar_interop.importers.cedar.convolution_kernels import CedarBorder
 from deodar_interop.importers.cedar.file import items, text
 from deodar_interop.importers.cedar.interpolation import WAYS, matrix
 from deodar_interop.importers.cedar.piece import Refused, sizes

@@ -18,12 +18,10 @@ from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.separable import TruncatedGaussian
 from deodar.numerics.sigmoids import Absolute, Linear
 from deodar_interop.importers._piece import Unfit
-from deodar_interop.importers.cedar.border import CedarBorder, border
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
-from deodar_interop.importers.cedar.convolution_kernels import kernels, too_long
+from deodar_interop.importers.cedar.convolution_kernels import CedarBorder, border, kernels, too_long
 from deodar_interop.importers.cedar.piece import Refused, sizes
-from deodar_interop.importers.cedar.sigmoids import sigmoid
-from deodar_interop.importers.cedar.transfer import special, transferred
+from deodar_interop.importers.cedar.transfer import sigmoid, special, transferred
 from deodar_interop.importers.cedar.values import StepValues
 from deodar_interop.importers.cedar.wiring import BUFFER
 

@@ -12,8 +12,7 @@ from deodar.numerics.sigmoids import Linear, SigmoidFunction, Step
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
 from deodar_interop.importers.cedar.grid import Counts
-from deodar_interop.importers.cedar.sigmoids import sigmoid
-from deodar_interop.importers.cedar.transfer import transferred
+from deodar_interop.importers.cedar.transfer import sigmoid, transferred
 
 MOST_WEIGHTS = 4_000_000
 

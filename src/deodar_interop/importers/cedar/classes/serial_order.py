@@ -5,7 +5,7 @@ from __future__ import annotations
 from deodar.elements.field import Field
 from deodar.numerics.sigmoids import Absolute
 from deodar_interop.importers.cedar.composition import SourceStep, step
-from deodar_interop.importers.cedar.sigmoids import sigmoid
+from deodar_interop.importers.cedar.transfer import sigmoid
 
 
 @step("cedar.dynamics.SerialOrder", sized=True, looped=True)

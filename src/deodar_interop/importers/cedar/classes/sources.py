@@ -8,8 +8,8 @@ import numpy as np
 
 from deodar.elements.changing_stimuli import Noise
 from deodar.elements.stimuli import BoxStimulus, GaussianStimulus, Pattern
-from deodar_interop.importers.cedar.border import CedarBorder
 from deodar_interop.importers.cedar.composition import SourceStep, StepSignal, step
+from deodar_interop.importers.cedar.convolution_kernels import CedarBorder
 from deodar_interop.importers.cedar.file import items
 from deodar_interop.importers.cedar.grid import Counts
 from deodar_interop.importers.cedar.piece import sizes

@@ -17,7 +17,7 @@ from deodar.numerics.sigmoids import Logistic
 from deodar.numerics.windows import FOR_EVER
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers._piece import Dims, Unfit, axes
-from deodar_interop.importers.cosivina.components import PHASE_PLOT
+from deodar_interop.importers.cosivina.constructors import PHASE_PLOT
 from deodar_interop.importers.cosivina.element import SourceElement
 
 STEEPEST = 1e6

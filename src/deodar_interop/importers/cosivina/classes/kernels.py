@@ -13,7 +13,7 @@ from deodar.numerics.kernels.separable import Gaussian, Shifted, TruncatedGaussi
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers._piece import Dims, axes
 from deodar_interop.importers.cosivina.classes.stimuli import LETTERS, boundary
-from deodar_interop.importers.cosivina.components import components
+from deodar_interop.importers.cosivina.constructors import components
 from deodar_interop.importers.cosivina.element import SourceElement
 
 WHOLE = 1e6

@@ -9,8 +9,13 @@ import numpy as np
 
 from deodar.importers.report import Line
 from deodar_interop.importers.cosivina.classes import CLASSES
-from deodar_interop.importers.cosivina.components import components
-from deodar_interop.importers.cosivina.constructors import CONSTRUCTORS, OUTPUTS, is_fixed, parameters_of
+from deodar_interop.importers.cosivina.constructors import (
+    CONSTRUCTORS,
+    OUTPUTS,
+    components,
+    is_fixed,
+    parameters_of,
+)
 from deodar_interop.importers.cosivina.file import Simulator
 from deodar_interop.importers.cosivina.launchers import matlab_values
 from deodar_interop.importers.cosivina.launchers.expressions import NotRead

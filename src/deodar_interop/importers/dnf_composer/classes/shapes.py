@@ -15,8 +15,8 @@ from deodar.numerics.axes import shape
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers._piece import Dims, Unfit, axes
 from deodar_interop.importers.dnf_composer.element import StoredElement
-from deodar_interop.importers.dnf_composer.interpolation import METHODS, matrix
-from deodar_interop.importers.dnf_composer.sizes import is_plane, size
+from deodar_interop.importers.dnf_composer.sample_values import METHODS, matrix
+from deodar_interop.importers.dnf_composer.values import is_plane, size
 
 DENSE = 1_000_000
 """Largest number of weights that resample a plane at once; beyond, each axis is resampled in turn."""

@@ -1,4 +1,4 @@
-"""Stimuli, timed or not."""
+"""Stimuli and noise."""
 
 from __future__ import annotations
 
@@ -7,16 +7,21 @@ import math
 
 import numpy as np
 
+from deodar.couplings.convolutions import Convolve
 from deodar.couplings.delays import Delay
+from deodar.elements.changing_stimuli import Noise
 from deodar.elements.stimuli import Boost, GaussianStimulus, Pattern
 from deodar.numerics.axes import Axis, shape
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels.custom import Custom
+from deodar.numerics.kernels.separable import TruncatedGaussian
 from deodar.numerics.windows import Window
 from deodar_interop.importers._element import translates
 from deodar_interop.importers._piece import Dims, axes
-from deodar_interop.importers.dnf_composer import profile
+from deodar_interop.importers.dnf_composer import sample_values
 from deodar_interop.importers.dnf_composer.element import StoredElement
 from deodar_interop.importers.dnf_composer.file import number
-from deodar_interop.importers.dnf_composer.onsets import spans
+from deodar_interop.importers.dnf_composer.sample_values import CUTOFF, spans
 
 EXACT = 1e-12
 """Largest difference, as a share, between the extent of an axis and its samples times its step."""
@@ -35,7 +40,7 @@ def gauss_stimulus(b: StoredElement) -> None:
     amplitude, normalized = b.values.number("amplitude", 15), b.values.flag("normalized", False)
 
     def pattern() -> np.ndarray:
-        factor = profile.line(count, position, width, circular)
+        factor = sample_values.line(count, position, width, circular)
         total = factor.sum() if normalized else 1.0
         return amplitude * (factor / total if total > 0 else factor)
 
@@ -63,7 +68,7 @@ def gauss_stimulus_2d(b: StoredElement) -> None:
     sides = [_side(b, letter, circular) for letter in "yx"]
 
     def factors() -> list[np.ndarray]:
-        return [profile.along(side.points, side.period, side.position, width) for side in sides]
+        return [sample_values.along(side.points, side.period, side.position, width) for side in sides]
 
     total = math.prod(float(factor.sum()) for factor in factors()) if normalized else 1.0
     normalized = normalized and total > NOTHING
@@ -180,3 +185,56 @@ def _windows(b: StoredElement) -> list[Window]:
 
 def _never() -> Window:
     return Window(-1.0, -1.0)
+
+
+NARROW = 0.001
+"""Width below which the reach of correlated noise does not shrink."""
+
+
+@translates("normal noise", "normal noise 2d")
+def normal_noise(b: StoredElement) -> None:
+    """Translate `normal noise` and its form over a plane: the same strength, since the step of axes is 1."""
+    dims = b.dims()
+    b.outlet("output", b.add(Noise(b.label, axes(dims), _strength(b, 0.2)), dims), noise=True)
+
+
+@translates("correlated normal noise", "correlated normal noise 2d")
+def correlated_noise(b: StoredElement) -> None:
+    """Translate `correlated normal noise` and its form over a plane: white noise, convolved."""
+    dims = b.dims()
+    strength, width = _strength(b, 0.05), b.values.width("width", 1)
+    circular = b.values.flag("circular", True)
+    kernel: Kernel
+    if b.plane:
+        kernel = TruncatedGaussian(
+            1.0, width, CUTOFF, normalized=True, boundary=boundary(axes(dims), circular)
+        )
+    else:
+        half = max(1, int(min(CUTOFF * max(width, NARROW), 1e12)))
+        count = b.counts[1]
+        if circular and half > count:
+            b.values.say("width", "carried", "longer than the axis; the output is 0, as in dnf-composer")
+            strength = 0.0
+        kernel = _line(b, width, min(half, 2 * count), circular)
+        if not circular and half > 2 * count:
+            b.values.say("width", "approximated", "normalised over twice the length of the axis on each side")
+    white = b.add(Noise(b.named("white"), axes(dims), strength), dims)
+    b.outlet("output", b.add(Convolve([kernel], name=b.label), input=white), noise=True)
+    b.explain("Convolve and Noise")
+
+
+def _line(b: StoredElement, width: float, half: int, circular: bool) -> Kernel:
+    """Return the kernel of a line; it may be longer than the axis, and all its weights are normalised."""
+    line_axes, count = axes(b.of(b.counts)), b.counts[1]
+    ends = boundary(line_axes, circular)
+    if not line_axes:
+        return TruncatedGaussian(1.0, width, normalized=True)
+    if half <= ((count - 1) // 2 if circular else count - 1):
+        return TruncatedGaussian(1.0, width, 0.0, float(half), normalized=True, boundary=ends)
+    b.budget.take(2 * half + 1)
+    return Custom(sample_values.gaussian(width, half, half, True).weights, boundary=ends)
+
+
+def _strength(b: StoredElement, default: float) -> float:
+    """Return the amplitude; its sign has no effect on noise."""
+    return math.fabs(b.values.number("amplitude", default))
