@@ -29,9 +29,9 @@ class Around(OuterWorld):
 @pytest.mark.parametrize("name", INNER)
 def test_methods_about_the_inner_world_are_passed_on_with_all_arguments(name: str):
     inner: Any = Mock()
-    given = [object() for _ in list(inspect.signature(getattr(World, name)).parameters)[1:]]
-    returned = getattr(Around(inner), name)(*given, other=3)
-    getattr(inner, name).assert_called_once_with(*given, other=3)
+    arguments = [object() for _ in list(inspect.signature(getattr(World, name)).parameters)[1:]]
+    returned = getattr(Around(inner), name)(*arguments, other=3)
+    getattr(inner, name).assert_called_once_with(*arguments, other=3)
     assert returned is getattr(inner, name).return_value
 
 
