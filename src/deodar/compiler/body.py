@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 import jax
 import jax.numpy as jnp
@@ -49,11 +49,6 @@ class Body:
             tuple(sorted(self.motors)),
             self.holds,
         )
-
-    @property
-    def readings(self) -> Literal["changing", "held"]:
-        """How readings of sensors change during a chunk."""
-        return "held" if self.holds else "changing"
 
     @property
     def reads(self) -> Hashable:
