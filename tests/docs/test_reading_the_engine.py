@@ -15,7 +15,6 @@ WAY = (
     *(
         "model/order",
         "model/document_graph",
-        "elements/field",
         "numerics/integrators",
         "numerics/interaction",
     ),
