@@ -53,6 +53,10 @@ class Entry(Summarised):
     element: Element
     every: int = 1
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the state for a pickle, without what follows from it."""
+        return _stated(self)
+
     @property
     def path(self) -> str:
         """The path as text."""
@@ -162,7 +166,7 @@ class Document(Summarised):
         """Return the state for a pickle, without cached look-ups and without trust: it is valid only in the
         process in which it was given.
         """
-        return {f.name: getattr(self, f.name) for f in dc.fields(self)} | {"foreign": True}
+        return _stated(self) | {"foreign": True}
 
     def forget(self) -> None:
         """Drop the graph, the largest of the cached look-ups, with about 1.5 KiB for each element."""
@@ -246,3 +250,7 @@ class Document(Summarised):
     def _summary(self) -> Summary:
         elements = counted(len(self.entries), "element")
         return Summary(f"Document {self.name!r}: {elements}, {counted(len(self.connections), 'connection')}")
+
+
+def _stated(node: Entry | Document) -> dict[str, Any]:
+    return {f.name: getattr(node, f.name) for f in dc.fields(node)}

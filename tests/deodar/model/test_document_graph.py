@@ -32,10 +32,12 @@ def test_a_document_is_resolved_once_for_its_check_its_program_and_its_runs(
     assert len(resolved) == 1
 
 
-def test_the_graph_of_a_document_does_not_travel_with_it() -> None:
-    doc = chain().document
+def test_what_follows_from_a_document_does_not_travel_with_it() -> None:
+    model = chain()
+    doc, size = model.document, len(pickle.dumps(model.document))
     assert graph(doc) is graph(doc)
-    assert "_graph" not in pickle.loads(pickle.dumps(doc)).__dict__
+    dd.Session(model)
+    assert len(pickle.dumps(doc)) == size
 
 
 def test_documents_of_the_past_keep_no_graph() -> None:
