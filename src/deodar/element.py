@@ -37,10 +37,10 @@ from deodar.parameters import ArrayLike, FrozenArray, Part
 
 Arrays = dict[str, Array]
 
-Ports = Mapping[str, Axes]
+PortAxes = Mapping[str, Axes]
 """The axes of ports, by their names."""
 
-Bounds = Mapping[str, Interval]
+PortBounds = Mapping[str, Interval]
 """The smallest and the largest value at ports, by their names."""
 
 PortUnits = Mapping[str, PositionUnits]
@@ -163,8 +163,8 @@ class Setting:
             integral of the kernels times it, over the same axes. In `output` and `advance` only.
     """
 
-    ins: Ports
-    outs: Ports
+    ins: PortAxes
+    outs: PortAxes
     dtype: DTypeLike
     state: Arrays = dc.field(default_factory=dict[str, Array])
     inputs: Arrays = dc.field(default_factory=dict[str, Array])
@@ -262,7 +262,7 @@ class Element(Part):
         axes: Axes | None = getattr(self, "axes", None)
         return axes
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         """Return the axes of every output port; the first is the default port.
 
         By default the port is `output`, over the parameter `axes`, or else over the axes of `input`. Elements
@@ -290,21 +290,21 @@ class Element(Part):
         """Return the external code; different code compiles a different program."""
         return None
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         """Check the parameters against the axes of the ports.
 
         Yield the problem, or (problem, fix) if the fix is not another connection.
         """
         return iter(())
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         """Yield probable mistakes that do not prevent a run: (problem and reason, fix).
 
         Called only if `validate_axes` yields nothing.
         """
         return iter(())
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         """Return the smallest and largest value of output ports, for checks.
 
         `inputs` are the bounds of the inputs, `before` is the previous result (empty at first). An output
@@ -334,7 +334,7 @@ class Element(Part):
         """Return the name of the world's motor that the element's input drives, or ""."""
         return ""
 
-    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
+    def position_units(self, ins: PortAxes, inputs: PortUnits) -> PortUnits:
         """Return the units of the numbers at output ports that are positions, for checks against a world.
 
         `inputs` holds the units at each input port, and under `external` those of the reading of a sensor:
@@ -342,7 +342,7 @@ class Element(Part):
         """
         return {}
 
-    def position_codes(self, ins: Ports) -> Mapping[str, PositionCode]:
+    def position_codes(self, ins: PortAxes) -> Mapping[str, PositionCode]:
         """Return the input ports whose numbers are used as positions on axes, for checks against a world."""
         return {}
 

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.element import Arrays, Bounds, Coupling, Ports, PortUnits, Setting
+from deodar.element import Arrays, Coupling, PortAxes, PortBounds, PortUnits, Setting
 from deodar.numerics.intervals import ZERO, hull, times
 from deodar.numerics.sigmoids import Logistic, SigmoidFunction
 from deodar.parameters import Live, Recompile
@@ -37,10 +37,10 @@ class Sum(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": inputs["input"]}
 
-    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
+    def position_units(self, ins: PortAxes, inputs: PortUnits) -> PortUnits:
         return {"output": inputs["input"]}
 
     def output(self, at: Setting) -> Arrays:
@@ -72,7 +72,7 @@ class Product(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "factor")
     follows: ClassVar[Mapping[str, str]] = {"factor": "input"}
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": times(inputs["input"], inputs["factor"])}
 
     def output(self, at: Setting) -> Arrays:
@@ -140,10 +140,10 @@ class Gain(Coupling):
     scaled_by: ClassVar[str] = "factor"
     signed_by: ClassVar[tuple[str, ...]] = ("factor",)
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {} if self.factor == 0 else {"output": times((self.factor, self.factor), inputs["input"])}
 
-    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
+    def position_units(self, ins: PortAxes, inputs: PortUnits) -> PortUnits:
         return {"output": tuple(p and p.scaled(self.factor) for p in inputs["input"])}
 
     def output(self, at: Setting) -> Arrays:
@@ -178,7 +178,7 @@ class Envelope(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "other")
     follows: ClassVar[Mapping[str, str]] = {"other": "input"}
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         (a, b), (c, d) = inputs["input"], inputs["other"]
         return {"output": (max(a, c), max(b, d)) if self.side == "upper" else (min(a, c), min(b, d))}
 
@@ -213,7 +213,7 @@ class Threshold(Coupling):
     def jumps_at(self) -> Sequence[str]:
         return "input", "level"
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         low, high = inputs["input"]
         return {"output": ZERO if high <= self.level else hull(ZERO, (max(low, self.level), high))}
 
@@ -243,7 +243,7 @@ class Sigmoid(Coupling):
 
     sigmoid: SigmoidFunction = Logistic()
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": self.sigmoid.bounds(inputs["input"])}
 
     def output(self, at: Setting) -> Arrays:

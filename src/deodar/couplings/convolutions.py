@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 
-from deodar.element import Arrays, Bounds, Convolution, Coupling, Ports, Setting
+from deodar.element import Arrays, Convolution, Coupling, PortAxes, PortBounds, Setting
 from deodar.errors import did_you_mean
 from deodar.leaves import per_axis
 from deodar.numerics import interaction, resampling
@@ -56,10 +56,10 @@ class Convolve(Coupling):
     def kernels(self) -> Sequence[Kernel]:
         return self.kernel
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         yield from validate_kernels(self.kernel, ins["input"])
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         x = inputs["input"]
         parts = [kernel.bounds(ins["input"]) for kernel in self.kernel]
         return {
@@ -108,7 +108,7 @@ class SteeredConvolve(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "kernel")
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         here, there = ins["input"], ins["kernel"]
         if len(here) != len(there):
             yield f"its kernel is over {describe(there)}, not one axis for each axis of the input"
@@ -121,7 +121,7 @@ class SteeredConvolve(Coupling):
                 "Give one, or one for each axis",
             )
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         size = cell(ins["kernel"]) * float(np.prod([a.samples for a in ins["kernel"]]))
         low, high = times((size, size), times(inputs["input"], inputs["kernel"]))
         return {"output": (min(low, 0.0), max(high, 0.0))}
@@ -189,10 +189,10 @@ class Interaction(Coupling):
         inhibition: list[Sign] = ["-"] if self.global_inhibition > 0 else []
         return together([*(k.polarity() for k in self.kernel), *inhibition])
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": ins["input"], "total": ()}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         yield from validate_kernels(self.kernel, ins["input"])
 
     def prepare(self, at: Setting) -> dict[str, list[KernelWeights]]:
@@ -236,7 +236,7 @@ class Shift(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         for a, amount in zip(ins["input"], per_axis(self.amount, ins["input"]), strict=True):
             if not a.periodic and abs(float(amount)) > a.range:
                 what = (
@@ -245,7 +245,7 @@ class Shift(Coupling):
                 )
                 yield what, f"Use an amount below {a.range:g}, or a periodic axis"
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": hull(ZERO, inputs["input"])}
 
     def prepare(self, at: Setting) -> list[tuple[Array, Array]]:
@@ -305,7 +305,7 @@ class SteeredShift(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "by" and len(self.along) == 1 else arriving
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         known, arriving = [a.name for a in ins["input"]], shape(ins["by"])
         for name in self.along:
             if name not in known:
@@ -320,7 +320,7 @@ class SteeredShift(Coupling):
                 "Connect such an input, or use several SteeredShifts in series",
             )
 
-    def position_codes(self, ins: Ports) -> Mapping[str, PositionCode]:
+    def position_codes(self, ins: PortAxes) -> Mapping[str, PositionCode]:
         known = {a.name: a for a in ins["input"]}
         axes = tuple(known[name] for name in self.along if name in known)
         return {"by": PositionCode(axes, (self.gain,) * len(axes))}

@@ -9,7 +9,7 @@ from typing import Annotated
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.element import Arrays, Bounds, Element, Ports, PortUnits, Setting
+from deodar.element import Arrays, Element, PortAxes, PortBounds, PortUnits, Setting
 from deodar.numerics.axes import Axis
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import hull
@@ -42,10 +42,10 @@ class Delay(Element):
     axes: Sequence[Axis] = ()
     initial: Annotated[float, Live()] = 0.0
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": hull((self.initial, self.initial), inputs["input"])}
 
-    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
+    def position_units(self, ins: PortAxes, inputs: PortUnits) -> PortUnits:
         return {"output": inputs["input"]}
 
     def init(self, at: Setting) -> Arrays:
@@ -99,7 +99,7 @@ class DelayLine(Element):
     slots: Annotated[int, Recompile(lower=1, upper=100_000)] = 100
     initial: Annotated[float, Live()] = 0.0
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": hull((self.initial, self.initial), inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:

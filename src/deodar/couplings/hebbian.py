@@ -11,7 +11,7 @@ import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Ports, Setting
+from deodar.element import Arrays, Coupling, PortAxes, Setting
 from deodar.numerics import plasticity
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape, wrong_shape
 from deodar.numerics.patches import random_weights
@@ -115,10 +115,10 @@ class Hebbian(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": tuple(self.axes), "weights": (*self.axes, *ins["input"])}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
         yield from wrong_shape("start", self.start, needed, "target and source have")
         if self.apart and ins["pre"] != ins["input"]:

@@ -11,7 +11,7 @@ import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Ports, Setting
+from deodar.element import Arrays, Coupling, PortAxes, Setting
 from deodar.numerics.axes import Axes, Axis, cell, describe, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.signs import Sign, sign_of
@@ -74,10 +74,10 @@ class AdaptiveWeights(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": tuple(self.axes), "weights": (*self.axes, *ins["input"])}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         needed = shape(ins["input"]) + shape(self.axes)
         yield from wrong_shape("start", self.start, needed, "source and target have")
         if self.apart and ins["pre"] != ins["input"]:
@@ -170,7 +170,7 @@ class RewardGate(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if port == "input" else ()
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": ()}
 
     def jumps_at(self) -> Sequence[str]:
@@ -263,10 +263,10 @@ class GainAdaptation(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if port == "input" else ()
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": (), "value": (), "gains": ins["input"]}
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("start", self.start, shape(ins["input"]), "the input has")
 
     def init(self, at: Setting) -> Arrays:

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 
-from deodar.element import Arrays, Bounds, Coupling, Ports, Setting
+from deodar.element import Arrays, Coupling, PortAxes, PortBounds, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics import homography
 from deodar.numerics.axes import Axis, shape, wrong_shape
@@ -59,7 +59,7 @@ class ColorSpace(Coupling):
     sigma: Annotated[float, Live("hue", lower=0, neutral=0.0, off=True)] = 0.0
     darkest: Annotated[float, Live(lower=0, upper=1)] = 0.15
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS or len(self.axes) != 3:
             yield "needs a picture (two dimensions and three channels) and gives two dimensions and hue"
@@ -132,7 +132,7 @@ class ColorHistogram(Coupling):
     palest: Annotated[float, Live(lower=0, upper=1)] = 0.3
     darkest: Annotated[float, Live(lower=0, upper=1)] = 0.15
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS or len(self.axes) != 2:
             yield (
@@ -219,12 +219,12 @@ class HueSaturationValue(Coupling):
         Smith (1978), Color gamut transform pairs, Comput. Graph. (SIGGRAPH) 12, 12-19.
     """
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         source = ins["input"]
         if len(source) != 3 or source[-1].samples != CHANNELS:
             yield "needs a picture: two dimensions, and a last axis with the channels red, green and blue"
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": (min(0.0, inputs["input"][0]), max(TURN, inputs["input"][1]))}
 
     def output(self, at: Setting) -> Arrays:
@@ -281,10 +281,10 @@ class Homography(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": (*self.axes, *ins["input"][2:])}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         if len(self.axes) != 2 or len(ins["input"]) < 2:
             yield (
                 f"maps a picture of two dimensions onto a plane of two; it has {len(self.axes)} axes, and its"

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Ports, Setting
+from deodar.element import Arrays, Coupling, PortAxes, Setting
 from deodar.errors import ParameterError
 from deodar.leaves import per_axis
 from deodar.numerics import starting
@@ -79,7 +79,7 @@ class PopulationActivity(Coupling):
                 ),
             )
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         arriving, neurons = (
             shape(ins["input"]),
             len(self.tuning.data) if isinstance(self.tuning, FrozenArray) else 0,

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Coupling, Ports, PortUnits, Setting
+from deodar.element import Arrays, Coupling, PortAxes, PortUnits, Setting
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis, cell, one_axis, shape
 from deodar.numerics.centres import centre
@@ -57,13 +57,13 @@ class PeakPosition(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if self.axis is None else (self.axis,)
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         yield from one_axis(ins["input"])
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": (), "strength": ()}
 
-    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
+    def position_units(self, ins: PortAxes, inputs: PortUnits) -> PortUnits:
         axes = ins["input"]
         read = PositionUnit.of(axes[0]) if len(axes) == 1 else None
         return {} if read is None else {"output": (read,)}
@@ -113,11 +113,11 @@ class MaximumPosition(Coupling):
     def jumps_at(self) -> Sequence[str]:
         return "input", "least"
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         n = len(ins["input"])
         return {"output": (Axis("component", 0, n - 1, n),) if n > 1 else ()}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         if not ins["input"]:
             yield "needs an input with an axis, not one number"
 
@@ -186,7 +186,7 @@ class RateCode(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         n = len(self.axes)
         return {"output": (Axis("component", 0, n - 1, n),) if n > 1 else (), "strength": ()}
 
@@ -254,7 +254,7 @@ class SpaceCode(Coupling):
         if not self.axes:
             yield "axes", "is empty; a peak needs at least one axis"
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
             yield (
                 f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes",
@@ -268,7 +268,7 @@ class SpaceCode(Coupling):
                 "Connect an input of that shape",
             )
 
-    def position_codes(self, ins: Ports) -> Mapping[str, PositionCode]:
+    def position_codes(self, ins: PortAxes) -> Mapping[str, PositionCode]:
         axes = tuple(self.axes)
         return {"input": PositionCode(axes, per_axis(self.gain, axes), per_axis(self.offset, axes))}
 

@@ -12,7 +12,7 @@ import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Bounds, Coupling, Ports, Setting
+from deodar.element import Arrays, Coupling, PortAxes, PortBounds, Setting
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.convolution import along
@@ -58,7 +58,7 @@ class Project(Coupling):
         """Whether the output is linear in the input: an integral, a sum or a mean."""
         return self.reduce in ("integral", "sum", "mean")
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         source, here = self._source(ins["input"]), {a.name: a for a in self.axes}
         for old in dict(self._renames()):
             if old not in [a.name for a in ins["input"]]:
@@ -72,7 +72,7 @@ class Project(Coupling):
                     " periodicity differ"
                 )
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         here, there = [a.name for a in self.axes], self._source(ins["input"])
         if here and there and not set(here) & set(there) and self.reduce in ("integral", "sum", "mean"):
             yield (
@@ -86,7 +86,7 @@ class Project(Coupling):
                 ),
             )
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         here = {a.name for a in self.axes}
         gone = [
             a for name, a in zip(self._source(ins["input"]), ins["input"], strict=True) if name not in here
@@ -174,7 +174,7 @@ class Resample(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         there, here = [a.name for a in ins["input"]], [a.name for a in self.axes]
         if there != here:
             yield f"the source has the axes {there}, here are {here}; write Project to change dimensions"
@@ -183,7 +183,7 @@ class Resample(Coupling):
             if a.periodic and not (b.periodic and a.fits(b)):
                 yield f"the periodic axis {a.name!r} has other bounds here: {a} at the source, {b} here"
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         for a, b in zip(ins["input"], self.axes, strict=True):
             if a.unit != b.unit:
                 yield (
@@ -200,7 +200,7 @@ class Resample(Coupling):
                 )
                 yield what, "Give both axes bounds that overlap"
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": hull(ZERO, inputs["input"])}
 
     def prepare(self, at: Setting) -> list[Array]:
@@ -244,7 +244,7 @@ class DiagonalSum(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         given = shape(ins["input"])
         if len(given) != 2:
             yield f"needs an input of two axes, not of {len(given)}", "Put a Project before it"
@@ -295,7 +295,7 @@ class DiagonalExpansion(Coupling):
 
     linear: ClassVar[bool] = True
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         given, own = shape(ins["input"]), shape(self.axes)
         if len(own) != 2:
             yield f"has {len(own)} axes; a diagonal lies between two", "Give two axes"

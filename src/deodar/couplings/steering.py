@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from deodar.element import Arrays, Coupling, Ports, Setting
+from deodar.element import Arrays, Coupling, PortAxes, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, cell, one_axis, shape, wrong_shape
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild
@@ -56,10 +56,10 @@ class AttractorVelocity(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes) if port == "input" and self.axes else arriving
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": ins["position"]}
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         axes, arriving = ins["input"], shape(ins["position"])
         wanted = len(axes)
         if wanted == 0:
@@ -138,10 +138,10 @@ class ObstacleRepulsion(Coupling):
     size: Annotated[float, Live(lower=1e-6)] = 100.0
     view: Annotated[float, Live(lower=0, upper=179)] = 45.0
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": ()}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         yield from one_axis(ins["input"])
         if len(ins["input"]) == 1:
             yield from wrong_shape("angles", self.angles, shape(ins["input"]), "the input has")
@@ -203,7 +203,7 @@ class TurnLimit(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return ()
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"to_left": (), "to_right": ()}
 
     def output(self, at: Setting) -> Arrays:

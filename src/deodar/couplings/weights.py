@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Bounds, Coupling, Ports, PortUnits, Setting
+from deodar.element import Arrays, Coupling, PortAxes, PortBounds, PortUnits, Setting
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
 from deodar.numerics.convolution import along
@@ -60,25 +60,25 @@ class Weights(Coupling):
         weights = starting.map_of_places(axes, axes if arriving is None else arriving)
         return {} if weights is None else {"weights": FrozenArray(weights)}
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
         yield from wrong_shape("weights", self.weights, needed, "target and source have")
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         if isinstance(self.weights, FrozenArray) and not self.weights.data.any():
             yield (
                 "its weights are all zero, so nothing passes",
                 "Give it the weights of the map, or remove it",
             )
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         if not isinstance(self.weights, FrozenArray):
             return {}
         rows = self.weights.data.reshape(math.prod(shape(self.axes)), -1) * cell(ins["input"])
         up, down = float(np.maximum(rows, 0).sum(axis=1).max()), float(np.minimum(rows, 0).sum(axis=1).min())
         return {"output": total(times((0.0, up), inputs["input"]), times((down, 0.0), inputs["input"]))}
 
-    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
+    def position_units(self, ins: PortAxes, inputs: PortUnits) -> PortUnits:
         arriving = inputs["input"]
         if not arriving or not isinstance(self.weights, FrozenArray):
             return {}
@@ -140,10 +140,10 @@ class AxisWeights(Coupling):
     linear: ClassVar[bool] = True
     signed_by: ClassVar[tuple[str, ...]] = ("weights",)
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": tuple(self.axis if a.name == self._name else a for a in ins["input"])}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         found = next((a for a in ins["input"] if a.name == self._name), None)
         if found is None:
             given = ", ".join(repr(a.name) for a in ins["input"]) or "none"
@@ -158,7 +158,7 @@ class AxisWeights(Coupling):
             "weights", self.weights, (self.axis.samples, found.samples), "the new axis and the old one have"
         )
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         if not isinstance(self.weights, FrozenArray):
             return {}
         w, x = self.weights.data, inputs["input"]
@@ -217,7 +217,7 @@ class Weighting(Coupling):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return tuple(self.axes)
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("weights", self.weights, shape(self.axes))
 
     def prepare(self, at: Setting) -> Arrays:
@@ -272,10 +272,10 @@ class PseudoInverse(Coupling):
     def polarity(self) -> Sign:
         return "±"
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": ins["input"][::-1]}
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         if len(ins["input"]) not in (1, 2):
             yield f"needs an input of one or two axes, not of {len(ins['input'])}", "Put a Project before it"
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Element, Ports, Setting
+from deodar.element import Arrays, Element, PortAxes, Setting
 from deodar.elements.stimuli import Stimulus, array_strength
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import noise as noises
@@ -214,7 +214,7 @@ class TimeSeries(Stimulus):
         elif (np.diff(times) <= 0).any():
             yield "times", "does not rise; each moment is later than the one before"
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
         times = self.times.shape if isinstance(self.times, FrozenArray) else ()
         yield from wrong_shape("values", self.values, times + shape(self.axes), "its times and axes have")
@@ -317,7 +317,7 @@ class Noise(Element):
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.amplitude) else tuple(self.axes)
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         lengths = [float(v) for v in per_axis(self.length, self.axes)]
         if any(lengths) and not all(lengths):
             yield "length is 0 on one axis and not on another; give all of them or none"

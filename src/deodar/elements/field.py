@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from deodar.element import Arrays, Bounds, Convolution, Element, Ports, Setting
+from deodar.element import Arrays, Convolution, Element, PortAxes, PortBounds, Setting
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import noise as noises
 from deodar.numerics import quadrature, starting
@@ -92,7 +92,7 @@ class Field(Element):
             found["global inhibition"] = sign_of(-self.global_inhibition)
         return found
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         axes = tuple(self.axes)
         return {"output": axes, "activation": axes, "interaction": axes}
 
@@ -102,7 +102,7 @@ class Field(Element):
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else tuple(self.axes)
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         if len(self.axes) > MOST_AXES:
             yield f"has {len(self.axes)} axes; a field has at most {MOST_AXES}"
         yield from validate_kernels(self.kernel, tuple(self.axes))
@@ -110,7 +110,7 @@ class Field(Element):
         if any(lengths) and not all(lengths):
             yield "noise_length is 0 on one axis and not on another; give all of them or none"
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         for axis, length in zip(self.axes, per_axis(self.noise_length, self.axes), strict=True):
             if 0 < float(length) < 0.5 * axis.step:
                 yield (
@@ -129,7 +129,7 @@ class Field(Element):
                     f"Use a length far below {axis.range:g}",
                 )
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         h, u = self.resting_level, before.get("activation", (self.resting_level, self.resting_level))
         spread = (
             MARGIN

@@ -11,7 +11,7 @@ import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Bounds, Element, Ports, Setting
+from deodar.element import Arrays, Element, PortAxes, PortBounds, Setting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import ZERO, hull
@@ -90,17 +90,17 @@ class MemoryTrace(Element):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "gate" else tuple(self.axes)
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("start", self.start, shape(self.axes))
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if self.graded and self.activity is not None:
             yield "activity", "is a sigmoid, and graded takes the input itself; give one of them"
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": tuple(self.axes), "active": tuple(self.axes)}
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         first = (
             ZERO
             if not isinstance(self.start, FrozenArray)
@@ -178,10 +178,10 @@ class History(Element):
     interval: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6)] = 1.0
     empty: Annotated[str, Recompile(choices=EMPTY)] = "zero"
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": (self.slots, *self.axes)}
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         if self.slots.name in [a.name for a in self.axes]:
             yield (
                 f"the slots are called {self.slots.name!r} like an axis of the input",
@@ -191,7 +191,7 @@ class History(Element):
     def undefined(self) -> Sequence[str]:
         return ("output",) if self.empty == "nan" else ()
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         return {"output": hull(ZERO, inputs["input"])}
 
     def init(self, at: Setting) -> Arrays:
@@ -257,10 +257,10 @@ class SampledHistory(Element):
     times: Annotated[ArrayLike, Rebuild("time", role="moment")] = FrozenArray([1.0, 5.0, 10.0])
     empty: Annotated[str, Recompile(choices=EMPTY)] = "zero"
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": (self.slots, *self.axes)}
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         if self.slots.name in [a.name for a in self.axes]:
             yield (
                 f"the slots are called {self.slots.name!r} like an axis of the input",

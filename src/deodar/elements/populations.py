@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.element import Arrays, Bounds, Element, Ports, Setting
+from deodar.element import Arrays, Element, PortAxes, PortBounds, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics import interaction
 from deodar.numerics import noise as noises
@@ -70,13 +70,13 @@ class RateNode(Element):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return ()
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": (), "activation": (), "rate": ()}
 
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else ()
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         h, u = self.resting_level, before.get("activation", (self.resting_level, self.resting_level))
         spread = 6.0 * self.noise * math.sqrt(self.tau / 2)
         own = times((self.self_excitation, self.self_excitation), self.sigmoid.bounds(u))
@@ -140,7 +140,7 @@ class TransientDetector(Element):
     def polarity(self) -> Sign:
         return "±"
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": tuple(self.axes), "off": tuple(self.axes)}
 
     def init(self, at: Setting) -> Arrays:
@@ -229,14 +229,14 @@ class SoftWinnerTakeAll(Element):
             "inhibition": sign_of(-self.inhibition),
         }
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         axes = tuple(self.axes)
         return {"output": axes, "inhibitory": (), "interaction": axes}
 
     def noise_axes(self) -> Axes | None:
         return None if is_neutral(self.noise) else tuple(self.axes)
 
-    def validate_axes(self, ins: Ports) -> Iterator[str]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str]:
         yield from validate_kernels(self.kernel, tuple(self.axes))
 
     def init(self, at: Setting) -> Arrays:

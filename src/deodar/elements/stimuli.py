@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.declarations import needed
-from deodar.element import Arrays, Bounds, Element, Ports, Setting
+from deodar.element import Arrays, Element, PortAxes, PortBounds, Setting
 from deodar.leaves import per_axis
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
@@ -39,7 +39,7 @@ class Stimulus(Element):
         """The value of the stimulus over its axes while it is on."""
         raise NotImplementedError
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         for k, w in enumerate(self.windows):
             if w.stop < w.start:
                 yield (
@@ -50,7 +50,7 @@ class Stimulus(Element):
                     ),
                 )
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         for k, w in enumerate(self.windows):
             if w.stop == w.start:
                 yield (
@@ -65,7 +65,7 @@ class Stimulus(Element):
         """
         return ANY
 
-    def bounds(self, ins: Ports, inputs: Bounds, before: Bounds) -> Bounds:
+    def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         found = self.strength()
         return {"output": ANY if found == ZERO else hull(ZERO, found) if self.windows else found}
 
@@ -204,12 +204,12 @@ class GaussianStimulus(Stimulus):
             else {"amplitude": starting.STRENGTH}
         )
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
         if self.boundary is not None and len(self.boundary) not in (1, len(self.axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(self.axes)} axes"
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)
         yield from self.placed("sigma", boundaries(self.boundary, tuple(self.axes)))
 
@@ -272,7 +272,7 @@ class BoxStimulus(Stimulus):
         width = starting.one_or_each(tuple(2 * sigma for sigma in starting.widths(axes)))
         return {"center": starting.middle(axes), "width": width, "amplitude": starting.STRENGTH}
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)
         yield from self.placed("width", boundaries(None, tuple(self.axes)))
 
@@ -326,11 +326,11 @@ class Pattern(Stimulus):
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
         return {"values": FrozenArray(starting.hill(axes)), "amplitude": starting.STRENGTH}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
         yield from wrong_shape("values", self.values, shape(self.axes))
 
-    def warnings(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)
         if isinstance(self.values, FrozenArray) and not self.values.data.any():
             yield (

@@ -10,7 +10,7 @@ from typing import Annotated
 import jax.numpy as jnp
 import numpy as np
 
-from deodar.element import Arrays, Element, Ports, PortUnits, Setting
+from deodar.element import Arrays, Element, PortAxes, PortUnits, Setting
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, one_axis, shape, wrong_shape
 from deodar.numerics.positions import PositionUnit
@@ -52,7 +52,7 @@ class Integrator(Element):
     initial: Annotated[float, Live()] = 0.0
     start: Annotated[ArrayLike | None, Rebuild()] = None
 
-    def validate_axes(self, ins: Ports) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("start", self.start, shape(self.axes))
 
     def init(self, at: Setting) -> Arrays:
@@ -118,16 +118,16 @@ class Attractor(Element):
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving if self.axis is None else (self.axis,)
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         return {"output": ()}
 
-    def validate_axes(self, ins: Ports) -> Iterator[str | tuple[str, str]]:
+    def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         found = ins["input"]
         yield from one_axis(found)
         if len(found) == 1 and found[0].periodic and (self.gain != 1.0 or self.offset != 0.0):
             yield f"gain and offset have no meaning on the periodic axis {found[0].name!r}"
 
-    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
+    def position_units(self, ins: PortAxes, inputs: PortUnits) -> PortUnits:
         axes = ins["input"]
         read = PositionUnit.of(axes[0]) if len(axes) == 1 else None
         return {} if read is None else {"output": (read.scaled(self.gain),)}

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from deodar.element import Arrays, Element, Ports, PortUnits, Setting
+from deodar.element import Arrays, Element, PortAxes, PortUnits, Setting
 from deodar.numerics.axes import Axis
 from deodar.registry import register
 
@@ -42,7 +42,7 @@ class Sensor(Element):
     def sensor_name(self) -> str:
         return self.sensor
 
-    def position_units(self, ins: Ports, inputs: PortUnits) -> PortUnits:
+    def position_units(self, ins: PortAxes, inputs: PortUnits) -> PortUnits:
         return {"output": inputs["reading"]}
 
     def output(self, at: Setting) -> Arrays:

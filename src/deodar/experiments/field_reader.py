@@ -12,7 +12,7 @@ from typing import Annotated
 import jax.numpy as jnp
 
 from deodar import codec
-from deodar.element import Arrays, Coupling, Ports, Setting
+from deodar.element import Arrays, Coupling, PortAxes, Setting
 from deodar.experiments.observable import PLACE, REDUCES, Observable, mask
 from deodar.model import edit
 from deodar.model.document import Document
@@ -40,7 +40,7 @@ class Reader(Coupling):
     near: str = ""
     threshold: Annotated[float, Recompile("input")] = 0.0
 
-    def outputs(self, ins: Ports) -> Ports:
+    def outputs(self, ins: PortAxes) -> PortAxes:
         count = len(ins["input"])
         return {"output": (Axis("of", 0.0, float(count), count + 1),) if self.reduce == PLACE else ()}
 
