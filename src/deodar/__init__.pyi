@@ -17,14 +17,14 @@ from deodar.analysis.peaks import peaks as peaks
 from deodar.analysis.phase import phase as phase
 from deodar.analysis.ramp import ramp as ramp
 from deodar.analysis.regimes import regimes as regimes
+from deodar.analysis.robot_paths import arena_grid as arena_grid
 from deodar.analysis.robot_paths import clearance as clearance
 from deodar.analysis.robot_paths import path_divergence as path_divergence
 from deodar.analysis.robot_paths import path_length as path_length
 from deodar.analysis.robot_paths import path_until as path_until
+from deodar.analysis.robot_paths import shortest_path as shortest_path
 from deodar.analysis.selection import selection as selection
 from deodar.analysis.settle import settle as settle
-from deodar.analysis.shortest import arena_grid as arena_grid
-from deodar.analysis.shortest import shortest_path as shortest_path
 from deodar.analysis.statistics import anova as anova
 from deodar.analysis.statistics import mean_interval as mean_interval
 from deodar.analysis.statistics import median_interval as median_interval

@@ -15,14 +15,21 @@ from deodar.analysis.peaks import Peak, Peaks, peaks
 from deodar.analysis.phase import FixedPoint, Phase, phase
 from deodar.analysis.ramp import Branch, SettledRamp, ramp
 from deodar.analysis.regimes import Regimes, regimes
-from deodar.analysis.robot_paths import clearance, path_divergence, path_length, path_until
+from deodar.analysis.robot_paths import (
+    Grid,
+    arena_grid,
+    clearance,
+    path_divergence,
+    path_length,
+    path_until,
+    shortest_path,
+)
 from deodar.analysis.selection import Selection, selection
 from deodar.analysis.settle import Settled, settle
-from deodar.analysis.shortest import Grid, arena_grid, shortest_path
 from deodar.analysis.statistics import anova, mean_interval, median_interval, wilson
 from deodar.analysis.thresholds import Thresholds, Transition, descend, thresholds
-from deodar.analysis.tuning.centring import RegionSize
 from deodar.analysis.tuning.response import FieldResponse, SettledBatch
+from deodar.analysis.tuning.search import RegionSize
 from deodar.analysis.tuning.tuned import Tuned
 from deodar.analysis.working_memory import Memory, forgetting, outlives
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from deodar.analysis.peaks import Peak
-from deodar.analysis.preshape import Boosted
 from deodar.analysis.regimes import NOT_ASKED, Regimes
+from deodar.analysis.thresholds import Boosted
 
 WordRows = Iterator[tuple[str, str]]
 

@@ -12,12 +12,11 @@ import numpy as np
 from deodar.analysis.discretisation import discretisation, obstacle
 from deodar.analysis.isolated import Isolated, Isolation, isolate
 from deodar.analysis.peaks import Peak, Peaks
-from deodar.analysis.preshape import SHARES, Boosted, boosted
 from deodar.analysis.ramp import SettledRamp, ramp
 from deodar.analysis.selection import Selection, separation
 from deodar.analysis.selection import selection as measured_selection
 from deodar.analysis.settle import LIMIT
-from deodar.analysis.thresholds import Thresholds, Transition, thresholds
+from deodar.analysis.thresholds import SHARES, Boosted, Thresholds, Transition, boosted, thresholds
 from deodar.analysis.working_memory import Memory, forgetting, outlives, suppression
 from deodar.codec import JsonObject
 from deodar.elements.field import Field

@@ -7,7 +7,7 @@ from importlib import resources
 
 import numpy as np
 
-from deodar.analysis.shortest import Grid, arena_grid
+from deodar.analysis.robot_paths import Grid, arena_grid
 from deodar.architectures.spa import maze, place
 
 HEADINGS = {"z": 0.0, "large": 4.983}

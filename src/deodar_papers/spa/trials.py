@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.analysis.robot_paths import clearance, path_divergence, path_length
-from deodar.analysis.shortest import shortest_path
+from deodar.analysis.robot_paths import clearance, path_divergence, path_length, shortest_path
 from deodar.architectures.follow_the_carrot import Ending, follow
 from deodar.architectures.spa import CASE_3, DIRECTIONS, place, spa
 from deodar.experiments.actions import Move

@@ -7,8 +7,7 @@ import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from deodar.analysis.robot_paths import clearance, path_length
-from deodar.analysis.shortest import arena_grid, shortest_path
+from deodar.analysis.robot_paths import arena_grid, clearance, path_length, shortest_path
 from deodar.errors import AnalysisError
 
 BORDER = (0, 0, 30, 20)

@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.analysis.robot_paths import clearance, path_until
-from deodar.analysis.shortest import arena_grid, shortest_path
+from deodar.analysis.robot_paths import arena_grid, clearance, path_until, shortest_path
 from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
 from deodar.errors import ParameterError
 from deodar.worlds._settings import arguments

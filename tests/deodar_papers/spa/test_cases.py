@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.analysis.robot_paths import clearance, path_length
-from deodar.analysis.shortest import shortest_path
+from deodar.analysis.robot_paths import clearance, path_length, shortest_path
 from deodar.architectures.spa import place
 from deodar.worlds.arena.arena import Arena
 from deodar_papers.spa import cases, pairs, trials

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar import codec
-from deodar.analysis.continuation import switching
+from deodar.analysis.continuation import walk
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.naming import named
@@ -97,7 +97,7 @@ class SteadyBranch(Summarised, SavedAnalysis):
         if at.kind != "branch point":
             raise AnalysisError(f"no branch leaves a {at.kind}", fix="Give one of the branch points")
         limits = span or (float(self.values.min()), float(self.values.max()))
-        branches = [branch(self.parameter, walked) for walked in switching.switched(at, limits, points)]
+        branches = [branch(self.parameter, walked) for walked in walk.switched(at, limits, points)]
         if not branches:
             raise AnalysisError(f"no other branch was found at {at!r}")
         return branches

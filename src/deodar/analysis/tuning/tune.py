@@ -8,12 +8,11 @@ from typing import Unpack
 
 import numpy as np
 
-from deodar.analysis.tuning.centring import WIDEST, RegionSize, centred, region_size, together
 from deodar.analysis.tuning.exact_values import ExactField, ExactValue
 from deodar.analysis.tuning.judge import CandidateJudge
 from deodar.analysis.tuning.request import TuneOptions, requested
 from deodar.analysis.tuning.requirement import ExactQuantity, Requirement
-from deodar.analysis.tuning.search import searched
+from deodar.analysis.tuning.search import WIDEST, RegionSize, centred, region_size, searched, together
 from deodar.analysis.tuning.tuned import Tuned, result
 from deodar.model.model import Model
 from deodar.progress import telling

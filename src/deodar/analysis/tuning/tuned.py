@@ -10,11 +10,11 @@ from functools import cached_property
 import numpy as np
 
 import deodar
-from deodar.analysis.tuning.centring import RegionSize
 from deodar.analysis.tuning.exact_values import ExactValue
 from deodar.analysis.tuning.judge import CandidateJudge
 from deodar.analysis.tuning.request import TuningRequest
 from deodar.analysis.tuning.requirement import Requirement
+from deodar.analysis.tuning.search import RegionSize
 from deodar.codec import JsonObject
 from deodar.model import edit
 from deodar.model.model import Model

@@ -9,8 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.analysis.continuation.line import ParameterLine
-from deodar.analysis.continuation.locus import Locus
-from deodar.analysis.continuation.nearest import nearest
+from deodar.analysis.continuation.locus import Locus, nearest
 from deodar.analysis.continuation.right_hand_side import right_hand_side
 from deodar.analysis.continuation.walk import begun, walk
 from deodar.errors import AnalysisError, FigureError, ParameterError

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.analysis.maps.border_field import BorderField
-from deodar.analysis.maps.borders import BORDERS, cells_between, edges
+from deodar.analysis.maps.borders import BORDERS, BorderField, cells_between, edges
 from deodar.cli import main
 from deodar.errors import AnalysisError, FigureError
 from tests.deodar.analysis.continuation.models import node_folds
