@@ -18,7 +18,7 @@ import numpy as np
 from PIL import Image
 
 import deodar as dd
-from deodar_papers.figures import sequence, sequence_animation
+from deodar_papers.figures import sequence
 
 PAPER = dd.papers.serial_order
 PICTURES = Path(__file__).parent / "pictures"
@@ -58,7 +58,7 @@ def lesson(folder: Path) -> None:
     k = int(np.searchsorted(times, run.found[-1] - BEFORE))
     poses = run.record[PAPER.narrative.POSE].values
     [view] = PAPER.views.camera_views(run.taught, run.begins, times[[k]], poses[[k]])
-    frame = sequence_animation.draw_frame(run, view, run.taught.arena.side, k)
+    frame = sequence.draw_frame(run, view, run.taught.arena.side, k)
     frame.save(folder / f"{PREFIX}frame.png", optimize=True)
 
 

@@ -23,13 +23,13 @@ def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -
     """
     out: dict[str, Any] = {"kind": type(part).__name__} if kind else {}
     for p in parameters(type(part)):
-        value = getattr(part, p.name)
+        stored = getattr(part, p.name)
         if (
             p.name not in without
-            and value is not None
-            and (p.name not in defaults(type(part)) or value != p.default)
+            and stored is not None
+            and (p.name not in defaults(type(part)) or stored != p.default)
         ):
-            out[p.name] = _plain(value, f"{type(part).__name__}.{p.name}", p.of is object)
+            out[p.name] = _plain(stored, f"{type(part).__name__}.{p.name}", p.of is object)
     return out
 
 
@@ -58,12 +58,14 @@ def from_data(
     cls = _kind_of(values.get("kind", kind), where, kinds, problems)
     if cls is None:
         return None
-    return made(cls, {key: value for key, value in values.items() if key != "kind"}, where, preset, problems)
+    return part_of(
+        cls, {key: value for key, value in values.items() if key != "kind"}, where, preset, problems
+    )
 
 
-def made(
+def part_of(
     cls: type[Part],
-    data: Any,
+    table: Any,
     where: str,
     preset: Mapping[str, Any],
     problems: list[Problem],
@@ -73,17 +75,17 @@ def made(
 
     Args:
         cls: its class.
-        data: the plain data.
+        table: the plain data.
         where: name of its place in messages; "": its parameters are places.
         preset: parameters that are stored elsewhere.
         problems: the list to which problems are added.
         name: name of the class in messages; "": its own.
     """
     name = name or cls.__name__
-    if not isinstance(data, dict):
-        problems.append(Problem(where, f"needs an object, not {show(data)}"))
+    if not isinstance(table, dict):
+        problems.append(Problem(where, f"needs an object, not {show(table)}"))
         return None
-    values = cast("dict[str, Any]", data)
+    values = cast("dict[str, Any]", table)
     names = [p.name for p in parameters(cls) if p.name not in preset]
     strange = [key for key in values if key not in names]
     problems += [
@@ -109,10 +111,10 @@ def faulty_values(
     declared: Mapping[str, Parameter], values: Mapping[str, Any], where: str
 ) -> Iterator[Problem]:
     """Return the other problems of the values that do not depend on the parts that failed."""
-    for name, value in values.items():
+    for name, stored in values.items():
         if name in declared and declared[name].form in PLAIN:
             try:
-                normal(declared[name], value)
+                normal(declared[name], stored)
             except ValueError as error:
                 yield Problem(_inside(where, name), str(error))
 
@@ -145,24 +147,24 @@ def defaults(cls: type[Part]) -> set[str]:
     }
 
 
-def _plain(value: Any, where: str, open: bool) -> Any:
+def _plain(stored: Any, where: str, open: bool) -> Any:
     """Return plain data of a value; `open`: of a parameter that is declared for any value.
 
     Such a number is written in one way, without a decimal point if it is whole: other writers of JSON, such
     as a page, do not distinguish 1.0 from 1.
     """
-    if isinstance(value, (np.ndarray, np.generic)):
-        return _plain(value.tolist(), where, open)
-    if isinstance(value, (list, tuple)):
-        return [_plain(v, where, open) for v in cast("list[Any]", value)]
-    if isinstance(value, Mapping):
-        return {str(k): _plain(v, where, open) for k, v in cast("Mapping[Any, Any]", value).items()}
-    if isinstance(value, float) and open and value.is_integer() and abs(value) < WHOLE:
-        return int(value)
-    if isinstance(value, (bool, int, float, str)):
-        return value
+    if isinstance(stored, (np.ndarray, np.generic)):
+        return _plain(stored.tolist(), where, open)
+    if isinstance(stored, (list, tuple)):
+        return [_plain(v, where, open) for v in cast("list[Any]", stored)]
+    if isinstance(stored, Mapping):
+        return {str(k): _plain(v, where, open) for k, v in cast("Mapping[Any, Any]", stored).items()}
+    if isinstance(stored, float) and open and stored.is_integer() and abs(stored) < WHOLE:
+        return int(stored)
+    if isinstance(stored, (bool, int, float, str)):
+        return stored
     raise ParameterError(
-        f"{show(value)} cannot be written in a file",
+        f"{show(stored)} cannot be written in a file",
         where=where,
         fix="Use a number, text, true or false, or a list of these",
     )

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 from deodar.diagrams import layers
 from deodar.diagrams.graph import Graph, GroupPath
-from deodar.diagrams.straight import settle
+from deodar.diagrams.layers import settle
 
 ROUNDS = 24
 LEFT, RIGHT = "left", "right"

@@ -31,7 +31,7 @@ from deodar.model.document_files import require_file
 from deodar.model.model import Model, load, save
 from deodar.model.parts import schema
 from deodar.parameters import Part, Recompile, parameters, show
-from deodar.part_data import defaults, from_data, made, to_data
+from deodar.part_data import defaults, from_data, part_of, to_data
 from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
 
@@ -198,10 +198,10 @@ class Design(Summarised, Part):
             del content[key]
             problems.append(Problem(key, "Experiment has no such parameter", did_you_mean(key, keys)))
         of_plan = {name: content.pop(key) for key, name in OF_PLAN.items() if key in content}
-        plan = made(TrialPlan, of_plan, "", {}, problems, "Experiment")
+        plan = part_of(TrialPlan, of_plan, "", {}, problems, "Experiment")
         # an experiment with another plan states its other problems
         parts = {"plan": plan or TrialPlan(1.0)}
-        return made(cls, content, "", parts, problems, "Experiment")
+        return part_of(cls, content, "", parts, problems, "Experiment")
 
     def save(self, path: str | Path, force: bool = False) -> None:
         """Write a file; a model without a file is written beside it, as NAME.model.json."""

@@ -16,12 +16,12 @@ from matplotlib.figure import Figure
 
 from deodar import codec
 from deodar.errors import DeodarError, FigureError, Problem, did_you_mean, show
-from deodar.figures import _encode, _journals, _panels, _style, _video
+from deodar.figures import _encode, _panels, _style, _video
 from deodar.figures._moving import Changing
 from deodar.figures._view import REDUCTIONS, View
 from deodar.model import output
 from deodar.parameters import Part, PerAxis, Recompile, parameters, real
-from deodar.part_data import made
+from deodar.part_data import part_of
 from deodar.progress import telling
 from deodar.recording import files
 from deodar.recording.provenance import KEY
@@ -152,9 +152,11 @@ class FigureFile(Summarised, Part):
 
     panels: Sequence[FigurePanel]
     record: str | None = None
-    journal: Annotated[str | None, Recompile(choices=tuple(_journals.COLUMNS))] = None
+    journal: Annotated[str | None, Recompile(choices=tuple(_style.COLUMNS))] = None
     width: float | str | None = None
-    height: Annotated[float | None, Recompile("mm", lower=_journals.SMALLEST, upper=_journals.LARGEST)] = None
+    height: Annotated[
+        float | None, Recompile("mm", lower=_style.SMALLEST_PAGE, upper=_style.LARGEST_PAGE)
+    ] = None
     font: str | None = None
     font_size: Annotated[float | None, Recompile("points", lower=SMALLEST_TYPE, upper=LARGEST_TYPE)] = None
     columns: Annotated[int | None, Recompile(lower=1, upper=MOST_PANELS)] = None
@@ -189,12 +191,12 @@ class FigureFile(Summarised, Part):
 
     def _width_faults(self) -> Iterator[tuple[str, str]]:
         if isinstance(self.width, str):
-            known = _journals.COLUMNS[self.journal or _journals.DEFAULT]
+            known = _style.COLUMNS[self.journal or _style.DEFAULT_JOURNAL]
             if self.width not in known:
                 yield "width", f"there is no column {self.width!r}. {did_you_mean(self.width, known)}"
             return
         number = None if self.width is None else real(self.width)
-        low, high = _journals.SMALLEST, _journals.LARGEST
+        low, high = _style.SMALLEST_PAGE, _style.LARGEST_PAGE
         if self.width is not None and (number is None or not low <= number <= high):
             yield "width", f"is {show(self.width)}; expected {low:g} to {high:g} mm, or a column"
         if self.journal is not None:
@@ -234,11 +236,12 @@ class FigureFile(Summarised, Part):
             problems.append(Problem("panel", 'expected tables, each under a line "[[panel]]"'))
             tables = []
         panels = [
-            made(FigurePanel, table, f"panel {n}", {}, problems, "panel") for n, table in enumerate(tables, 1)
+            part_of(FigurePanel, table, f"panel {n}", {}, problems, "panel")
+            for n, table in enumerate(tables, 1)
         ]
         # with a panel in place of each wrong one, the other problems of the figure are stated too
         preset = {"panels": [panel or FigurePanel("") for panel in panels], "folder": folder}
-        figure = made(cls, data, "", preset, problems, "figure")
+        figure = part_of(cls, data, "", preset, problems, "figure")
         if problems:
             raise FigureError(problems)
         return figure
@@ -397,14 +400,14 @@ class FigureFile(Summarised, Part):
         """Return the sizes of the grid in inches."""
         width = self.width
         if isinstance(width, str):
-            width = _journals.width(width, self.journal)
-        grid = _panels.natural(cells, None if width is None else width / _journals.INCH)
+            width = _style.column_width(width, self.journal)
+        grid = _panels.natural(cells, None if width is None else width / _style.INCH)
         if width is None:
             width = _tenths(grid.widths)
         height = self.height if self.height is not None else _tenths(grid.heights)
         return _panels.Tracks(
-            _shared(width / _journals.INCH, _listed(self.column_widths) or grid.widths),
-            _shared(height / _journals.INCH, _listed(self.row_heights) or grid.heights),
+            _shared(width / _style.INCH, _listed(self.column_widths) or grid.widths),
+            _shared(height / _style.INCH, _listed(self.row_heights) or grid.heights),
         )
 
     def _summary(self) -> Summary:
@@ -447,7 +450,7 @@ def _shared(whole: float, parts: Sequence[float]) -> list[float]:
 
 def _tenths(inches: Sequence[float]) -> float:
     """Return the sum of lengths in mm, rounded as it is written into a file."""
-    return round(_journals.INCH * sum(inches), 1)
+    return round(_style.INCH * sum(inches), 1)
 
 
 def _relative(path: Path, folder: Path) -> str:

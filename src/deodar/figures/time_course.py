@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
 from deodar.errors import Fix, RecordError
-from deodar.figures import _course, _draw, _lines, _style
+from deodar.figures import _draw, _lines, _style
 from deodar.figures._view import TRIAL, View, values
 
 ACROSS = True
@@ -86,7 +86,7 @@ def _index(view: View, place: Sample) -> dict[str, int]:
     return dict(zip(view.space, place, strict=True))
 
 
-def _reader(v: xarray.DataArray, view: View, found: list[Sample]) -> _course.ReadPart:
+def _reader(v: xarray.DataArray, view: View, found: list[Sample]) -> _lines.ReadPart:
     """Return the function that reads the samples over time: (samples, sweeps, trials, times).
 
     The smallest block that contains all samples is read at once, because files keep values that are near to

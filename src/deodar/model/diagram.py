@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.diagrams import paint, paper, svg
-from deodar.diagrams.folded import fold
+from deodar.diagrams.graph import fold
 from deodar.errors import RecordError
 from deodar.model import output
 from deodar.model.document import Document

@@ -9,8 +9,7 @@ import numpy as np
 from deodar.analysis.claims import Claim
 from deodar.architectures.pointing import CUES
 from deodar.experiments.rows import Row
-from deodar_papers._report import NOT_RUN
-from deodar_papers._shares import reported_share, required_share
+from deodar_papers._report import NOT_RUN, reported_share, required_share
 from deodar_papers.pointing.sensitivity import changes
 from deodar_papers.pointing.trials import CASES, VARIANTS
 

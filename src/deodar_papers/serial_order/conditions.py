@@ -18,8 +18,8 @@ from deodar_papers.serial_order.colours import (
     random_pairs,
     random_sequences,
 )
+from deodar_papers.serial_order.parameters import PARAMETERS
 from deodar_papers.serial_order.teaching import LONGEST, Showing, lesson
-from deodar_papers.serial_order.variations import PARAMETERS
 
 Ground = Literal["none", "arena", "ring"]
 

@@ -42,8 +42,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     # start-up time: these bring JAX
     from deodar.figures._files import save_figure
     from deodar.recording import files
-    from deodar_papers.figures.sequence import sequence_figure
-    from deodar_papers.figures.sequence_animation import animation_samples, save_sequence_animation
+    from deodar_papers.figures.sequence import animation_samples, save_sequence_animation, sequence_figure
     from deodar_papers.serial_order import narrative
     from deodar_papers.serial_order.views import camera_views
 

@@ -1,4 +1,4 @@
-"""Table B.1: each parameter with the printed value, ours, and what it sets in the model."""
+"""Table B.1: each parameter with the printed value, ours, and what it sets; and those varied alone."""
 
 from __future__ import annotations
 
@@ -29,6 +29,7 @@ from deodar.architectures.serial_order import EXCITATION as CHAIN_EXCITATION
 from deodar.architectures.serial_order import INHIBITION as CHAIN_INHIBITION
 from deodar.architectures.serial_order import RESTING as CHAIN_RESTING
 from deodar.architectures.serial_order import WIDTH as CHAIN_WIDTH
+from deodar.errors import UnknownName, did_you_mean
 
 ParameterValues = Mapping[str, float]
 """Values of parameters by path; a path that begins with `*.` is that of every item of the chain."""
@@ -217,3 +218,21 @@ TABLE = (
 h_p. Left out are the directions of the infrared sensors Psi_i and the size of the picture N_sp, which are
 lists, and c_p, which occurs in no equation.
 """
+
+
+PARAMETERS: Mapping[str, Callable[[float], ParameterValues]] = {
+    parameter.name: parameter.values for parameter in TABLE if parameter.values is not None
+}
+"""For each parameter the values of the model's parameters, when it is multiplied by a factor."""
+
+
+def values(parameter: str, factor: float, items: int) -> dict[str, float]:
+    """Return the values of parameters of a chain of `items` items, one parameter of the table multiplied."""
+    if parameter not in PARAMETERS:
+        raise UnknownName(f"there is no parameter {parameter!r}", fix=did_you_mean(parameter, PARAMETERS))
+    out: dict[str, float] = {}
+    for path, value in PARAMETERS[parameter](factor).items():
+        every = path.startswith("*.")
+        names = [f"item {k}{path[1:]}" for k in range(1, items + 1)] if every else [path]
+        out |= dict.fromkeys(names, value)
+    return out

@@ -11,8 +11,8 @@ import numpy as np
 
 from deodar.experiments.rows import Row
 from deodar_papers._report import NOT_RUN
+from deodar_papers.serial_order.parameters import PARAMETERS
 from deodar_papers.serial_order.targets import RowsOfConditions
-from deodar_papers.serial_order.variations import PARAMETERS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

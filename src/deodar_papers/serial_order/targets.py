@@ -11,7 +11,7 @@ from deodar.analysis import statistics
 from deodar.analysis.claims import Claim, ClaimKind
 from deodar.analysis.statistics import rounded
 from deodar.experiments.rows import Row
-from deodar_papers._shares import reported_share, required_share
+from deodar_papers._report import reported_share, required_share
 from deodar_papers.serial_order import sentences
 from deodar_papers.serial_order.conditions import BACK, CARRIED, WITHHELD, conditions
 

@@ -23,6 +23,7 @@ from deodar_papers.serial_order.conditions import (
     taught,
 )
 from deodar_papers.serial_order.cued import cued_row, cues, run_of
+from deodar_papers.serial_order.parameters import values
 from deodar_papers.serial_order.runs import (
     PEAKS,
     Settings,
@@ -32,7 +33,6 @@ from deodar_papers.serial_order.runs import (
     read_weights,
     run_many,
 )
-from deodar_papers.serial_order.variations import values
 
 BATCH = 16
 """Runs in a batch."""

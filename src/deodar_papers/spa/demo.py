@@ -39,7 +39,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     from deodar.architectures.spa import DIRECTIONS, maze
     from deodar.figures._files import save_figure
     from deodar.recording import files
-    from deodar_papers.figures.animation import save_animation
+    from deodar_papers.figures.plan import save_animation
     from deodar_papers.spa import narrative
 
     own = any(value is not None for value in (args.maze, args.start, args.goal, args.noise))

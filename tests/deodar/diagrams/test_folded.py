@@ -7,8 +7,7 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
-from deodar.diagrams.folded import fold
-from deodar.diagrams.graph import Graph, Item, Wire
+from deodar.diagrams.graph import Graph, Item, Wire, fold
 from deodar.errors import ModelError
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -11,8 +11,8 @@ import pytest
 import deodar as dd
 from deodar.diagrams import boxes, given, layers, layout, paint, text
 from deodar.diagrams.graph import Graph, Item, Wire
+from deodar.diagrams.layers import settle
 from deodar.diagrams.scene import Shape, TextLine
-from deodar.diagrams.straight import settle
 from deodar.model.sketch import sketch
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "examples").glob("*.json"))

@@ -14,7 +14,7 @@ from PIL import Image
 
 import deodar as dd
 from deodar.errors import FigureError, MissingExtra, OutputError, OutputExists, RecordError
-from deodar.figures import FigureFile, FigurePanel, _encode, _palette, _panels, _video
+from deodar.figures import FigureFile, FigurePanel, _encode, _panels, _video
 from deodar.worlds.arena.arena import Arena
 from tests.deodar.recording.models import record
 
@@ -188,7 +188,7 @@ def test_frames_of_one_palette_have_its_colours_and_keep_invisible_differences(
     tmp_path: Path,
 ) -> None:
     black, grey, red = [0, 0, 0], [100, 100, 100], [200, 0, 0]
-    palette = _palette.VideoPalette(np.array([black, grey, [104, 101, 100], red], np.uint8), tolerance=6)
+    palette = _encode.VideoPalette(np.array([black, grey, [104, 101, 100], red], np.uint8), tolerance=6)
     first = np.full((20, 31, 3), 99, np.uint8)
     second = first.copy()
     second[5:9, 3:20] = 104, 102, 100  # nearest to a colour that differs by 5 from the grey
@@ -207,7 +207,7 @@ def test_frames_of_one_palette_have_its_colours_and_keep_invisible_differences(
 def test_a_palette_has_the_fixed_colours_and_counts_a_rare_colour_as_much_as_a_frequent_one() -> None:
     sample = np.full((100, 100, 3), 250, np.uint8)
     sample[0, 0] = 10, 200, 10
-    colours = _palette.of_samples([sample], np.array([[1.2, 2.0, 3.0], [1.0, 2.0, 3.0]]))
+    colours = _encode.of_samples([sample], np.array([[1.2, 2.0, 3.0], [1.0, 2.0, 3.0]]))
     assert len(colours) <= 255 and [1, 2, 3] in colours.tolist()
     assert np.abs(colours.astype(int) - [10, 200, 10]).sum(1).min() == 0
 

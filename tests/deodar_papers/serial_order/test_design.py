@@ -9,7 +9,7 @@ import pytest
 from deodar.architectures.color_search import color_search, hue_axis
 from deodar.errors import ParameterError, UnknownName
 from deodar_papers import papers
-from deodar_papers.serial_order import arenas, colours, conditions, parameters, teaching, trials, variations
+from deodar_papers.serial_order import arenas, colours, conditions, parameters, teaching, trials
 from deodar_papers.serial_order.arenas import random_arena
 
 
@@ -53,19 +53,19 @@ def test_a_lesson_shows_each_colour_once_at_the_side_and_then_in_the_middle() ->
 
 def test_a_factor_of_one_leaves_every_parameter_as_it_is() -> None:
     model = color_search(3)
-    for name in variations.PARAMETERS:
-        for path, value in variations.values(name, 1.0, 3).items():
+    for name in parameters.PARAMETERS:
+        for path, value in parameters.values(name, 1.0, 3).items():
             assert model.get(path) == pytest.approx(value), (name, path)
-        changed = variations.values(name, 1.2, 3)
+        changed = parameters.values(name, 1.2, 3)
         assert any(model.get(path) != pytest.approx(value) for path, value in changed.items()), name
     with pytest.raises(UnknownName, match="no parameter"):
-        variations.values("h_x", 1.2, 3)
+        parameters.values("h_x", 1.2, 3)
 
 
 def test_one_table_states_printed_values_and_those_of_the_model() -> None:
     table = {parameter.name: parameter for parameter in parameters.TABLE}
     assert len(table) == len(parameters.TABLE) == 41
-    assert set(variations.PARAMETERS) == set(table) - {"N"}
+    assert set(parameters.PARAMETERS) == set(table) - {"N"}
     assert (table["h_d"].printed, table["h_d"].ours) == (-5.0, -0.5)
     assert (table["c_5"].printed, table["c_5"].ours) == (2.0, 2.0)
     model = color_search(1)

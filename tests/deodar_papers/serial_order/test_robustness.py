@@ -12,7 +12,7 @@ from deodar.figures._files import save_figure
 from deodar_papers import serial_order
 from deodar_papers._report import NOT_RUN
 from deodar_papers.serial_order import conditions, robustness, tables
-from deodar_papers.serial_order.variations import PARAMETERS
+from deodar_papers.serial_order.parameters import PARAMETERS
 
 RUNS = 20
 

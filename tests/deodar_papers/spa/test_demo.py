@@ -13,7 +13,7 @@ import xarray
 from PIL import Image
 
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze
-from deodar_papers.figures import animation
+from deodar_papers.figures import plan
 from deodar_papers.spa import narrative
 from tests.command_line import typed
 
@@ -102,14 +102,14 @@ def test_a_frame_of_the_video_shows_robot_goal_and_step_at_their_positions() -> 
     """The robot stands, and its motivation does not change: two frames differ in the printed step alone."""
     robot = (-45.0, 55.0)
     reading = narrative.read(record(way(robot, robot, each=30), np.zeros(31)), maze("z"))
-    first, later = (np.asarray(animation._frame(reading, k).convert("RGB"), int) for k in (0, 30))
+    first, later = (np.asarray(plan._frame(reading, k).convert("RGB"), int) for k in (0, 30))
     height, width, _ = first.shape
-    assert (height, width) == (100 * animation.SCALE,) * 2
+    assert (height, width) == (100 * plan.SCALE,) * 2
     rows, columns = np.nonzero(np.abs(first - later).sum(axis=-1) > 60)
     assert len(rows) and rows.max() < 20 and columns.min() >= width - 80
     dark = first.max(axis=-1) < 45
     for (x, y), reach in ((reading.goal, 14), (robot, 26)):
-        column, row = (x + 104 + 0.5) * animation.SCALE, (104 + 0.5 - y) * animation.SCALE
+        column, row = (x + 104 + 0.5) * plan.SCALE, (104 + 0.5 - y) * plan.SCALE
         down, across = np.nonzero(dark)
         near = (abs(down - row) < reach) & (abs(across - column) < reach)
         assert near.sum() > 20

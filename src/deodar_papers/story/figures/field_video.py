@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from deodar.figures import _palette
+from deodar.figures import _encode
 from deodar_papers.story.field_moments import FieldThresholds, Moments, StripLine, events, sentences, summary
 from deodar_papers.story.figures.canvas import SCALE, Canvas, width
 from deodar_papers.story.figures.moving_picture import MovingPicture, Shot
@@ -194,7 +194,7 @@ def video(run: FieldRun, m: Moments, measured: FieldThresholds, theme: Theme) ->
     looked_at = [samples[20], (m.detected or m.grows) + 8, (m.compete or m.go) + 6, m.gone + 20, m.falls + 38]
     pictures = [painter.whole(middle), *(painter.picture(min(k, samples[-1])) for k in looked_at)]
     fixed = np.concatenate([activation_scale(), theme.colours()])
-    return MovingPicture(shots, RATE, _palette.of_samples(pictures, fixed), TOLERANCE)
+    return MovingPicture(shots, RATE, _encode.of_samples(pictures, fixed), TOLERANCE)
 
 
 def _samples(count: int, m: Moments) -> list[int]:

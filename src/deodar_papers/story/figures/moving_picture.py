@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from deodar.figures import _encode
-from deodar.figures._palette import VideoPalette
+from deodar.figures._encode import VideoPalette
 
 Paint = Callable[[], np.ndarray]
 """A picture that is drawn when it is needed: all of them would fill the memory."""

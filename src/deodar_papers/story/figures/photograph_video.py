@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image
 
 from deodar.architectures.saliency import SIDE, scene
-from deodar.figures import _palette
+from deodar.figures import _encode
 from deodar_papers.saliency.scenes import SceneResult
 from deodar_papers.story.figures.canvas import SCALE, Canvas
 from deodar_papers.story.figures.light import Light, positions
@@ -169,7 +169,7 @@ class PhotographPainter:
         bar = [_hue_of_bar(k) for k in range(HUES)]
         fixed = np.concatenate([colours, self.theme.colours(), np.stack([*self._chips, WHITE, *bar])])
         changed = [sample[(sample != still).any(2)] for sample in samples]
-        return _palette.of_samples([*changed, still[:, self._box[1].stop :]], fixed)
+        return _encode.of_samples([*changed, still[:, self._box[1].stop :]], fixed)
 
 
 def video(scene_result: SceneResult, cues: Sequence[CueCourse], theme: Theme) -> MovingPicture:
