@@ -64,7 +64,7 @@ def requested(
         ParameterError: a path is unknown, changing the parameter needs another program, or its values are
             not those of an axis of a map.
     """
-    isolation, limit = _divided(**options)
+    limit, isolation = _divided(**options)
     longest = positive("limit", limit)
     doc = model.document
     path = field or only_field(doc)
@@ -91,9 +91,9 @@ def requested(
     )
 
 
-def _divided(*, limit: float = LIMIT, **isolation: Unpack[Isolation]) -> tuple[Isolation, float]:
-    """Return the options of `isolate`, and the longest stage."""
-    return isolation, limit
+def _divided(*, limit: float = LIMIT, **isolation: Unpack[Isolation]) -> tuple[float, Isolation]:
+    """Return the longest stage, and the arguments of `isolate`."""
+    return limit, isolation
 
 
 def _values(doc: Document, path: str, points: Any) -> np.ndarray:

@@ -67,18 +67,6 @@ class TuningRequest(SettlingRequest):
     budget: int
 
 
-def _divided(
-    *,
-    strength: float | None = None,
-    seed: int = 0,
-    budget: int = BUDGET,
-    limit: float = LIMIT,
-    **isolation: Unpack[Isolation],
-) -> tuple[Isolation, tuple[float | None, int, int, float]]:
-    """Return the options of `isolate`, and those of the search."""
-    return isolation, (strength, seed, budget, limit)
-
-
 def requested(
     model: Model,
     parameters: Sequence[str],
@@ -94,7 +82,7 @@ def requested(
             requirements contradict each other.
         ParameterError: a path or value is not one.
     """
-    isolation, (strength, seed, budget, longest) = _divided(**options)
+    strength, seed, budget, longest, isolation = _divided(**options)
     for name, number in (("seed", seed), ("budget", budget)):
         if not isinstance(number, int) or isinstance(number, bool) or number < 0:
             raise ParameterError(f"{name} is {show(number)}; expected an integer of 0 or above")
@@ -134,6 +122,18 @@ def requested(
         seed=seed,
         budget=budget,
     )
+
+
+def _divided(
+    *,
+    strength: float | None = None,
+    seed: int = 0,
+    budget: int = BUDGET,
+    limit: float = LIMIT,
+    **isolation: Unpack[Isolation],
+) -> tuple[float | None, int, int, float, Isolation]:
+    """Return the arguments of the search, and those of `isolate`."""
+    return strength, seed, budget, limit, isolation
 
 
 def _amplitude(required: Sequence[Requirement], isolated: Isolated) -> float:
