@@ -156,7 +156,7 @@ def _padded(size: int) -> int:
 # ---------------------------------------------------------------------------------------------------- reading
 
 
-class _Entry(NamedTuple):
+class _ArrayHeader(NamedTuple):
     """What the header states about an array."""
 
     dims: list[str]
@@ -207,7 +207,7 @@ class _Header:
         """What was read so far."""
         return bytes(self._content[: self._at])
 
-    def read(self) -> tuple[dict[str, int], dict[str, Any], dict[str, _Entry]]:
+    def read(self) -> tuple[dict[str, int], dict[str, Any], dict[str, _ArrayHeader]]:
         """Return the sizes of the dimensions, the attributes, and the arrays by their names."""
         magic, version = bytes(self._take(3)), self._take(1)[0]
         if magic != MAGIC or self._int() != 0:
@@ -215,13 +215,13 @@ class _Header:
         offset = OFFSETS[version]
         sizes = {self._text(): self._int() for _ in self._items(DIMENSION)}
         attributes, names = self._attributes(), list(sizes)
-        entries: dict[str, _Entry] = {}
+        entries: dict[str, _ArrayHeader] = {}
         for _ in self._items(VARIABLE):
             name = self._text()
             dims = [names[self._int()] for _ in range(self._int())]
             own, dtype = self._attributes(), self._type()
             self._int()  # the size, which follows from the shape
-            entries[name] = _Entry(dims, own, dtype, offset.unpack(self._take(offset.size))[0])
+            entries[name] = _ArrayHeader(dims, own, dtype, offset.unpack(self._take(offset.size))[0])
         return sizes, attributes, entries
 
     def _items(self, tag: int) -> Iterator[int]:

@@ -16,10 +16,10 @@ def test_sealed_bytes_come_back_and_each_flipped_bit_is_refused() -> None:
     content = sealed.seal(b"activation")
     assert bytes(sealed.unseal(content)) == b"activation" and bytes(sealed.unseal(sealed.seal(b""))) == b""
     for bit in range(8 * len(content)):
-        other = bytearray(content)
-        other[bit // 8] ^= 1 << (bit % 8)
+        flipped = bytearray(content)
+        flipped[bit // 8] ^= 1 << (bit % 8)
         with pytest.raises(DamagedFile):
-            sealed.unseal(bytes(other))
+            sealed.unseal(bytes(flipped))
     for end in range(len(content)):
         with pytest.raises(DamagedFile):
             sealed.unseal(content[:end])

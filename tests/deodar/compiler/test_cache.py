@@ -80,9 +80,9 @@ def test_a_program_with_one_other_bit_is_not_loaded(place: Path, monkeypatch: py
         cache.serialize_executable, "deserialize_and_load", lambda *args: loaded.append(args) or load(*args)
     )
     for bit in np.random.default_rng(0).integers(0, 8 * len(content), 4):
-        other = bytearray(content)
-        other[bit // 8] ^= 1 << (bit % 8)
-        path.write_bytes(other)
+        flipped = bytearray(content)
+        flipped[bit // 8] ^= 1 << (bit % 8)
+        path.write_bytes(flipped)
         assert built().compiled == 1 and not loaded, bit
     assert built().compiled == 0 and len(loaded) == 1
 

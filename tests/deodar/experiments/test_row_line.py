@@ -28,13 +28,13 @@ def test_a_line_comes_back_and_is_json_for_other_programs() -> None:
 def test_each_flipped_bit_of_a_line_is_noticed(first: bool) -> None:
     line = row_line.write({"about": ABOUT} if first else ROW, True)
     for bit in range(8 * (len(line) - 1)):
-        other = bytearray(line)
-        other[bit // 8] ^= 1 << (bit % 8)
+        flipped = bytearray(line)
+        flipped[bit // 8] ^= 1 << (bit % 8)
         with pytest.raises(ValueError):
             if first:
-                row_line.read_first(bytes(other), "about")
+                row_line.read_first(bytes(flipped), "about")
             else:
-                row_line.read(bytes(other), True)
+                row_line.read(bytes(flipped), True)
 
 
 def test_a_damaged_row_is_named_and_runs_again_without_its_line(tmp_path: Path) -> None:

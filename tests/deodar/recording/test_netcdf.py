@@ -37,12 +37,12 @@ def path(stored: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_what_was_written_is_read_by_deodar_and_by_another_reader(stored: xarray.Dataset, path: Path) -> None:
     read = netcdf.read(path)
-    with xarray.open_dataset(path, engine="scipy", decode_cf=False) as other:
+    with xarray.open_dataset(path, engine="scipy", decode_cf=False) as by_scipy:
         for name, variable in stored.variables.items():
-            for found in (read, other):
-                assert np.array_equal(found[name].values, variable.values)
-                assert found[name].dims == variable.dims
-        assert other.attrs == read.attrs and read.attrs["title"] == "größe" and read.attrs["k"] == 7
+            for dataset in (read, by_scipy):
+                assert np.array_equal(dataset[name].values, variable.values)
+                assert dataset[name].dims == variable.dims
+        assert by_scipy.attrs == read.attrs and read.attrs["title"] == "größe" and read.attrs["k"] == 7
         assert list(read["bytes"].attrs["range"]) == [0.0, 2.5] and read["bytes"].attrs["units"] == "mV"
 
 

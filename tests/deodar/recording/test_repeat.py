@@ -191,19 +191,19 @@ def test_a_world_that_takes_arguments_is_not_made_without_them(monkeypatch: pyte
 
 
 @pytest.mark.filterwarnings("always:.*left out:deodar.errors.RunWarning")
-@pytest.mark.parametrize("left", [0, 4])
+@pytest.mark.parametrize("samples", [0, 4])
 def test_the_repetition_of_a_damaged_record_names_the_damage(
-    left: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    samples: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("deodar.recording.growing.LONGEST_CHUNK", 4)
     monkeypatch.chdir(tmp_path)
     record(out="run")
-    chunk = tmp_path / "run" / "record.zarr" / "u.activation" / "c" / str(left // 4) / "0"
+    chunk = tmp_path / "run" / "record.zarr" / "u.activation" / "c" / str(samples // 4) / "0"
     chunk.write_bytes(chunk.read_bytes()[:-1])
     status = main(["run", "run", "--out", "again"])
-    said = " ".join("".join(capsys.readouterr()).split())
-    assert "samples of time are left out: a chunk of u.activation is damaged" in said
-    assert "nothing explains it" not in said
-    assert status == (0 if left else 1)
-    assert ("The repetition has the same bits as the rest" in said) == bool(left)
+    printed = " ".join("".join(capsys.readouterr()).split())
+    assert "samples of time are left out: a chunk of u.activation is damaged" in printed
+    assert "nothing explains it" not in printed
+    assert status == (0 if samples else 1)
+    assert ("The repetition has the same bits as the rest" in printed) == bool(samples)
     assert dd.load_record(tmp_path / "again").sizes == record().sizes

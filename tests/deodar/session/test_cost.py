@@ -181,14 +181,14 @@ def test_a_call_that_is_interrupted_does_not_end_the_search_for_a_long_one(
 ) -> None:
     """The first calls take 2 ms longer than their steps; 1000 steps take 1 ms, on a clock of the test."""
     calls: list[int] = []
-    now = 0.0
+    clock = 0.0
 
     def call(n: int) -> tuple[int]:
-        nonlocal now
+        nonlocal clock
         calls.append(n)
-        now += 1e-6 + 1e-6 * n + (2e-3 if 0 < n <= 4 and calls.count(n) == 1 else 0.0)
+        clock += 1e-6 + 1e-6 * n + (2e-3 if 0 < n <= 4 and calls.count(n) == 1 else 0.0)
         return (n,)
 
-    monkeypatch.setattr(cost, "time", SimpleNamespace(perf_counter=lambda: now))
+    monkeypatch.setattr(cost, "time", SimpleNamespace(perf_counter=lambda: clock))
     measured = cost._timed(call, 1, 0.01)
     assert max(calls) >= 1000 and measured == pytest.approx(1.0)
