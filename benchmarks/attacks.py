@@ -67,11 +67,11 @@ def _records(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
 
 
 def _bits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
-    found = bits.attack(folder, size, seed)
+    outcome = bits.attack(folder, size, seed)
     return (
-        f"{size} bits of {len(found.by_kind)} kinds of files; readers refused {found.refused} times, left out"
-        f" what was damaged {found.shortened} times, returned what was written {found.equal} times"
-    ), found.errors
+        f"{size} bits of {len(outcome.by_kind)} kinds of files; readers refused {outcome.refused} times, left"
+        f" out what was damaged {outcome.shortened} times, returned what was written {outcome.equal} times"
+    ), outcome.errors
 
 
 def _soak(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:

@@ -207,45 +207,45 @@ def _plain(snapshot: Any) -> Any:
 
 def _read(kind: str, folder: Path) -> dict[str, tuple[str, Any]]:
     """Return for each reader what it returned, or the class of its error."""
-    found: dict[str, tuple[str, Any]] = {}
+    answers: dict[str, tuple[str, Any]] = {}
     for name, reader in KINDS[kind].readers.items():
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
-                found[name] = "values", reader(folder)
+                answers[name] = "values", reader(folder)
             except DeodarError as error:
-                found[name] = "refused", str(error)
+                answers[name] = "refused", str(error)
             except Exception as error:
-                found[name] = "foreign", f"{type(error).__name__}: {str(error)[:200]}"
-    return found
+                answers[name] = "foreign", f"{type(error).__name__}: {str(error)[:200]}"
+    return answers
 
 
-def _same(one: Any, other: Any) -> bool:
-    match one:
+def _same(first: Any, second: Any) -> bool:
+    match first:
         case xarray.Dataset():
-            return isinstance(other, xarray.Dataset) and one.identical(other)
+            return isinstance(second, xarray.Dataset) and first.identical(second)
         case np.ndarray():
             return (
-                isinstance(other, np.ndarray)
-                and one.dtype == other.dtype
-                and one.tobytes() == other.tobytes()
+                isinstance(second, np.ndarray)
+                and first.dtype == second.dtype
+                and first.tobytes() == second.tobytes()
             )
         case dict():
-            return one.keys() == other.keys() and all(_same(one[k], other[k]) for k in one)
+            return first.keys() == second.keys() and all(_same(first[k], second[k]) for k in first)
         case list() | tuple():
-            return len(one) == len(other) and all(map(_same, one, other))
+            return len(first) == len(second) and all(map(_same, first, second))
         case _:
-            return bool(one == other)
+            return bool(first == second)
 
 
-def _shorter(whole: Any, other: Any) -> bool:
+def _shorter(whole: Any, part: Any) -> bool:
     """Return whether a record is the beginning of another one, and says that the rest is damaged."""
-    if not isinstance(other, xarray.Dataset) or DAMAGED not in other.attrs:
+    if not isinstance(part, xarray.Dataset) or DAMAGED not in part.attrs:
         return False
-    part = whole.isel({d: slice(n) for d, n in other.sizes.items()})
-    said = {k: v for k, v in other.attrs.items() if k != DAMAGED}
-    return part.identical(other.assign_attrs(said)) or all(
-        part[name].variable.identical(other[name].variable) for name in whole.variables
+    beginning = whole.isel({d: slice(n) for d, n in part.sizes.items()})
+    attributes = {k: v for k, v in part.attrs.items() if k != DAMAGED}
+    return beginning.identical(part.assign_attrs(attributes)) or all(
+        beginning[name].variable.identical(part[name].variable) for name in whole.variables
     )
 
 
@@ -259,13 +259,15 @@ def _child(folder: str, connection: Connection) -> None:
 
     while True:
         kind = connection.recv()
-        sound, found = written(kind), _read(kind, root / kind / "damaged")
+        sound, damaged = written(kind), _read(kind, root / kind / "damaged")
         answers: list[tuple[str, str]] = []
-        for name, (state, value) in found.items():
+        for name, (state, content) in damaged.items():
             if state == "values":
                 whole = sound[name][1]
-                state = "equal" if _same(whole, value) else "shortened" if _shorter(whole, value) else "wrong"
-            answers.append((state, f"{name}: {value}" if state in ("wrong", "foreign") else name))
+                state = (
+                    "equal" if _same(whole, content) else "shortened" if _shorter(whole, content) else "wrong"
+                )
+            answers.append((state, f"{name}: {content}" if state in ("wrong", "foreign") else name))
         connection.send(answers)
 
 
@@ -278,10 +280,10 @@ class _Reader:
 
     def _begin(self) -> None:
         context = multiprocessing.get_context("spawn")
-        self._connection, other = context.Pipe()
-        self._process = context.Process(target=_child, args=(str(self._folder), other), daemon=True)
+        self._connection, far_end = context.Pipe()
+        self._process = context.Process(target=_child, args=(str(self._folder), far_end), daemon=True)
         self._process.start()
-        other.close()
+        far_end.close()
 
     def read(self, kind: str) -> list[tuple[str, str]]:
         """Return what became of each reader of a kind."""
@@ -324,15 +326,15 @@ def attack(folder: Path, count: int, seed: int = 0, kinds: tuple[str, ...] = ())
             path = draw.choice(_places(damaged, KINDS[kind].attacked))
             content = path.read_bytes()
             bit = draw.randrange(8 * len(content)) if content else 0
-            other = bytearray(content)
-            if other:
-                other[bit // 8] ^= 1 << (bit % 8)
-            path.write_bytes(other)
+            flipped = bytearray(content)
+            if flipped:
+                flipped[bit // 8] ^= 1 << (bit % 8)
+            path.write_bytes(flipped)
             answers = reader.read(kind)
             if not path.exists() or path.read_bytes() != content:
                 path.write_bytes(content)
             outcome.by_kind[kind] = outcome.by_kind.get(kind, 0) + 1
-            for state, what in answers:
+            for state, text in answers:
                 match state:
                     case "refused":
                         outcome.refused += 1
@@ -342,7 +344,7 @@ def attack(folder: Path, count: int, seed: int = 0, kinds: tuple[str, ...] = ())
                         outcome.equal += 1
                     case _:
                         where = path.relative_to(damaged)
-                        outcome.errors.append(f"{kind}, {where}, bit {bit}: {state}: {what[:300]}")
+                        outcome.errors.append(f"{kind}, {where}, bit {bit}: {state}: {text[:300]}")
     finally:
         reader.close()
     return outcome

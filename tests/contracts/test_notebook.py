@@ -19,7 +19,7 @@ from deodar.summary import LARGEST, Summary
 STRANGE = "<img src=x onerror=alert(1)> & \x07"
 """Text of a user that is neither markup nor printable."""
 
-FOR_AUTHORS = {"Exact", "ExactQuantity", "PositionUnit", "SettledBatch", "StepInputs", "View"}
+FOR_AUTHORS = {"Exact", "ExactQuantity", "FieldInput", "PositionUnit", "SettledBatch", "StepInputs", "View"}
 """What methods return to those who write kinds, requirements and figures."""
 
 LIMIT = 20_000

@@ -17,6 +17,7 @@ import pytest
 import deodar as dd
 from deodar import codec
 from deodar.errors import DeodarError
+from deodar.experiments import row_line
 from deodar.experiments.results import stored
 from deodar_studio.experiment.experiment_run import ExperimentRun
 from deodar_studio.experiment.open_experiment import OpenExperiment
@@ -269,14 +270,16 @@ def test_a_stored_row_that_was_changed_is_refused_on_replay(folder: Path, repeat
                 await d.do("repeat_trial", trial=2)
                 await d.do("leave_trial")
             await d.do("close_experiment")
-            lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+            lines = file.read_bytes().splitlines(keepends=True)
             changed = [
-                codec.line(row | {"duration": row["duration"] - 1}) + "\n" if row.get("trial") == 2 else line
+                row_line.write(row | {"duration": row["duration"] - 1}, True)
+                if row.get("trial") == 2
+                else line
                 for line in lines
-                for row in [json.loads(line)]
+                for row in [row_line.read(line, True)]
             ]
             assert changed != lines
-            file.write_text("".join(changed), encoding="utf-8")
+            file.write_bytes(b"".join(changed))
             await d.do("open_experiment", path="results/experiment.json")
             with pytest.raises(DeodarError, match="trial 2 gives another row than the stored one"):
                 await d.do("repeat_trial", trial=2)

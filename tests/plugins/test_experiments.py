@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
-from deodar import codec
 from deodar.cli import main
 from deodar.errors import DocumentError, OutputExists
+from deodar.experiments import row_line
 from deodar.experiments.results import EXPERIMENT, ROWS
 from tests.plugins.conftest import Install
 
@@ -122,10 +122,10 @@ def test_a_folder_whose_rows_name_no_package_is_resumed(install: Install, tmp_pa
     experiment, out = _experiment(tmp_path), tmp_path / "out"
     experiment.run(out)
     assert json.loads((out / EXPERIMENT).read_text())["packages"] == {"Spread": "deodar-spread 1.2"}
-    first, *rows = (out / ROWS).read_text().splitlines()
-    document = codec.parse(first)
+    first, *rows = (out / ROWS).read_bytes().splitlines(keepends=True)
+    document = row_line.read(first, True)
     del document["about"]["packages"]
-    (out / ROWS).write_text("\n".join([codec.line(document), *rows]) + "\n")
+    (out / ROWS).write_bytes(b"".join([row_line.write(document, True), *rows]))
     assert experiment.run(out).sizes["trial"] == 1
 
 
@@ -133,7 +133,9 @@ def test_a_folder_of_another_version_of_a_measure_is_not_resumed(install: Instal
     _install(install, "1.2")
     experiment, out = _experiment(tmp_path), tmp_path / "out"
     experiment.run(out)
-    text = (out / ROWS).read_text()
-    (out / ROWS).write_text(text.replace("deodar-spread 1.2", "deodar-spread 1.1"))
+    first, *rows = (out / ROWS).read_bytes().splitlines(keepends=True)
+    document = row_line.read(first, True)
+    document["about"]["packages"] = {"Spread": "deodar-spread 1.1"}
+    (out / ROWS).write_bytes(b"".join([row_line.write(document, True), *rows]))
     with pytest.raises(OutputExists, match="packages differ"):
         experiment.run(out)

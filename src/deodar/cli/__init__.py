@@ -109,13 +109,13 @@ def _warnings_of(command: str) -> Generator[None]:
     with warnings.catch_warnings():
         show = warnings.showwarning
 
-        def shown(message: Warning | str, category: type[Warning], *place: Any, **file: Any) -> None:
+        def printed(message: Warning | str, category: type[Warning], *place: Any, **file: Any) -> None:
             if issubclass(category, RunWarning):
                 print(f"deodar {command}: warning: {message}", file=sys.stderr)
             else:
                 show(message, category, *place, **file)
 
-        warnings.showwarning = shown
+        warnings.showwarning = printed
         yield
 
 

@@ -141,14 +141,22 @@ class Build:
 
     @functools.cached_property
     def key(self) -> Hashable:
-        """A key whose change requires a new program."""
-        entries, distribution = self.doc.entries, self.distribution
+        """A key whose change requires a new program.
+
+        Functions of the user are imported for it, so the document must be trusted.
+        """
+        functions = tuple(e.element.load() for e in self.doc.entries if e.element.external_code())
+        return self.form, functions
+
+    @functools.cached_property
+    def form(self) -> Hashable:
+        """The key without the functions of the user, which it names: nothing is imported for it."""
+        distribution = self.distribution
         return (
-            tuple(sorted(e.structure for e in entries)),
+            tuple(sorted(e.structure for e in self.doc.entries)),
             frozenset(self.doc.connections),
             self.neutral,
             tuple((i, choice) for i, choice in sorted(self.strategies.items()) if choice != EXACT),
-            tuple(e.element.load() for e in entries if e.element.external_code()),
             self.precision,
             self.exact,
             self.batch,
@@ -166,9 +174,9 @@ class Build:
     def continued(self, doc: Document) -> Build:
         """Return what a running program would be built from with another document.
 
-        A leaf of the program stays in it at its neutral value, unless that switches something off. The key is
-        taken over where nothing that it follows from has changed, so that a change of one number is as quick
-        in a large model.
+        A leaf of the program stays in it at its neutral value, unless that switches something off. The form
+        is taken over where nothing that it follows from has changed, so that a change of one number is as
+        quick in a large model.
         """
         before = self.doc.by_id()
         changed = [e for e in doc.entries if e is not before.get(e.id)]
@@ -182,7 +190,7 @@ class Build:
             and all(e.id in before and _alike(before[e.id], e) for e in changed)
             and all(self.omitted(before[e.id]) == new.omitted(e) for e in changed)
         ):
-            new.__dict__.update(key=self.key, neutral=self.neutral, strategies=self.strategies)
+            new.__dict__.update(form=self.form, neutral=self.neutral, strategies=self.strategies)
         return new
 
     def __eq__(self, other: object) -> bool:

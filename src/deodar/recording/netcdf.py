@@ -191,8 +191,8 @@ def read(path: Path) -> xarray.Dataset:
             raise DamagedFile(f"is damaged: it ends before the end of {name!r}")
         values = content[entry.begin : entry.begin + size].view(entry.dtype).reshape(shape)
         checksums = [int(text, 16) for text in str(entry.attributes.pop(CHECKSUMS, "")).split()]
-        data: Any = indexing.LazilyIndexedArray(_CheckedArray(values, name, checksums))
-        variables[name] = xarray.Variable(entry.dims, data, entry.attributes)
+        lazy: Any = indexing.LazilyIndexedArray(_CheckedArray(values, name, checksums))
+        variables[name] = xarray.Variable(entry.dims, lazy, entry.attributes)
     return xarray.Dataset(variables, attrs=attributes)
 
 
@@ -219,9 +219,10 @@ class _Header:
         for _ in self._items(VARIABLE):
             name = self._text()
             dims = [names[self._int()] for _ in range(self._int())]
-            own, dtype = self._attributes(), self._type()
+            array_attributes, dtype = self._attributes(), self._type()
             self._int()  # the size, which follows from the shape
-            entries[name] = _ArrayHeader(dims, own, dtype, offset.unpack(self._take(offset.size))[0])
+            [begin] = offset.unpack(self._take(offset.size))
+            entries[name] = _ArrayHeader(dims, array_attributes, dtype, begin)
         return sizes, attributes, entries
 
     def _items(self, tag: int) -> Iterator[int]:
@@ -231,9 +232,9 @@ class _Header:
         return iter(range(count))
 
     def _attributes(self) -> dict[str, Any]:
-        return {self._text(): self._value() for _ in self._items(ATTRIBUTE)}
+        return {self._text(): self._constant() for _ in self._items(ATTRIBUTE)}
 
-    def _value(self) -> Any:
+    def _constant(self) -> Any:
         dtype, count = self._type(), self._int()
         content = self._padded(count * dtype.itemsize)
         if dtype.kind == "S":

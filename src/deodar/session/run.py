@@ -169,7 +169,7 @@ class Run:
     def continued(self, doc: Document) -> Continued | None:
         """Return how the program continues with another document; None: that needs another program."""
         build = self.build.continued(doc)
-        return Continued(build, changed_leaves(self.doc, doc)) if build == self.build else None
+        return Continued(build, changed_leaves(self.doc, doc)) if build.form == self.build.form else None
 
     def change(self, new: Continued) -> None:
         """Write new values of leaves to the program's vector and arrays, and rebuild constants if needed."""

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
+from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.elements.function import Function
 from deodar.elements.world_ports import Sensor
+from deodar.errors import Untrusted
 from deodar.numerics.axes import Axes
 from deodar.numerics.sigmoids import Linear
 from deodar.session.run import Run
@@ -244,3 +248,19 @@ def test_a_long_run_takes_few_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
     session.step(40_000)
     assert sum(used) == session.tick == 40_000 and used[0] == 20
     assert len(used) < 500, "chunks of the length of the first would be 2000"
+
+
+def test_the_cost_of_a_document_imports_no_function_that_it_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "named_by_a_document.py").write_text("def f(state, inputs, time):\n    return state\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    model = dd.Model("m")
+    model.add(dd.Boost("b"))
+    session = dd.Session(dd.Model(document=model.document, trusted=False))
+    for name in ("named_by_a_document:f", "no_such_module:f"):
+        model.add(Function(name.partition(":")[0], function=name))
+        assert session.cost(model.document) == "recompile"
+    with pytest.raises(Untrusted):
+        session.edit(model.document)
+    assert "named_by_a_document" not in sys.modules
