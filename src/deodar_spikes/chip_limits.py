@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from deodar import regular_file
 from deodar.errors import UnknownName, did_you_mean
 
 FOLDER = Path(__file__).parent / "chips"
@@ -54,5 +55,5 @@ def chip_limits(name: str) -> ChipLimits:
     """
     if name not in chip_names():
         raise UnknownName(f"there is no chip {name!r}", fix=did_you_mean(name, chip_names()))
-    document: dict[str, Any] = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
+    document: dict[str, Any] = tomllib.loads(regular_file.read_text(FOLDER / f"{name}.toml"))
     return ChipLimits(name, **document)

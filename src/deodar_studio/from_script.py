@@ -12,6 +12,7 @@ import tempfile
 import threading
 from pathlib import Path
 
+from deodar import regular_file
 from deodar.errors import OutputError, ParameterError, show
 from deodar.importers.opening import load, require
 from deodar.model.model import Model, save
@@ -37,7 +38,7 @@ class OpenedStudio(Summarised):
 
     def __init__(self, path: Path, command: list[str], folder: Path | None) -> None:
         self.path, self._folder = path, folder
-        self._before = path.read_bytes() if folder is not None else b""
+        self._before = regular_file.read_bytes(path) if folder is not None else b""
         self._lines: list[str] = []
         self._ready = threading.Event()
         self._process = subprocess.Popen(
@@ -88,7 +89,7 @@ class OpenedStudio(Summarised):
         self._listener.join()
         atexit.unregister(self.stop)
         with contextlib.suppress(OSError):
-            if self._folder is not None and self.path.read_bytes() == self._before:
+            if self._folder is not None and regular_file.read_bytes(self.path) == self._before:
                 shutil.rmtree(self._folder)
 
     def wait(self) -> None:

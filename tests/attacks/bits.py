@@ -18,7 +18,7 @@ import shutil
 import tempfile
 import unittest.mock
 import warnings
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Mapping, Sequence
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -47,6 +47,20 @@ class Outcome:
     equal: int = 0
     by_kind: dict[str, int] = dc.field(default_factory=dict[str, int])
     errors: list[str] = dc.field(default_factory=list[str])
+
+    def count(self, kind: str, answers: Sequence[tuple[str, str]], place: str) -> None:
+        """Count what became of one attack on a file of a kind."""
+        self.by_kind[kind] = self.by_kind.get(kind, 0) + 1
+        for state, text in answers:
+            match state:
+                case "refused":
+                    self.refused += 1
+                case "shortened":
+                    self.shortened += 1
+                case "equal":
+                    self.equal += 1
+                case _:
+                    self.errors.append(f"{kind}, {place}: {state}: {text[:300]}")
 
 
 @dc.dataclass(frozen=True)
@@ -310,14 +324,40 @@ def _places(folder: Path, patterns: tuple[str, ...]) -> list[Path]:
     return sorted({p for pattern in patterns for p in folder.glob(pattern) if p.is_file()})
 
 
+def _written(folder: Path, kinds: Sequence[str]) -> None:
+    """Write the files of each kind twice: as they stay, and as they are attacked."""
+    for kind in kinds:
+        (folder / kind / "sound").mkdir(parents=True)
+        KINDS[kind].make(folder / kind / "sound")
+        shutil.copytree(folder / kind / "sound", folder / kind / "damaged")
+
+
+def pipes(folder: Path, seed: int = 0) -> Outcome:
+    """Put a named pipe in the place of one file of each kind after the other: no reader waits for it."""
+    outcome = Outcome()
+    _written(folder, [*KINDS])
+    reader = _Reader(folder)
+    try:
+        for kind, stored in KINDS.items():
+            damaged = folder / kind / "damaged"
+            for path in _places(damaged, stored.attacked):
+                content = path.read_bytes()
+                path.unlink()
+                os.mkfifo(path)
+                answers = reader.read(kind)
+                path.unlink(missing_ok=True)
+                path.write_bytes(content)
+                outcome.count(kind, answers, f"{path.relative_to(damaged)}, a pipe")
+    finally:
+        reader.close()
+    return outcome
+
+
 def attack(folder: Path, count: int, seed: int = 0, kinds: tuple[str, ...] = ()) -> Outcome:
     """Flip single bits of files of each kind in turn."""
     outcome = Outcome()
     chosen = list(kinds or KINDS)
-    for kind in chosen:
-        (folder / kind / "sound").mkdir(parents=True)
-        KINDS[kind].make(folder / kind / "sound")
-        shutil.copytree(folder / kind / "sound", folder / kind / "damaged")
+    _written(folder, chosen)
     reader = _Reader(folder)
     try:
         for number, kind in enumerate(itertools.islice(itertools.cycle(chosen), count)):
@@ -333,18 +373,7 @@ def attack(folder: Path, count: int, seed: int = 0, kinds: tuple[str, ...] = ())
             answers = reader.read(kind)
             if not path.exists() or path.read_bytes() != content:
                 path.write_bytes(content)
-            outcome.by_kind[kind] = outcome.by_kind.get(kind, 0) + 1
-            for state, text in answers:
-                match state:
-                    case "refused":
-                        outcome.refused += 1
-                    case "shortened":
-                        outcome.shortened += 1
-                    case "equal":
-                        outcome.equal += 1
-                    case _:
-                        where = path.relative_to(damaged)
-                        outcome.errors.append(f"{kind}, {where}, bit {bit}: {state}: {text[:300]}")
+            outcome.count(kind, answers, f"{path.relative_to(damaged)}, bit {bit}")
     finally:
         reader.close()
     return outcome

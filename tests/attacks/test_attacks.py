@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import os
 from pathlib import Path
 
 import pytest
@@ -47,6 +48,13 @@ def test_flipped_bits_of_stored_files_give_no_wrong_values(tmp_path: Path) -> No
     outcome = bits.attack(tmp_path, 300, seed=5)
     assert outcome.errors == []
     assert min(outcome.by_kind.values()) == 30 and outcome.refused > 150
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
+def test_no_reader_waits_for_a_named_pipe_in_place_of_a_file(tmp_path: Path) -> None:
+    outcome = bits.pipes(tmp_path)
+    assert outcome.errors == []
+    assert outcome.by_kind.keys() == bits.KINDS.keys() and outcome.refused > 20
 
 
 def test_closed_pages_leave_no_data_in_the_studio(tmp_path: Path) -> None:

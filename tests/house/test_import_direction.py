@@ -19,7 +19,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "errors",
         "plugins docstring declarations",
         "names registry extensions part_type family codec",
-        "credentials sealed npz",
+        "credentials sealed npz regular_file",
         "parameters",
         "leaves part_data",
         "numerics",

@@ -6,7 +6,7 @@ import csv
 from pathlib import Path
 from typing import Any
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import DocumentError, reading
 
 
@@ -25,7 +25,7 @@ def read(path: str | Path) -> list[dict[str, float]]:
     path = Path(path)
     with reading(path, DocumentError):
         try:
-            text = path.read_text(encoding="utf-8-sig")
+            text = regular_file.read_text(path, "utf-8-sig")
         except UnicodeDecodeError:
             raise DocumentError("is not text in UTF-8") from None
         return _table(text) if path.suffix.lower() == ".csv" else _listed(text)

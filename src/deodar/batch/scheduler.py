@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.batch.pool import quiet
 from deodar.cluster import Cluster, slurm_settings
 from deodar.errors import MissingExtra, ParameterError, WorkerError, first_line
@@ -150,7 +150,7 @@ def _slurm(file: Path) -> tuple[Any, int]:
     except ImportError:
         raise MissingExtra("dask-jobqueue", "cluster", "a cluster of SLURM") from None
     try:
-        text = file.read_text(encoding="utf-8")
+        text = regular_file.read_text(file)
         plain = codec.parse(text) if file.suffix.lower() == ".json" else yaml.safe_load(text)
     except (OSError, ValueError, yaml.YAMLError) as error:
         raise ParameterError(f"cannot be read ({first_line(error)})", where=str(file)) from None

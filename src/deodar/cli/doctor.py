@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar import __version__, codec
+from deodar import __version__, codec, regular_file
 from deodar.cli import _options
 from deodar.cli._answer import CommandAnswer
 from deodar.errors import DocumentError
@@ -213,7 +213,7 @@ def _needs(path: str) -> dict[str, Any]:
 
 def _is_experiment(path: Path) -> bool:
     try:
-        content = codec.read(path.read_bytes())
+        content = codec.read(regular_file.read_bytes(path))
     except (DocumentError, OSError):
         return False
     return isinstance(content, dict) and "experiment" in content

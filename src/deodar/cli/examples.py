@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
+from deodar import regular_file
 from deodar.cli import _options
 from deodar.cli._answer import CommandAnswer
 from deodar.errors import UnknownName
@@ -93,7 +94,7 @@ def _copy(args: argparse.Namespace) -> CommandAnswer:
         folder.mkdir()
     targets = [output.claim(folder / path.name, args.force) for path in sources]
     for source, target in zip(sources, targets, strict=True):
-        output.write(target, source.read_bytes())
+        output.write(target, regular_file.read_bytes(source))
     program = {".json": "deodar studio", ".ipynb": "jupyter lab"}.get(targets[0].suffix, "python")
     copied = ", ".join(map(_options.shown, targets))
     text = f"Copied {copied}. Next: {program} {_options.shown(targets[0])}"

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.cli import _options
 from deodar.cli._answer import CommandAnswer
 from deodar.errors import DocumentError
@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> CommandAnswer:
     model = load(args.file)
     _options.apply_set(model, args)
     try:
-        content = args.requirements.read_bytes()
+        content = regular_file.read_bytes(args.requirements)
     except OSError as error:
         raise DocumentError(error.strerror or "cannot be read", where=str(args.requirements)) from None
     tuning = tuning_file(codec.read(content), str(args.requirements))

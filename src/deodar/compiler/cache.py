@@ -22,7 +22,7 @@ import platformdirs
 from jax.experimental import serialize_executable
 from jax.stages import Compiled, Lowered
 
-from deodar import sealed
+from deodar import regular_file, sealed
 from deodar.compiler import hosts
 from deodar.compiler.device import Device
 from deodar.errors import DamagedFile
@@ -122,7 +122,7 @@ def _processor() -> str:
     """Return the processor's instruction sets, if known; a program for other ones would not run."""
     # kept: every program asks twice, and the file takes milliseconds to read
     with contextlib.suppress(OSError):
-        for line in Path("/proc/cpuinfo").read_text().splitlines():
+        for line in regular_file.read_text(Path("/proc/cpuinfo")).splitlines():
             if line.startswith(("flags", "Features")):
                 return line
     return platform.processor()
@@ -131,7 +131,7 @@ def _processor() -> str:
 def _read(path: Path, lowered: Lowered, devices: Sequence[Device]) -> Compiled | None:
     try:
         # checked before it is loaded: a program with one wrong bit may end Python, or compute other numbers
-        payload = sealed.unseal(path.read_bytes())
+        payload = sealed.unseal(regular_file.read_bytes(path))
     except FileNotFoundError:
         return None
     except (OSError, DamagedFile):  # also one of an earlier version, without a seal

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Self, cast
 
-from deodar import codec, plugins
+from deodar import codec, plugins, regular_file
 from deodar.codec import Json, JsonObject
 from deodar.errors import (
     DeodarError,
@@ -234,7 +234,7 @@ class Design(Summarised, Part):
         path = output.location(path)
         with reading(path, DocumentError):
             require_file(path)
-            return cls.from_data(codec.read(path.read_bytes()), path.parent, read)
+            return cls.from_data(codec.read(regular_file.read_bytes(path)), path.parent, read)
 
     @staticmethod
     def schema() -> dict[str, Any]:

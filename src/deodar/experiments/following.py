@@ -9,6 +9,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+from deodar import regular_file
 from deodar.errors import RecordError, first_line
 from deodar.experiments import row_line
 from deodar.experiments.experiment_table import lacks, read_row
@@ -145,7 +146,7 @@ class RowsTail:
             RecordError: the file cannot be read, or a complete line is not a row; the line is named.
         """
         try:
-            with self.path.open("rb") as file:
+            with regular_file.open_binary(self.path) as file:
                 file.seek(self._read)
                 content = file.read()
             whole = content.rfind(b"\n") + 1

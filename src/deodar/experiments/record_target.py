@@ -14,7 +14,7 @@ from pathlib import Path
 
 import xarray
 
-from deodar import codec, sealed
+from deodar import codec, regular_file, sealed
 from deodar.codec import Json, JsonObject
 from deodar.errors import (
     Fix,
@@ -174,7 +174,7 @@ def claimed(
             fix=option("Name another store:", "records", "STORE", "..."),
         )
     place = (codec.line({"store": address.shown}) + "\n").encode()
-    if not (folder / PLACE).is_file() or (folder / PLACE).read_bytes() != place:
+    if not (folder / PLACE).is_file() or regular_file.read_bytes(folder / PLACE) != place:
         output.write(folder / PLACE, place)
     return RecordTarget(address, mark)
 
@@ -261,7 +261,7 @@ def unseen(target: RecordTarget) -> str:
 def stored_place(folder: Path) -> str:
     """Return the address of the store of the rows in a folder, without credentials; empty: there is none."""
     try:
-        return str(codec.parse((folder / PLACE).read_text(encoding="utf-8"))["store"])
+        return str(codec.parse(regular_file.read_text(folder / PLACE))["store"])
     except (OSError, ValueError, LookupError, TypeError):
         return ""
 

@@ -11,7 +11,7 @@ from collections.abc import Generator, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.batch.driver import WorkerWatch
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed_model import require_portable
@@ -169,7 +169,7 @@ def _opened(
 
 def _require_shared(pool: ClusterPool, out: Path) -> None:
     """Raise an error unless every worker sees the folder into which trials write their records."""
-    if not all(pool.everywhere(_sees, out / EXPERIMENT, (out / EXPERIMENT).read_bytes())):
+    if not all(pool.everywhere(_sees, out / EXPERIMENT, regular_file.read_bytes(out / EXPERIMENT))):
         raise WorkerError(
             "trials write records, but a worker does not see the folder of the results",
             where=str(out),
@@ -180,7 +180,7 @@ def _require_shared(pool: ClusterPool, out: Path) -> None:
 def _sees(file: Path, content: bytes) -> bool:
     """Return whether a worker sees a file with this content."""
     try:
-        return file.read_bytes() == content
+        return regular_file.read_bytes(file) == content
     except OSError:
         return False
 
@@ -234,10 +234,10 @@ def _digest_in(folder: Path, doc: Document) -> str:
     try:
         if documents.load(folder / MODEL) != doc:
             return ""
-        document = codec.parse((folder / MODEL).read_text(encoding="utf-8"))
+        document = codec.parse(regular_file.read_text(folder / MODEL))
         arrays = None
         if "arrays" in document:
-            arrays = (folder / document["arrays"]["file"]).read_bytes()
+            arrays = regular_file.read_bytes(folder / document["arrays"]["file"])
             document["arrays"]["file"] = ""
     except (DeodarError, OSError, ValueError):
         return ""
@@ -261,7 +261,7 @@ def load_results(path: str | Path) -> xarray.Dataset:
     """
     folder = output.location(path)
     try:
-        with (folder / ROWS).open("rb") as file:
+        with regular_file.open_binary(folder / ROWS) as file:
             identity, checked = row_line.read_first(file.readline(), ABOUT)
             rows = (row_line.read(line, checked) for line in file if line.endswith(b"\n"))
             return dataset(rows, identity)
@@ -277,7 +277,7 @@ def stored(folder: Path) -> tuple[JsonObject, list[Row]]:
         RecordError: it is not the folder of an experiment, or a line is not a row of it; the line is named.
     """
     try:
-        with (folder / ROWS).open("rb") as file:
+        with regular_file.open_binary(folder / ROWS) as file:
             identity, checked = row_line.read_first(file.readline(), ABOUT)
             lacking = lacks(identity)
             lines = (line for line in file if line.endswith(b"\n"))

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Val
 from pathlib import Path
 from typing import IO, Any, cast
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.codec import Json, JsonObject
 from deodar.errors import DamagedFile, OutputExists, RecordError, first_line
 from deodar.experiments import row_line
@@ -37,7 +37,7 @@ class StoredRows(Mapping[str, Row]):
 
     def __getitem__(self, key: str) -> Row:
         place = self._places[key]
-        with self._path.open("rb") as file:
+        with regular_file.open_binary(self._path) as file:
             file.seek(place)
             return row_line.read(file.readline(), False)
 
@@ -68,7 +68,7 @@ class _InOneReading(ValuesView[Row]):
     def __iter__(self) -> Iterator[Row]:
         if not self._places:
             return
-        with self._path.open("rb") as file:
+        with regular_file.open_binary(self._path) as file:
             for at, line in _places(file):
                 row = row_line.read(line, False)
                 if self._places.get(row.get(KEY)) == at:
@@ -162,7 +162,7 @@ class Rows(Summarised):
             return None
         identity: JsonObject | None = None
         whole, number = 0, 0
-        with self.path.open("rb") as file:
+        with regular_file.open_binary(self.path) as file:
             for at, line in _places(file):
                 whole, number = at + len(line), number + 1
                 row = self._line(line, number)

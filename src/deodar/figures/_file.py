@@ -14,7 +14,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import DeodarError, FigureError, Problem, did_you_mean, show
 from deodar.figures import _encode, _panels, _style, _video
 from deodar.figures._moving import Changing
@@ -213,7 +213,7 @@ class FigureFile(Summarised, Part):
         """
         path = Path(path)
         try:
-            text = path.read_text(encoding="utf-8")
+            text = regular_file.read_text(path)
         except UnicodeDecodeError:
             raise FigureError("is not a text file in UTF-8", where=str(path)) from None
         except OSError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path, PureWindowsPath
 
+from deodar import regular_file
 from deodar.errors import DocumentError
 from deodar.model.document_files import MOST_BYTES
 
@@ -42,7 +43,7 @@ def in_folder(folder: Path) -> Beside:
                 raise DocumentError(
                     f"the file {name!r} has {size / 2**20:.0f} MiB; at most {MOST_BYTES // 2**20} are read"
                 )
-            return path.read_bytes()
+            return regular_file.read_bytes(path)
         except (OSError, ValueError, RuntimeError) as error:
             raise DocumentError(
                 f"the file {name!r} cannot be read: {getattr(error, 'strerror', None) or error}"

@@ -12,7 +12,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from deodar import codec, plugins
+from deodar import codec, plugins, regular_file
 from deodar.errors import UnknownName, did_you_mean
 from deodar.plugins import Plugin
 
@@ -52,7 +52,7 @@ def folder() -> Path:
 def names() -> list[str]:
     """List the documents, in the order in which a reader should see them."""
     order = folder() / "order.txt"
-    first = order.read_text(encoding="utf-8").split() if order.is_file() else []
+    first = regular_file.read_text(order).split() if order.is_file() else []
     stems = [p.stem for place in folders() for p in sorted(place.glob("*.json"))]
     return list(dict.fromkeys([*(n for n in first if n in stems), *stems]))
 
@@ -87,7 +87,7 @@ def parts(name: str) -> list[Path]:
     if name in COURSE:
         return sorted(folder().glob(COURSE[name]))
     own = file(name)
-    text = own.read_text(encoding="utf-8")
+    text = regular_file.read_text(own)
     if own.suffix == ".json":
         arrays = codec.parse(text).get("arrays")
         return [own, own.with_name(arrays["file"])] if arrays else [own]
@@ -136,7 +136,7 @@ def about(name: str) -> dict[str, Any]:
     docstring.
     """
     own = file(name)
-    text = own.read_text(encoding="utf-8")
+    text = regular_file.read_text(own)
     if own.suffix == ".py":
         said = ast.get_docstring(ast.parse(text)) or ""
         return {"title": name.replace("_", " "), "notes": said.partition("\n\n")[0]}

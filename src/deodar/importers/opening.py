@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from types import ModuleType
 
+from deodar import regular_file
 from deodar.errors import DocumentError, reading
 from deodar.importers import examples
 from deodar.importers._beside import in_folder
@@ -54,7 +55,7 @@ def tool_of(path: str | Path) -> ModuleType | None:
     try:
         if not Path(path).is_file():
             return None
-        with open(path, "rb") as file:
+        with regular_file.open_binary(path) as file:
             return tool_for(file.read(HEAD))
     except (OSError, ValueError):
         return None
@@ -91,7 +92,7 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; at most {MOST_BYTES // 2**20} are read")
-        return tool.read(path.read_bytes(), path.name, bugs, in_folder(path.parent))
+        return tool.read(regular_file.read_bytes(path), path.name, bugs, in_folder(path.parent))
 
 
 def load(path: str | Path, trust: bool = False, bugs: bool = False) -> Model:

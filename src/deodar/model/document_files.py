@@ -18,7 +18,7 @@ from typing import Any, BinaryIO, cast
 import numpy as np
 import psutil
 
-from deodar import codec, npz, registry
+from deodar import codec, npz, registry, regular_file
 from deodar.errors import DocumentError, did_you_mean, reading
 from deodar.leaves import parameter_values
 from deodar.model import output, package
@@ -150,11 +150,11 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
         beside = {array_file(text): packed} if packed is not None else {}
         output.write(path, package.pack({f"{path.stem}.json": text.encode(), **beside}))
         return
-    old, new = own_array_file(path.read_bytes() if path.is_file() else b"", path.stem), ""
+    old, new = own_array_file(regular_file.read_bytes(path) if path.is_file() else b"", path.stem), ""
     if packed is not None:
         new = array_file(text)
         place = path.with_name(new)
-        if not (place.is_file() and place.read_bytes() == packed):
+        if not (place.is_file() and regular_file.read_bytes(place) == packed):
             output.write(output.claim(place, force), packed)
     output.write(path, text.encode())
     if old and old != new:
@@ -220,7 +220,7 @@ def load(path: str | Path) -> Document:
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; a document has at most {MOST_BYTES // 2**20}")
-        data = codec.read(path.read_bytes())
+        data = codec.read(regular_file.read_bytes(path))
         return from_data(data, _arrays(data, lambda name: _beside(path.parent / name)))
 
 
@@ -271,7 +271,7 @@ def _beside(path: Path) -> bytes | None:
     if not path.is_file():
         return None
     require_room(path.stat().st_size, path.name)
-    return path.read_bytes()
+    return regular_file.read_bytes(path)
 
 
 def require_room(size: int, name: str) -> None:

@@ -18,7 +18,7 @@ from collections.abc import Callable, Generator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import BinaryIO
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import DocumentError, Fix
 from deodar.model.package_contents import CONTENTS, Contents, PackedFile
 
@@ -67,7 +67,7 @@ def write(path: Path, contents: Contents, files: Mapping[str, Path | bytes]) -> 
                 continue
             entry = _entry(name)
             entry.compress_type = _compression(name)
-            with content.open("rb") as source, z.open(entry, "w", force_zip64=True) as target:
+            with regular_file.open_binary(content) as source, z.open(entry, "w", force_zip64=True) as target:
                 while block := source.read(BLOCK):
                     target.write(block)
 
@@ -76,7 +76,7 @@ def stated_entry(content: Path | bytes) -> PackedFile:
     """Return the size and the SHA-256 of a file or of bytes."""
     if isinstance(content, bytes):
         return PackedFile(len(content), hashlib.sha256(content).hexdigest())
-    with content.open("rb") as file:
+    with regular_file.open_binary(content) as file:
         return PackedFile(content.stat().st_size, hashlib.file_digest(file, "sha256").hexdigest())
 
 
@@ -92,7 +92,7 @@ def _compression(name: str) -> int:
 
 def is_package(path: Path) -> bool:
     """Return whether a file is a zip file, by its first bytes."""
-    with path.open("rb") as file:
+    with regular_file.open_binary(path) as file:
         return is_content(file.read(4))
 
 

@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from deodar import codec
+from deodar import codec, regular_file
 
 STATES = "DEODAR_STATE"
 """The variable of the environment that names another folder than that of the user's states."""
@@ -45,7 +45,7 @@ def listed(name: str) -> tuple[Path, dict[str, str]]:
     folder = Path(os.environ.get(STATES) or platformdirs.user_state_dir("deodar")) / "written"
     file = folder / f"{hashlib.sha256(name.encode()).hexdigest()[:32]}.json"
     try:
-        stored = codec.parse(file.read_bytes().decode())
+        stored = codec.parse(regular_file.read_bytes(file).decode())
         return file, dict(stored["files"]) if stored["script"] == name else {}
     except (OSError, ValueError, LookupError, TypeError):
         return file, {}

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from deodar import plugins, registry
+from deodar import plugins, registry, regular_file
 from deodar.errors import DocumentError, Fix, UnknownName, first_line
 from deodar.model import document_files
 from deodar.model.document import Document
@@ -119,7 +119,7 @@ def _local(source: Path, root: Path, seen: set[Path]) -> set[Path]:
 def _imported(path: Path) -> Iterator[str]:
     """Yield the top names of the modules that a file imports."""
     try:
-        tree = ast.parse(path.read_bytes())
+        tree = ast.parse(regular_file.read_bytes(path))
     except (SyntaxError, ValueError):
         return
     for node in ast.walk(tree):

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
-from deodar import codec, registry
+from deodar import codec, registry, regular_file
 from deodar.errors import DocumentError, Fix
 from deodar.experiments import results
 from deodar.experiments.design import Design
@@ -134,7 +134,7 @@ def _results_folder(place: Path) -> Work:
 
 
 def _experiment(place: Path) -> Work:
-    design, named = _design(place), codec.read(place.read_bytes())
+    design, named = _design(place), codec.read(regular_file.read_bytes(place))
     doc = opening.load(str(design.model)).document
     beside = [place, *_model_files(place, str(named["model"]))]
     kind, _, argument = str(named.get("world", "")).partition(":")
@@ -156,7 +156,7 @@ def _model_files(place: Path, name: str) -> list[Path]:
     if name.startswith(examples.PREFIX):
         return []
     model = _relative(place, name, "the model")
-    arrays = model.with_name(document_files.array_file(model.read_bytes()) or model.name)
+    arrays = model.with_name(document_files.array_file(regular_file.read_bytes(model)) or model.name)
     return [model, arrays] if arrays != model and arrays.is_file() else [model]
 
 
@@ -201,7 +201,7 @@ def _design(place: Path) -> Design:
 def _is_experiment(place: Path) -> bool:
     """Return whether a file is an experiment: JSON with the key `experiment`."""
     try:
-        content = codec.parse(place.read_bytes()) if place.suffix.lower() == ".json" else None
+        content = codec.parse(regular_file.read_bytes(place)) if place.suffix.lower() == ".json" else None
     except ValueError:
         return False
     return isinstance(content, dict) and "experiment" in content

@@ -19,6 +19,7 @@ import numcodecs
 import numpy as np
 import zarr.codecs
 
+from deodar import regular_file
 from deodar.errors import DamagedFile, RecordError
 from deodar.model import output
 from deodar.recording.slabs import Slab
@@ -160,7 +161,7 @@ class ChunkedArray:
 
     def get(self, place: ChunkIndex) -> bytes:
         """Return the content of the file of a chunk."""
-        return self.path(place).read_bytes()
+        return regular_file.read_bytes(self.path(place))
 
     def read(self, place: ChunkIndex, room: np.ndarray | None = None) -> np.ndarray:
         """Return a chunk that may be changed: fill values if there is none.

@@ -16,7 +16,7 @@ import numpy as np
 import psutil
 import xarray
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import (
     DeodarError,
     OutputExists,
@@ -226,7 +226,7 @@ def locate(path: Path) -> tuple[Path, str]:
             "is a table for other programs, and is not read back",
             fix="Write records as .zarr or .nc to plot or repeat them",
         )
-    with path.open("rb") as file:
+    with regular_file.open_binary(path) as file:
         start = file.read(8)
     if start[:3] == b"CDF":
         return path, "netcdf"
@@ -249,13 +249,13 @@ def is_record(path: Path) -> bool:
 def grows(path: Path) -> bool:
     """Return whether a record was written during its run, so that it can be resumed."""
     place, kind = locate(path)
-    return kind == "zarr" and '\\"grows\\"' in (place / "zarr.json").read_text(encoding="utf-8")
+    return kind == "zarr" and '\\"grows\\"' in regular_file.read_text(place / "zarr.json")
 
 
 def is_zarr(path: Path) -> bool:
     """Return whether a folder is a Zarr record of deodar."""
     try:
-        text = (path / "zarr.json").read_text(encoding="utf-8")
+        text = regular_file.read_text(path / "zarr.json")
         return f'"{portable.KEY}"' in text or f'"{KEY}"' in text
     except (OSError, ValueError):
         return False
@@ -318,7 +318,10 @@ def _opened(path: Path, kind: str) -> xarray.Dataset:
         return stored
     # the metadata of the group commit a record that grows; records of earlier versions may lack them
     group = group_file.read(path)
-    members = group.get("consolidated_metadata", {}).get("metadata")
-    stored = xarray.open_zarr(path, zarr_format=3, consolidated=bool(members), decode_cf=False, chunks=None)
-    stored = lazy.lazily(stored, path, members or {}, portable.whole_arrays(group["attributes"]))
+    stored = lazy.opened(path, group)
+    if stored is None:
+        consolidated = "metadata" in group.get("consolidated_metadata", {})
+        stored = xarray.open_zarr(
+            path, zarr_format=3, consolidated=consolidated, decode_cf=False, chunks=None
+        )
     return sound.present(stored, path)

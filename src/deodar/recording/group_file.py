@@ -11,7 +11,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import DamagedFile
 from deodar.model import output
 from deodar.recording import portable
@@ -31,7 +31,7 @@ def content(group: dict[str, Any]) -> bytes:
 
 def prove(folder: Path) -> None:
     """Add the proof to the metadata that another program wrote into a folder."""
-    output.replace(folder / NAME, content(codec.parse((folder / NAME).read_bytes())))
+    output.replace(folder / NAME, content(codec.parse(regular_file.read_bytes(folder / NAME))))
 
 
 def read(folder: Path) -> dict[str, Any]:
@@ -41,7 +41,7 @@ def read(folder: Path) -> dict[str, Any]:
         DamagedFile: the file is not the one that was written.
         OSError: there is none.
     """
-    text = (folder / NAME).read_bytes()
+    text = regular_file.read_bytes(folder / NAME)
     stated = STATED.findall(text)
     written = text.replace(stated[0], NO_PROOF.encode(), 1) if stated else text
     if stated and hashlib.sha256(written).hexdigest().encode() != stated[0]:

@@ -26,7 +26,7 @@ import numpy as np
 import xarray
 import zarr
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import DamagedFile, DeodarError, OutputError, Problem
 from deodar.model import output
 from deodar.recording import group_file, places, portable, writer_lock
@@ -408,7 +408,7 @@ class GrowingRecord:
                 dimension_names=[str(d) for d in stored[name].dims],
                 attributes=dict(stored[name].attrs),
             )
-            member = codec.parse((self.path / name / "zarr.json").read_text(encoding="utf-8"))
+            member = codec.parse(regular_file.read_text(self.path / name / "zarr.json"))
             self._group["consolidated_metadata"]["metadata"][name] = member
             layout["variables"][name] = new["variables"][name]
             layout["coords"] = [*(c for c in layout["coords"] if c != name), name]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import os
 import threading
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,6 +20,7 @@ from xarray.backends import BackendArray
 from xarray.core import indexing
 
 from deodar.errors import RecordError
+from deodar.recording import portable
 from deodar.recording.chunks import ChunkedArray
 
 FEW = 4
@@ -64,7 +65,13 @@ class LazyArray(BackendArray):
         def take(parts: tuple[_Part, ...]) -> None:
             if not hasattr(rooms, "chunk"):
                 rooms.chunk = self.array.empty()
-            chunk = self.array.read(tuple(part.chunk for part in parts), rooms.chunk)
+            try:
+                chunk = self.array.read(tuple(part.chunk for part in parts), rooms.chunk)
+            except OSError as error:
+                where = str(self.array.folder.parent)
+                raise RecordError(
+                    f"{self.array.name} cannot be read: {error.strerror or error}", where=where
+                ) from None
             selected[tuple(part.outer for part in parts)] = chunk[np.ix_(*(part.inner for part in parts))]
 
         places = list(itertools.product(*axes))
@@ -90,26 +97,25 @@ def _parts(places: np.ndarray, size: int) -> list[_Part]:
     ]
 
 
-def lazily(
-    data: xarray.Dataset, path: Path, members: Mapping[str, Any], whole: Container[str]
-) -> xarray.Dataset:
-    """Return a Dataset of a Zarr folder whose arrays are read by threads.
+def opened(path: Path, group: Mapping[str, Any]) -> xarray.Dataset | None:
+    """Return the Dataset of a Zarr folder whose arrays are read by threads, when they are used; None: an
+    array is encoded in another way, as one of texts or of another program.
 
     Args:
-        data: the Dataset as xarray opened it.
         path: its folder.
-        members: metadata of its arrays.
-        whole: names of the arrays that have all of their chunks.
+        group: its metadata, with those of its arrays.
+
+    Raises:
+        RecordError: a coordinate cannot be read.
     """
-    new: dict[str, xarray.Variable] = {}
-    for name in data.variables.keys() - data.indexes.keys():
-        variable, metadata = data.variables[name], members.get(str(name))
-        if metadata is None or not variable.size:
-            continue
-        try:
-            array = ChunkedArray(path / str(name), metadata, str(name) in whole)
-        except (RecordError, TypeError, KeyError):
-            continue  # an array of texts, or of another program: Zarr reads it
-        lazy = indexing.LazilyIndexedArray(LazyArray(array, variable.shape))
-        new[str(name)] = xarray.Variable(variable.dims, lazy, variable.attrs, variable.encoding)
-    return data.assign(new)
+    whole = portable.whole_arrays(group["attributes"])
+    variables: dict[str, xarray.Variable] = {}
+    try:
+        for name, metadata in group["consolidated_metadata"]["metadata"].items():
+            array = ChunkedArray(path / name, metadata, name in whole)
+            values = indexing.LazilyIndexedArray(LazyArray(array, array.shape))
+            attributes, dims = dict(metadata["attributes"]), metadata["dimension_names"]
+            variables[name] = xarray.Variable(dims, values, attributes, {"chunks": array.chunks})
+    except (RecordError, LookupError, TypeError):
+        return None
+    return xarray.Dataset(variables, attrs=dict(group["attributes"]))

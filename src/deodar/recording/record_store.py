@@ -12,6 +12,7 @@ import os
 from pathlib import Path
 from typing import IO, Protocol
 
+from deodar import regular_file
 from deodar.errors import OutputError, RecordError, first_line
 from deodar.model import output
 
@@ -122,7 +123,7 @@ class FolderStore:
     def get(self, name: str) -> bytes | None:
         """Return the content of a file; None: there is no such file."""
         try:
-            return (self.path / name).read_bytes()
+            return regular_file.read_bytes(self.path / name)
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:
@@ -131,7 +132,7 @@ class FolderStore:
     def open(self, name: str) -> IO[bytes]:
         """Open a file."""
         try:
-            return (self.path / name).open("rb")
+            return regular_file.open_binary(self.path / name)
         except OSError as error:
             raise unreadable(str(self.path / name), error) from None
 

@@ -14,7 +14,7 @@ from typing import Any
 import jax
 import numpy as np
 
-from deodar import codec, npz, sealed
+from deodar import codec, npz, regular_file, sealed
 from deodar.codec import JsonObject
 from deodar.compiler import hosts
 from deodar.errors import DamagedFile, RecordError
@@ -102,7 +102,7 @@ def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
 def _opened(path: Path) -> tuple[JsonObject, list[np.ndarray]]:
     where = str(path)
     try:
-        content = path.read_bytes()
+        content = regular_file.read_bytes(path)
     except OSError as error:
         raise RecordError(f"cannot be read: {error.strerror or error}", where=where) from None
     try:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar import regular_file
 from deodar.codec import JsonObject
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes
@@ -79,7 +80,7 @@ class Video(World):
             "period": self.period,
             "loop": self.loop,
         }
-        with open(self.name, "rb") as file:
+        with regular_file.open_binary(self.name) as file:
             return {**description, "sha256": hashlib.file_digest(file, "sha256").hexdigest()}
 
     @classmethod

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import xarray
 
+from deodar import regular_file
 from deodar.errors import Fix, RecordError
 from deodar.model.unit import unit_seconds
 from deodar.recording import places
@@ -110,7 +111,7 @@ def _read(path: Path) -> tuple[np.ndarray, np.ndarray]:
         RecordError: it is not as cedar writes it.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = regular_file.read_text(path).splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise RecordError(f"cannot be read: {error}", where=str(path)) from None
     head = [w.strip() for w in lines[0].split(",")] if lines else []

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from deodar import regular_file
 from deodar.cli._options import shown
 from deodar.model import output
 from deodar_papers.papers import Demonstration, Show
@@ -115,7 +116,7 @@ def _written(video: MovingPicture, name: str, endings: Sequence[str]) -> Mapping
         paths = [Path(folder) / f"{name}{ending}" for ending in endings]
         for path in paths:
             video.write(path)
-        return {path.name: path.read_bytes() for path in paths}
+        return {path.name: regular_file.read_bytes(path) for path in paths}
 
 
 def _tell(show: Show, title: str, video: MovingPicture, name: str, began: float) -> None:

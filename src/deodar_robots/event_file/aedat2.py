@@ -14,6 +14,7 @@ from typing import BinaryIO
 
 import numpy as np
 
+from deodar import regular_file
 from deodar.errors import RunWarning, WorldError
 from deodar_robots.event_file.events import MOST_EVENTS, RecordedEvents, ordered
 
@@ -46,7 +47,7 @@ def read(path: Path, size: tuple[int, int] | None, jaer: bool) -> RecordedEvents
             of a DVS128; and the errors of `ordered`.
     """
     where = str(path)
-    with path.open("rb") as file:
+    with regular_file.open_binary(path) as file:
         begin = _end_of_header(file, where)
         stop = file.seek(0, os.SEEK_END)
         count, rest = divmod(stop - begin, EVENT_BYTES)

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar import regular_file
 from deodar.codec import Json, JsonObject
 from deodar.errors import Problem, WorldError, instance_of
 from deodar.numerics.axes import Axes, Axis
@@ -176,7 +177,7 @@ class EventFile(World):
                 yield Problem(sensor, what)
 
     def describe(self) -> JsonObject:
-        with open(self.name, "rb") as file:
+        with regular_file.open_binary(self.name) as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
         camera: JsonObject = {**dc.asdict(self.camera)}
         return {
@@ -227,7 +228,7 @@ def _format(path: Path) -> str:
     if not path.is_file():  # reading a pipe would wait
         raise WorldError("there is no such file", where=str(path), fix=fix)
     try:
-        with path.open("rb") as file:
+        with regular_file.open_binary(path) as file:
             head = file.read(16)
     except OSError as error:
         raise WorldError(f"cannot be read: {error.strerror}", where=str(path), fix=fix) from None

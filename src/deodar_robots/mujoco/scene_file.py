@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from deodar import regular_file
 from deodar.errors import MissingExtra, WorldError, did_you_mean, first_line
 
 FOLDER = Path(__file__).parent
@@ -100,7 +101,7 @@ class SceneFile:
     def digest(self) -> str:
         """Return a digest of both files."""
         files = [self.scene] if self.robot is None else [self.scene, self.robot]
-        return hashlib.sha256(b"\0".join(file.read_bytes() for file in files)).hexdigest()
+        return hashlib.sha256(b"\0".join(regular_file.read_bytes(file) for file in files)).hexdigest()
 
 
 def compiled(spec: Any, where: Path | None) -> Any:

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import DeodarError, WorldError, did_you_mean
 from deodar.worlds._motor_rule import STOPS_AFTER, MotorRule
 
@@ -167,7 +167,7 @@ def load_robot(path: Path) -> RobotFile:
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise WorldError(f"has {size} bytes; the file of a robot has at most {MOST_BYTES}", str(path))
-        data = codec.read(path.read_bytes())
+        data = codec.read(regular_file.read_bytes(path))
     except OSError as error:
         raise WorldError(f"cannot be read: {error.strerror or error}", where=str(path)) from None
     except WorldError:

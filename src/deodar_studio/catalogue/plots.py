@@ -20,6 +20,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, cast
 
+from deodar import regular_file
 from deodar.errors import UnknownName
 from deodar.extensions import Extensions, requires
 from deodar.plugins import Plugin
@@ -52,7 +53,7 @@ def file(name: str) -> Path | None:
 
 @functools.cache
 def _own() -> dict[str, ModuleType | None]:
-    return dict.fromkeys(OWN.read_text(encoding="utf-8").split())
+    return dict.fromkeys(regular_file.read_text(OWN).split())
 
 
 def _problem(plugin: Plugin, found: Any) -> str:

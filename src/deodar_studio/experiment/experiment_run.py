@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.batch.driver import Staffing
 from deodar.batch.kept_worker import KeptWorker
 from deodar.errors import DeodarError, Problem, RecordError, problems_of
@@ -238,7 +238,7 @@ class ExperimentRun:
         beside = path.with_suffix(".json")
         with self._repeating:
             if path.is_file() and beside.is_file():
-                row = codec.parse(beside.read_text(encoding="utf-8"))
+                row = codec.parse(regular_file.read_text(beside))
             else:
                 line = codec.line(self._again(trial, path))
                 output.write(beside, line.encode(), durable=False)

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.cluster import Cluster
 from deodar.codec import JsonObject
 from deodar.errors import DeodarError, DocumentError, Problem, problems_of
@@ -437,7 +437,10 @@ class OpenExperiment:
         def make() -> dict[Path, bytes]:
             with tempfile.TemporaryDirectory(prefix="deodar-") as private:
                 experiment.save(Path(private) / place.name)
-                return {place.with_name(file.name): file.read_bytes() for file in Path(private).iterdir()}
+                return {
+                    place.with_name(file.name): regular_file.read_bytes(file)
+                    for file in Path(private).iterdir()
+                }
 
         def write() -> None:
             with self._workspace.folder(place) as to:

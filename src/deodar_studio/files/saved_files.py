@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Literal
 
+from deodar import regular_file
 from deodar.errors import DeodarError, OutputError, OutputExists, UnknownName
 from deodar.model import output
 from deodar.model.document import Document
@@ -76,7 +77,7 @@ class SavedFolder:
         """Delete a snapshot or preset."""
         path = self._existing(sort, name)
         try:
-            arrays = own_array_file(path.read_bytes(), path.stem) if sort == "preset" else ""
+            arrays = own_array_file(regular_file.read_bytes(path), path.stem) if sort == "preset" else ""
             path.unlink()
             if arrays:
                 path.with_name(arrays).unlink(missing_ok=True)

@@ -15,7 +15,7 @@ from typing import Any, cast
 import platformdirs
 import psutil
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.codec import JsonObject
 from deodar.errors import DeodarError, OutputError, UnknownName
 from deodar.model import document_files, output
@@ -158,7 +158,7 @@ class StateStore:
 
 def _read(path: Path) -> Any:
     try:
-        return codec.parse(path.read_text(encoding="utf-8"))
+        return codec.parse(regular_file.read_text(path))
     except (OSError, ValueError):
         return None
 

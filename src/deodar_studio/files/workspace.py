@@ -15,6 +15,7 @@ import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from deodar import regular_file
 from deodar.errors import DeodarError, DocumentError, OutputError
 from deodar.importers import opening
 from deodar.model import document_files, output
@@ -122,7 +123,7 @@ class Workspace:
         output.claim(place, True)
         with tempfile.TemporaryDirectory(prefix="deodar-") as private, self.folder(place) as folder:
             document_files.save(doc, Path(private) / place.name)
-            made = {path.name: path.read_bytes() for path in Path(private).iterdir()}
+            made = {path.name: regular_file.read_bytes(path) for path in Path(private).iterdir()}
             old = _array_file(folder, place)
             # the document last, because it refers to the other files
             for name in sorted(made, key=lambda name: name == place.name):

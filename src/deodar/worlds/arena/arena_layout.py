@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.codec import Json, JsonObject
 from deodar.errors import Problem, WorldError, did_you_mean, reading
 from deodar.parameters import real, show
@@ -168,7 +168,7 @@ def _read(path: Path) -> JsonObject:
     with reading(path, WorldError):
         if path.stat().st_size > LARGEST_FILE:
             raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB")
-        arenas = codec.read(path.read_bytes())
+        arenas = codec.read(regular_file.read_bytes(path))
         if not isinstance(arenas, dict):
             raise WorldError(f"holds {show(arenas)}; an arena is an object with walls")
         return arenas

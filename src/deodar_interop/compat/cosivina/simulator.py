@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import (
     DocumentError,
     ModelError,
@@ -330,7 +330,7 @@ class Simulator:
 
 def _content(path: str | Path) -> bytes:
     with reading(path, DocumentError):
-        return Path(path).read_bytes()
+        return regular_file.read_bytes(Path(path))
 
 
 def _warn(what: Sequence[str]) -> None:

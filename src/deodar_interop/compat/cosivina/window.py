@@ -7,6 +7,7 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+from deodar import regular_file
 from deodar.errors import DeodarError, ModelError, RunWarning
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
@@ -99,7 +100,7 @@ class StandardGUI:
 
 def _file(path: str) -> file.Simulator:
     try:
-        return file.parse(Path(path).read_bytes())
+        return file.parse(regular_file.read_bytes(Path(path)))
     except OSError as error:
         raise ValueError(f"{path} cannot be read: {error.strerror}") from None
     except DeodarError as error:

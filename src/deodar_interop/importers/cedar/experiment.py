@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from pathlib import Path
 
-from deodar import codec
+from deodar import codec, regular_file
 from deodar.errors import DocumentError, reading
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.trial import TrialPlan
@@ -69,4 +69,4 @@ def _content(path: Path) -> bytes:
     with reading(path, DocumentError):
         if path.stat().st_size > MOST_BYTES:
             raise DocumentError(f"is larger than {MOST_BYTES // 2**20} MiB")
-        return path.read_bytes()
+        return regular_file.read_bytes(path)

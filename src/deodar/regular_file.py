@@ -1,0 +1,53 @@
+"""Files that are opened by their names: a regular file, or an error.
+
+A named pipe or a device in place of a file would stop the reader for ever, or never end. The file is opened
+without waiting, and looked at after it was opened.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from io import BufferedReader
+
+FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+
+
+def open_binary(path: str | os.PathLike[str]) -> BufferedReader:
+    """Open a file for reading.
+
+    Raises:
+        OSError: the system refused, or it is no regular file.
+    """
+    descriptor = os.open(path, FLAGS)
+    try:
+        mode = os.fstat(descriptor).st_mode
+        if stat.S_ISDIR(mode):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+        if not stat.S_ISREG(mode):
+            raise OSError(errno.EINVAL, "it is not a regular file", str(path))
+        return os.fdopen(descriptor, "rb")
+    except BaseException:
+        os.close(descriptor)
+        raise
+
+
+def read_bytes(path: str | os.PathLike[str]) -> bytes:
+    """Return the content of a file.
+
+    Raises:
+        OSError: the system refused, or it is no regular file.
+    """
+    with open_binary(path) as file:
+        return file.read()
+
+
+def read_text(path: str | os.PathLike[str], encoding: str = "utf-8") -> str:
+    """Return the content of a file of text, its lines end in a line feed.
+
+    Raises:
+        OSError: the system refused, or it is no regular file.
+        UnicodeDecodeError: it is another encoding.
+    """
+    return read_bytes(path).decode(encoding).replace("\r\n", "\n")
