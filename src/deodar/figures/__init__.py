@@ -4,7 +4,7 @@
 `matplotlib.rc_context(dd.figures.RC)`.
 
 A kind of figure of a recorded variable is a module with `ACROSS` (whether time runs across),
-`suits(variable)`, `size(view)`, `fill(place, view)`, and a function named as the module that returns a
+`suits(view)`, `size(view)`, `fill(place, view)`, and a function named as the module that returns a
 `matplotlib.figure.Figure`: `dd.space_time`, `dd.time_course` and so on. No module uses pyplot, so figures
 are objects without global state.
 """
