@@ -1,7 +1,7 @@
 """Files that are opened by their names: a regular file, or an error.
 
-A named pipe or a device in place of a file would stop the reader for ever, or never end. The file is opened
-without waiting, and looked at after it was opened.
+A named pipe or a device in place of a file would stop the reader without end, or never end itself. The file
+is opened without waiting, and its type is read from what was opened.
 """
 
 from __future__ import annotations
