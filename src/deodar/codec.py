@@ -22,6 +22,11 @@ Json: TypeAlias = "bool | int | float | str | Sequence[Json] | Mapping[str, Json
 JsonObject: TypeAlias = dict[str, Json]
 """An object of JSON."""
 
+MOST_VALUES = 4_000_000
+"""Number of values of one text: each takes up to 200 bytes of memory (a guess, many times the largest known
+architecture).
+"""
+
 DEEPEST = 64
 """Largest depth of nesting (a guess, several times that of the deepest known document)."""
 
@@ -132,7 +137,7 @@ def leading(content: str, start: int = 0) -> tuple[Any, int]:
 
 
 def read(content: bytes | str) -> Any:
-    """Read JSON with finite numbers, unique keys and bounded nesting.
+    """Read JSON with finite numbers, unique keys, bounded nesting and at most MOST_VALUES values.
 
     Raises:
         DocumentError: if it is not such JSON; the message states line and column, or all repeated keys.
@@ -152,6 +157,7 @@ def read(content: bytes | str) -> Any:
             raise DocumentError(f"holds the number {digits[:40]}, which is not finite")
         return value
 
+    _require_few(content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content)
     try:
         data = json.loads(
             content, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collect
@@ -181,8 +187,8 @@ def read(content: bytes | str) -> Any:
 def foreign(content: bytes, leading: bool = False) -> Any:
     """Read JSON of another tool.
 
-    A byte order mark, control characters in strings, Latin-1 text, numbers that are not finite and repeated
-    keys (marked, see `repeated`) are accepted.
+    At most MOST_VALUES values. A byte order mark, control characters in strings, Latin-1 text, numbers
+    that are not finite and repeated keys (marked, see `repeated`) are accepted.
 
     Args:
         content: the content of the file.
@@ -192,6 +198,7 @@ def foreign(content: bytes, leading: bool = False) -> Any:
         DocumentError: if it is still not JSON.
     """
     content = content.removeprefix(b"\xef\xbb\xbf")
+    _require_few(content)
     try:
         try:
             written = content.decode(json.detect_encoding(content), "surrogatepass")
@@ -212,6 +219,16 @@ def foreign(content: bytes, leading: bool = False) -> Any:
 
 def _not_json(error: json.JSONDecodeError) -> DocumentError:
     return DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}")
+
+
+def _require_few(content: bytes) -> None:
+    """Refuse a text of more values than are read, before memory is taken for one of them."""
+    values = sum(map(content.count, (b",", b"[", b"{")))
+    if values > MOST_VALUES:
+        raise DocumentError(
+            f"holds about {values:,} values; at most {MOST_VALUES:,} are read",
+            fix="Store large tables of numbers as arrays, in a file of their own",
+        )
 
 
 def _too_deep() -> DocumentError:

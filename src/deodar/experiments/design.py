@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -54,6 +55,9 @@ OF_PLAN = {
     "measures": "measures",
 }
 """For each key of a file that is a parameter of the plan, the name of the parameter."""
+
+MOST_TRIALS = 10_000_000
+"""Largest number of trials (a guess: the list of their levels takes about a gibibyte)."""
 
 SETTINGS = ("limit", "trials", "design", "seed", "every", "record", "world", "dt", "precision")
 """The keys of a file that are neither names nor parts, in the order in which they are shown and written."""
@@ -110,6 +114,11 @@ class Design(Summarised, Part):
             yield "model", f"needs a model or the path of its document, not {show(self.model)}"
         if not isinstance(self.world, (World, str)):
             yield "world", f"needs a world, or text such as arena:blocks, not {show(self.world)}"
+        count = self.trials * (
+            1 if self.design == "random" else math.prod(len(f.labels) for f in self.factors)
+        )
+        if count > MOST_TRIALS:
+            yield "trials", f"gives {count:,} trials; at most {MOST_TRIALS:,} are run"
         names = [p.name for p in (*self.plan.events, *self.factors, *self.plan.measures)]
         for name in dict.fromkeys(names):
             if not name or name in OWN or names.count(name) > 1:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import lzma
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -110,3 +111,16 @@ def test_files_of_other_tools_may_break_the_json_standard() -> None:
     assert data["a"] == 2 and math.isnan(data["b"])
     assert [found.values for found in codec.repeated(data)] == [("x\ty", 2)]
     assert codec.foreign('{"a": "ä"}'.encode("latin-1")) == {"a": "ä"}
+
+
+@pytest.mark.parametrize("reading", [codec.read, codec.foreign])
+def test_a_text_of_too_many_values_is_refused_before_it_is_parsed(
+    reading: Callable[[bytes], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(codec, "MOST_VALUES", 100)
+    assert reading(b"[" + b"{}," * 40 + b"{}]") == [{}] * 41
+    monkeypatch.setattr(codec.json, "loads", None)
+    monkeypatch.setattr(codec.json, "JSONDecoder", None)
+    for item in (b"{}", b"[]", b"1"):
+        with pytest.raises(DocumentError, match=r"holds about .* values; at most 100 are read"):
+            reading(b"[" + (item + b",") * 120 + item + b"]")

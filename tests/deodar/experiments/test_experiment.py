@@ -493,3 +493,16 @@ def test_a_whole_number_of_an_open_parameter_is_written_in_one_way():
 
     assert written(1.0, 2.5) == written(1, 2.5)
     assert '"levels": [1, 2.5]' in written(1.0, 2.5) and '"value": 1}' in written(1.0, 2.5)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"trials": 10**12},
+        {"factors": [Factor(f"f{k}", [0.0, 1.0], "left.amplitude") for k in range(30)]},
+        {"trials": 10**8, "design": "random"},
+    ],
+)
+def test_more_trials_than_are_run_are_refused_before_they_are_listed(changes):
+    with pytest.raises(ParameterError, match=r"gives [\d,]+ trials; at most 10,000,000 are run"):
+        choice(**changes)
