@@ -34,6 +34,12 @@ FunctionArguments = Sequence[Any]
 RANDOM = frozenset(("rand", "randn", "randi", "randperm", "now", "clock", "tic", "toc", "datestr", "input"))
 """Functions whose result differs from run to run."""
 
+MOST_CHARACTERS = 20_000_000
+"""Most characters of one text that a function makes; each takes four bytes."""
+
+MOST_CELLS = 1_000_000
+"""Most cells that a function makes; each takes about two hundred bytes."""
+
 FORMAT = re.compile(r"%(?:%|([-+ 0#]*)(\d{1,3})?(?:\.(\d{1,2}))?([diufeEgGscxX]))")
 
 
@@ -323,10 +329,17 @@ def _sprintf(arguments: FunctionArguments) -> Any:
     return text(formatted(string(arguments[0]), arguments[1:]))
 
 
+def _require_few(count: int, most: int, what: str) -> None:
+    """Refuse a value that a few words of a script would make too large, before memory is taken for it."""
+    if count > most:
+        raise NotRead(f"it makes {count:,} {what}; at most {most:,} are made")
+
+
 def _strcat(arguments: FunctionArguments) -> Any:
     if any(is_cells(a) for a in arguments):
         count = max(a.size for a in arguments if is_cells(a))
         parts = [strings(a) if is_cells(a) else [string(a)] * count for a in arguments]
+        _require_few(sum(len(word) for part in parts for word in part), MOST_CHARACTERS, "characters")
         return cells([text("".join(part)) for part in zip(*parts, strict=True)])
     return text("".join(string(a).rstrip() for a in arguments))
 
@@ -338,6 +351,7 @@ def _cellstr(arguments: FunctionArguments) -> Any:
 
 def _num2cell(arguments: FunctionArguments) -> Any:
     value = arguments[0]
+    _require_few(value.size, MOST_CELLS, "cells")
     array = np.empty(value.size, dtype=object)
     for k, entry in enumerate(value.reshape(-1)):
         array[k] = np.full((1, 1), entry, dtype=value.dtype)
@@ -346,6 +360,7 @@ def _num2cell(arguments: FunctionArguments) -> Any:
 
 def _cell(arguments: FunctionArguments) -> Any:
     size = _sized(arguments, 0.0).shape
+    _require_few(math.prod(size), MOST_CELLS, "cells")
     array = np.empty(size, dtype=object)
     for k in np.ndindex(size):
         array[k] = np.zeros((0, 0))
@@ -389,7 +404,9 @@ def _str2double(arguments: FunctionArguments) -> Any:
 
 
 def _strjoin(arguments: FunctionArguments) -> Any:
-    return text((string(arguments[1]) if len(arguments) > 1 else " ").join(strings(arguments[0])))
+    by, words = string(arguments[1]) if len(arguments) > 1 else " ", strings(arguments[0])
+    _require_few(len(by) * len(words) + sum(map(len, words)), MOST_CHARACTERS, "characters")
+    return text(by.join(words))
 
 
 def _transposed(arguments: FunctionArguments) -> Any:
@@ -411,6 +428,7 @@ def _char(arguments: FunctionArguments) -> Any:
     if is_cells(value):
         rows = strings(value)
         width = max((len(row) for row in rows), default=0)
+        _require_few(width * len(rows), MOST_CHARACTERS, "characters")
         return np.array([list(row.ljust(width)) for row in rows], dtype="<U1").reshape(len(rows), width)
     return joined([[text(" ")[:, :0], value]])
 
@@ -440,7 +458,9 @@ def _strsplit(arguments: FunctionArguments) -> Any:
     by = string(arguments[1]) if len(arguments) > 1 else " "
     if not by:
         raise NotRead("a text is split at nothing")
-    return cells([text(part) for part in string(arguments[0]).split(by)])
+    content = string(arguments[0])
+    _require_few(content.count(by) + 1, MOST_CELLS, "cells")
+    return cells([text(part) for part in content.split(by)])
 
 
 FUNCTIONS: Mapping[str, Callable[[FunctionArguments], Any]] = {
