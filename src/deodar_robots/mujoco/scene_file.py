@@ -138,5 +138,5 @@ def _found(given: str | Path, folder: Path, what: str) -> Path:
 def _read(path: Path) -> Any:
     try:
         return simulator().MjSpec.from_file(str(path))
-    except ValueError as error:
+    except (ValueError, RuntimeError) as error:  # MuJoCo raises the latter for what it cannot allocate
         raise WorldError(f"is not a valid MJCF file: {first_line(error)}", where=str(path)) from None
