@@ -314,7 +314,7 @@ def _write_netcdf(record: xarray.Dataset, path: Path) -> None:
 def _opened(path: Path, kind: str) -> xarray.Dataset:
     if kind == "netcdf":
         stored = netcdf.read(path)
-        portable.require_proof(stored.attrs, netcdf.PROOF in stored.attrs)
+        portable.require_proof(stored.attrs, portable.PROOF in stored.attrs)
         return stored
     # the metadata of the group commit a record that grows; records of earlier versions may lack them
     group = group_file.read(path)

@@ -15,10 +15,9 @@ from deodar import codec, regular_file
 from deodar.errors import DamagedFile
 from deodar.model import output
 from deodar.recording import portable
+from deodar.recording.portable import NO_PROOF, PROOF
 
 NAME = "zarr.json"
-PROOF = "deodar_proof"
-NO_PROOF = "0" * 64
 STATED = re.compile(rb'"' + PROOF.encode() + rb'":\s*"([0-9a-f]{64})"')
 
 

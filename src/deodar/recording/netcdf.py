@@ -21,6 +21,7 @@ from xarray.backends import BackendArray
 from xarray.core import indexing
 
 from deodar.errors import DamagedFile
+from deodar.recording.portable import CHECKSUMS, NO_PROOF, PROOF
 from deodar.recording.slabs import Slab, slabs
 
 LARGEST = 2**32 - 8
@@ -40,11 +41,6 @@ DIMENSION, VARIABLE, ATTRIBUTE = 10, 11, 12
 CHAR, INT, DOUBLE = 2, 4, 6
 TYPES = {"i1": 1, "S1": CHAR, "i2": 3, "i4": INT, "f4": 5, "f8": DOUBLE}
 DTYPES = {number: np.dtype(name).newbyteorder(">") for name, number in TYPES.items()}
-
-CHECKSUMS = "deodar_crc32c"
-PROOF = "deodar_proof"
-NO_PROOF = "0" * 64
-"""Stands for the SHA-256 while it is computed."""
 
 ReadSlab = Callable[[Slab], np.ndarray]
 """Returns a block of an array."""

@@ -30,6 +30,18 @@ VERSION = 3
 PROVEN = 3
 """First version whose files prove what they state: their metadata, and each chunk or block of an array."""
 
+PROOF = "deodar_proof"
+"""Name of the attribute with the SHA-256 of the metadata of a file."""
+
+NO_PROOF = "0" * 64
+"""Stands for the SHA-256 while it is computed."""
+
+CHECKSUMS = "deodar_crc32c"
+"""Name of the attribute of an array of a NetCDF file with the checksums of its blocks."""
+
+OF_FILES = (KEY, PROOF, CHECKSUMS)
+"""Attributes that belong to one file: a Dataset that another program opened has them, too."""
+
 LONGEST = 100
 RESERVED = frozenset(
     [
@@ -290,7 +302,7 @@ def _names(names: list[Hashable]) -> dict[Hashable, str]:
 
 
 def _plain(attributes: Mapping[Any, Any]) -> dict[str, Any]:
-    return {str(k): _json(v) for k, v in attributes.items()}
+    return {str(k): _json(v) for k, v in attributes.items() if k not in OF_FILES}
 
 
 def _json(value: Any) -> Any:

@@ -10,7 +10,7 @@ import xarray
 
 import deodar as dd
 from deodar.errors import DamagedFile, RecordError
-from deodar.recording import files, netcdf
+from deodar.recording import files, netcdf, portable
 
 
 @pytest.fixture
@@ -70,7 +70,7 @@ def test_each_flipped_bit_of_the_header_is_refused(path: Path) -> None:
         path.write_bytes(flipped(path, int(bit)))
         with pytest.raises(DamagedFile):
             # the bits of the name of the proof leave a file without one: `portable` refuses it
-            if netcdf.PROOF not in netcdf.read(path).attrs:
+            if portable.PROOF not in netcdf.read(path).attrs:
                 raise DamagedFile("has no proof")
         path.write_bytes(whole)
 
@@ -97,7 +97,23 @@ def test_a_record_without_the_proof_of_its_version_is_damaged(tmp_path: Path) ->
     model = dd.Model("one")
     model.add(dd.Field("u", []))
     path = dd.save_record(dd.simulate(model, 3), tmp_path / "r.nc")
-    path.write_bytes(path.read_bytes().replace(netcdf.PROOF.encode(), netcdf.PROOF[::-1].encode()))
+    path.write_bytes(path.read_bytes().replace(portable.PROOF.encode(), portable.PROOF[::-1].encode()))
     for read in (files.load_record, files.open_record):
         with pytest.raises(RecordError, match="no proof"):
             read(path)
+
+
+@pytest.mark.parametrize("saved", ["r.nc", "r.zarr"])
+@pytest.mark.parametrize("opened", ["o.nc", "o.zarr"])
+def test_what_another_program_opened_is_saved_without_the_proof_of_its_file(
+    tmp_path: Path, opened: str, saved: str
+) -> None:
+    model = dd.Model("one")
+    model.add(dd.Field("u", []))
+    record = dd.simulate(model, 3)
+    path = dd.save_record(record, tmp_path / opened)
+    with xarray.open_dataset(path, decode_cf=False) as by_another:
+        assert portable.PROOF in by_another.attrs
+        again = dd.load_record(dd.save_record(by_another, tmp_path / saved))
+    assert again.attrs == record.attrs and again.equals(record)
+    assert not any(portable.CHECKSUMS in variable.attrs for variable in again.variables.values())
