@@ -164,7 +164,7 @@ class Selector:
     """Chooses from the samples of a run those of each series.
 
     Args:
-        found: the series.
+        listed: the series.
         thresholds: threshold of each variable with a condition.
 
     Attributes:

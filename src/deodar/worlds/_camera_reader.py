@@ -68,7 +68,7 @@ class CameraReader:
     Args:
         source: what is opened.
         times: how long it may take.
-        wanted: width and height in pixels that the pictures have to have; None: any.
+        size: width and height in pixels that the pictures have to have; None: any.
 
     Attributes:
         size: width and height in pixels.

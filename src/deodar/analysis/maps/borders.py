@@ -205,7 +205,7 @@ class BorderField:
     sides.
 
     Args:
-        found: the map.
+        regime_map: the map.
 
     Raises:
         AnalysisError: the input is not in the middle, or the field has more states than are kept as matrices.

@@ -283,7 +283,7 @@ class selects(Requirement):
         strength: amplitude of each input; None: that of `dd.tune`.
     """
 
-    strength: Annotated[float | None, Recompile(lower=1e-9)] = None
+    strength: Strength = None
     needs_axis: ClassVar[bool] = True
 
     def margin(self, response: FieldResponse) -> np.ndarray:
@@ -302,10 +302,9 @@ class multi_peak(Requirement):
 
     Attributes:
         strength: amplitude of each input; None: that of `dd.tune`.
-        within: its tolerance.
     """
 
-    strength: Annotated[float | None, Recompile(lower=1e-9)] = None
+    strength: Strength = None
     needs_axis: ClassVar[bool] = True
 
     def margin(self, response: FieldResponse) -> np.ndarray:

@@ -397,7 +397,7 @@ def between(kind: str, settings: dict[str, Any], reads: dict[str, Any], puts: st
 
     Args:
         kind: the last part of the type of the step
-        more: its parameters
+        settings: its parameters
         reads: sizes of a field by the slot that reads it; a list for several fields
         puts: the slot of the output that the last field reads
         sizes: sizes of the last field
