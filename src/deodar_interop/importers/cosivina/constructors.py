@@ -13,6 +13,8 @@ import numpy as np
 
 KERNEL = ("kernel", "output")
 SUMS = ("horizontalSum", "verticalSum", "fullSum")
+"""Components that are sums of the input."""
+
 PHASE_PLOT = (
     "samplingPoints",
     "sampledRatesOfChange",

@@ -22,6 +22,7 @@ from deodar.model.kept_presets import KeptPreset, with_presets
 from deodar.model.paths import display
 from deodar_interop.importers._foreign import FreeNames
 from deodar_interop.importers.cosivina import file
+from deodar_interop.importers.cosivina.constructors import SIZES
 from deodar_interop.importers.cosivina.controls import (
     BUTTONS,
     ButtonControl,
@@ -35,7 +36,7 @@ from deodar_interop.importers.cosivina.controls import (
 )
 from deodar_interop.importers.cosivina.responses import Follower, LeafPath, Responses, Unfollowed, aligned
 from deodar_interop.importers.cosivina.translate import Translation
-from deodar_interop.importers.cosivina.values import SIZES, size
+from deodar_interop.importers.cosivina.values import size
 
 PINS = "pins"
 """Key of the layout for pinned sliders."""

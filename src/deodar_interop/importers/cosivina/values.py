@@ -18,6 +18,7 @@ from deodar.numerics.kernels.separable import NARROWEST
 from deodar_interop.importers._axes import LengthAxes
 from deodar_interop.importers._foreign import Foreign
 from deodar_interop.importers._values import LARGEST, ForeignValues
+from deodar_interop.importers.cosivina.constructors import SIZES
 from deodar_interop.importers.cosivina.file import Simulator, array
 
 
@@ -119,8 +120,6 @@ def ticks(periods: Sequence[tuple[float, float]], start: float, step: float) -> 
 
 
 NAMES = ("y", "x", "z", "w")
-
-SIZES = ("size", "inputSize", "outputSize", "stimulusSize")
 
 
 def output_size(e: Foreign, component: str = "") -> tuple[int, ...]:

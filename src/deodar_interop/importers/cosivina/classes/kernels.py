@@ -13,7 +13,7 @@ from deodar.numerics.kernels.separable import Gaussian, Shifted, TruncatedGaussi
 from deodar_interop.importers._element import ElementSignal, translates
 from deodar_interop.importers._piece import Dims, axes
 from deodar_interop.importers.cosivina.classes.stimuli import LETTERS, boundary
-from deodar_interop.importers.cosivina.constructors import components
+from deodar_interop.importers.cosivina.constructors import SUMS, components
 from deodar_interop.importers.cosivina.element import SourceElement
 
 WHOLE = 1e6
@@ -21,9 +21,6 @@ WHOLE = 1e6
 
 ALIKE = 0.1
 """Largest width, as a share of a ring, at which a Gaussian and the sum of its images agree to 1e-6."""
-
-SUMS = ("horizontalSum", "verticalSum", "fullSum")
-"""Components that are sums of the input."""
 
 PADDED = 4.0
 """Padding, in widths, from which the wrapping of a transform has no effect."""
