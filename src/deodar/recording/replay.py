@@ -262,7 +262,7 @@ class RecordReader:
         stamp = writer_lock.stamp(place)
         if stamp == self._stamp:
             return False
-        self._take(files.open_record(self.path))
+        self._take(files.opened(self.path))
         self._stamp = stamp
         return True
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -158,3 +160,16 @@ def test_a_record_written_during_a_run_is_read(tmp_path: Path) -> None:
     u = place(reader, "u.activation")
     for k in (0, 123, 300):
         np.testing.assert_array_equal(reader.frame(u, k, {}), record["u.activation"].values[k])
+
+
+def test_a_chunk_that_is_lost_while_the_record_is_open_is_a_note_and_no_warning(tmp_path: Path) -> None:
+    path = tmp_path / "r.zarr"
+    dd.simulate(model(), 40, record=["u.activation"], out=dd.Output(path))
+    reader = RecordReader(path)
+    assert not reader.notes
+    (path / "u.activation" / "c" / "0" / "0").unlink()
+    os.utime(path / "zarr.json", (0, 0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert reader.refresh()
+    assert "left out" in reader.notes[0]
