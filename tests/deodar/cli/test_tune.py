@@ -75,6 +75,7 @@ def test_json_has_the_same_and_the_status_says_whether_it_is_met(capsys):
             WANTED | {"requirements": [{"detects": {"at": 1, "within": 0}}]},
             "requirements.0.within: is 0",
         ),
+        (WANTED | {"requirements": [{"forgets": {"kind": "rests"}}]}, "forgets has no such parameter"),
         (WANTED | {"parameters": {"u.resting_leve": None}}, "Did you mean 'resting_level'"),
         (WANTED | {"parameters": {LEVEL: [1]}}, "expected (low, high)"),
     ],

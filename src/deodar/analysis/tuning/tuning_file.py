@@ -9,7 +9,7 @@ from typing import Any
 from deodar.analysis.tuning.requirement import REQUIREMENTS, Requirement
 from deodar.errors import DocumentError, Problem, did_you_mean
 from deodar.parameters import show
-from deodar.part_data import from_data
+from deodar.part_data import part_of
 
 OPTIONS = ("field", "strength", "sigma", "inputs", "seed", "budget", "limit")
 """Arguments of `tune` that a file may have."""
@@ -79,4 +79,7 @@ def _requirement(row: Any, where: str, problems: list[Problem]) -> Any:
         problems.append(Problem(where, f"{show(row)} is no requirement", 'Write such as "remembers"'))
         return None
     ((name, values),) = by_name.items()
-    return from_data(values, where, REQUIREMENTS, {}, problems, name)
+    if name not in REQUIREMENTS:
+        problems.append(Problem(where, f"there is no {show(name)} here", did_you_mean(name, REQUIREMENTS)))
+        return None
+    return part_of(REQUIREMENTS[name], values, where, {}, problems)
