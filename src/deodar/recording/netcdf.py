@@ -280,7 +280,9 @@ class _CheckedArray(BackendArray):
         """Return the values of an outer index: a number, slice or array of numbers for each axis."""
         places = [np.arange(n)[k] for k, n in zip(key, self.shape, strict=True)]
         self._check(*_span(places, self._values))
-        chosen = self._values[np.ix_(*map(np.atleast_1d, places))] if places else self._values
+        chosen = np.asarray(self._values)  # a view until its order of bytes is changed: one copy in memory
+        for axis, (k, place) in enumerate(zip(key, places, strict=True)):
+            chosen = chosen[(*[slice(None)] * axis, k if isinstance(k, slice) else np.atleast_1d(place))]
         return chosen.astype(self.dtype).reshape([n for place in places for n in place.shape])
 
     def _check(self, first: int, stop: int) -> None:
