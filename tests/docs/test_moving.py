@@ -20,7 +20,7 @@ def modules(cell: str, listed: str) -> Iterator[str]:
         whole = parent + name if name.startswith(".") else name
         parent = whole.rpartition(".")[0]
         names = re.findall(r"`(\w+)`", listed) if "NAME" in whole else [""]
-        yield from (whole.replace("NAME", each) for each in names)
+        yield from (whole.replace("NAME", last) for last in names)
 
 
 def is_there(module: str) -> bool:
@@ -32,8 +32,8 @@ def is_there(module: str) -> bool:
 
 def moved() -> Iterator[tuple[list[str], list[str]]]:
     for old, new in ROWS:
-        own = new if re.search(r"NAME`: `", new) else old
-        yield list(modules(old, old)), list(modules(new, own))
+        with_names = new if re.search(r"NAME`: `", new) else old
+        yield list(modules(old, old)), list(modules(new, with_names))
 
 
 def test_every_new_module_is_there() -> None:
