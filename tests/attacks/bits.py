@@ -143,13 +143,14 @@ def _programs(folder: Path) -> None:
 
 @contextlib.contextmanager
 def _cache(folder: Path) -> Generator[None]:
-    with unittest.mock.patch.dict(os.environ, {"DEODAR_CACHE": str(folder)}):
+    shared = unittest.mock.patch("deodar.compiler.executable.SHARED_BYTES", -1)  # none of this process
+    with unittest.mock.patch.dict(os.environ, {"DEODAR_CACHE": str(folder)}), shared:
         yield
 
 
 def _with_program(folder: Path) -> np.ndarray:
     """Return activation that stored programs computed; none of the memory of this process is used."""
-    with _cache(folder), unittest.mock.patch("deodar.compiler.executable.SHARED_BYTES", -1):
+    with _cache(folder):
         session = dd.Session(_model())
         session.step(5)
         return session.read("u.activation")
