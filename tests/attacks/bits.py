@@ -272,8 +272,7 @@ def _child(folder: str, connection: Connection) -> None:
     def written(kind: str) -> dict[str, tuple[str, Any]]:
         return _read(kind, root / kind / "sound")
 
-    while True:
-        kind = connection.recv()
+    while kind := connection.recv():
         sound, damaged = written(kind), _read(kind, root / kind / "damaged")
         answers: list[tuple[str, str]] = []
         for name, (state, content) in damaged.items():
@@ -315,7 +314,10 @@ class _Reader:
         return [(state, "")]
 
     def close(self) -> None:
-        """End the process."""
+        """End the process: by asking it, or if it does not answer."""
+        with contextlib.suppress(OSError):
+            self._connection.send("")
+        self._process.join(5)
         self._process.kill()
         self._process.join()
         self._connection.close()
