@@ -68,7 +68,7 @@ def test_a_tuning_is_stopped_and_what_it_refuses_is_said(root: Path) -> None:
         await p.do("stop_tuning")
         await p.until(lambda: tuning(p)["element"] == "")
         for parameters, requirements, what in (
-            (NAMES, ["select"], "unknown requirement 'select'"),
+            (NAMES, ["select"], "there is no 'select' here"),
             (NAMES, [], "expected a list"),
             (["resting_levl"], ["selects"], "resting_levl"),
             (["tau"], ["selects"], "tau"),

@@ -14,7 +14,7 @@ ROWS = [line.strip("| ").split(" | ") for line in IMPORTS.splitlines() if line.s
 
 
 def modules(cell: str, listed: str) -> Iterator[str]:
-    """Yield the modules of a cell: `.name` stands beside the one before, NAME for each listed name."""
+    """Yield the modules of a cell: `.name` is a sibling of the one before, NAME each listed name."""
     parent = ""
     for name in re.findall(r"`(deodar[\w.]*|\.\w+)`", cell):
         whole = parent + name if name.startswith(".") else name

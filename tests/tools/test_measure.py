@@ -115,7 +115,6 @@ def test_only_public_calls_of_scripts_have_eight_and_more_parameters() -> None:
     assert {re.sub(r":\d+", "", place) for place in found} == {
         "deodar/analysis/continuation/continuation.py continuation",
         "deodar/batch/simulate.py simulate",
-        "deodar/compiler/executable.py executable",
         "deodar/gradients/rollout.py rollout",
         "deodar_interop/compat/cosivina/window_controls.py __init__",
     }
