@@ -315,10 +315,10 @@ def test_what_cannot_be_done_is_refused(folder: Path, tmp_path: Path) -> None:
         wrong = view["data"] | {"world": f"arena:{tmp_path / 'outside.json'}"}
         await p.do("edit_experiment", data=wrong, version=view["version"])
         assert "lies outside" in experiment(p)["problems"][0]["what"]
-        many = view["data"] | {"trials": 10**12}
+        many = view["data"] | {"trials": 10**6}
         await p.do("edit_experiment", data=many, version=experiment(p)["version"])
-        assert "4000000000000 trials" in experiment(p)["problems"][0]["what"]
-        assert "4000000000000 trials" in await problem(p, "run_experiment")
+        assert "4000000 trials" in experiment(p)["problems"][0]["what"]
+        assert "4000000 trials" in await problem(p, "run_experiment")
         (folder / "other.json").write_text("{}")
         assert (await p.ask("save_experiment", path="other.json"))["ask"] == "replace"
 

@@ -121,6 +121,6 @@ def test_a_text_of_too_many_values_is_refused_before_it_is_parsed(
     assert reading(b"[" + b"{}," * 40 + b"{}]") == [{}] * 41
     monkeypatch.setattr(codec.json, "loads", None)
     monkeypatch.setattr(codec.json, "JSONDecoder", None)
-    for item in (b"{}", b"[]", b"1"):
+    for entry in (b"{}", b"[]", b"1"):
         with pytest.raises(DocumentError, match=r"holds about .* values; at most 100 are read"):
-            reading(b"[" + (item + b",") * 120 + item + b"]")
+            reading(b"[" + (entry + b",") * 120 + entry + b"]")
