@@ -114,11 +114,8 @@ class Design(Summarised, Part):
             yield "model", f"needs a model or the path of its document, not {show(self.model)}"
         if not isinstance(self.world, (World, str)):
             yield "world", f"needs a world, or text such as arena:blocks, not {show(self.world)}"
-        count = self.trials * (
-            1 if self.design == "random" else math.prod(len(f.labels) for f in self.factors)
-        )
-        if count > MOST_TRIALS:
-            yield "trials", f"gives {count:,} trials; at most {MOST_TRIALS:,} are run"
+        if self.count > MOST_TRIALS:
+            yield "trials", f"gives {self.count:,} trials; at most {MOST_TRIALS:,} are run"
         names = [p.name for p in (*self.plan.events, *self.factors, *self.plan.measures)]
         for name in dict.fromkeys(names):
             if not name or name in OWN or names.count(name) > 1:
@@ -127,6 +124,12 @@ class Design(Summarised, Part):
                 yield "conditions, factors and measures", f"{name!r} {problem}; give each a name of its own"
 
     # ---------------------------------------------------------------------------------------- what it will do
+
+    @property
+    def count(self) -> int:
+        """Number of all trials, without listing them."""
+        combinations = 1 if self.design == "random" else math.prod(len(f.labels) for f in self.factors)
+        return self.trials * combinations
 
     @property
     def cells(self) -> list[tuple[int, ...]]:

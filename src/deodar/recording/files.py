@@ -274,8 +274,7 @@ def _write_zarr(record: xarray.Dataset, path: Path) -> None:
         for name in stored.variables:
             encoding.setdefault(name, {})["compressors"] = COMPRESSORS
         stored.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=encoding)
-    group_file.prove(path)
-    for name, metadata in group_file.read(path)["consolidated_metadata"]["metadata"].items():
+    for name, metadata in group_file.prove(path)["consolidated_metadata"]["metadata"].items():
         array, variable = ChunkedArray(path / name, metadata), sources[name]
         for slab in slabs(variable.shape, portable.BLOCK):
             array.store([part.start for part in slab], variable[slab].values)

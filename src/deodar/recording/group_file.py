@@ -28,9 +28,11 @@ def content(group: dict[str, Any]) -> bytes:
     return text.replace(NO_PROOF.encode(), hashlib.sha256(text).hexdigest().encode(), 1)
 
 
-def prove(folder: Path) -> None:
-    """Add the proof to the metadata that another program wrote into a folder."""
-    output.replace(folder / NAME, content(codec.parse(regular_file.read_bytes(folder / NAME))))
+def prove(folder: Path) -> dict[str, Any]:
+    """Add the proof to the metadata that another program wrote into a folder, and return them."""
+    group = codec.parse(regular_file.read_bytes(folder / NAME))
+    output.replace(folder / NAME, content(group))
+    return group
 
 
 def read(folder: Path) -> dict[str, Any]:

@@ -20,6 +20,7 @@ import xarray
 from xarray.backends import BackendArray
 from xarray.core import indexing
 
+from deodar import regular_file
 from deodar.errors import DamagedFile
 from deodar.recording.portable import CHECKSUMS, NO_PROOF, PROOF
 from deodar.recording.slabs import Slab, slabs
@@ -168,7 +169,8 @@ def read(path: Path) -> xarray.Dataset:
     Raises:
         DamagedFile: its header is not the one that was written, or the file is too short.
     """
-    content: Any = np.memmap(path, np.uint8, "r")
+    with regular_file.open_binary(path) as file:
+        content: Any = np.memmap(file, np.uint8, "r")
     try:
         header = _Header(memoryview(content))
         sizes, attributes, entries = header.read()

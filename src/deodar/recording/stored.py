@@ -7,6 +7,7 @@ Files of earlier versions have no seal.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -76,7 +77,7 @@ def header(path: Path) -> JsonObject:
         RecordError: there is no such file.
         DamagedFile: it is damaged.
     """
-    return _opened(path)[0]
+    return _opened(path, arrays=False)[0]
 
 
 def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
@@ -99,7 +100,8 @@ def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
     return metadata, arrays
 
 
-def _opened(path: Path) -> tuple[JsonObject, list[np.ndarray]]:
+def _opened(path: Path, arrays: bool = True) -> tuple[JsonObject, list[np.ndarray]]:
+    """Return the text and the arrays of a state; without `arrays` the text alone, the first entry."""
     where = str(path)
     try:
         content = regular_file.read_bytes(path)
@@ -107,7 +109,8 @@ def _opened(path: Path) -> tuple[JsonObject, list[np.ndarray]]:
         raise RecordError(f"cannot be read: {error.strerror or error}", where=where) from None
     try:
         proven = sealed.is_sealed(content)
-        named = dict(npz.arrays(sealed.unseal(content) if proven else content))
+        entries = npz.arrays(sealed.unseal(content) if proven else content)
+        named = dict(entries if arrays else itertools.islice(entries, 1))
         metadata = codec.parse(named.pop(HEADER).tobytes().decode())
         if not isinstance(metadata, dict):
             raise ValueError("its text is not an object")

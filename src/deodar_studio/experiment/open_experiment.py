@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import dataclasses as dc
 import hashlib
-import math
 import os
 import tempfile
 import time
@@ -186,12 +185,9 @@ class OpenExperiment:
     def _setup(self) -> Setup:
         trust = self._project.trust
         found = self._experiment(Model(document=self._document(), trusted=trust))
-        count = found.trials * (
-            1 if found.design == "random" else math.prod(len(f.sets) for f in found.factors)
-        )
-        if count > MOST_TRIALS:
+        if found.count > MOST_TRIALS:
             fix = f"The command deodar experiment runs more than {MOST_TRIALS} trials"
-            raise DocumentError(f"has {count} trials", where="trials", fix=fix)
+            raise DocumentError(f"has {found.count} trials", where="trials", fix=fix)
         return dc.replace(found, world=self._world(str(found.world))).setup(trust)
 
     def _world(self, named: str) -> str:
