@@ -14,6 +14,8 @@ def test_content_is_read_and_other_files_are_errors_at_once(tmp_path: Path) -> N
     (tmp_path / "text").write_bytes(b"one\r\ntwo\n")
     assert regular_file.read_text(tmp_path / "text") == "one\ntwo\n"
     assert regular_file.read_bytes(tmp_path / "text") == b"one\r\ntwo\n"
+    with regular_file.open_binary(tmp_path / "text") as file:
+        assert file.name == str(tmp_path / "text"), "messages and other readers name it by this"
     with pytest.raises(FileNotFoundError):
         regular_file.read_bytes(tmp_path / "none")
     with pytest.raises(IsADirectoryError):

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from deodar.batch import on_cluster, scheduler
 from deodar.batch.on_cluster import ClusterPool
 from deodar.cluster import Cluster
-from deodar.errors import DeodarError
+from deodar.errors import DamagedFile, DeodarError
 from deodar.experiments.jobs import Job, run_jobs
 from deodar.experiments.merging import merge_results
 from deodar.experiments.results import ROWS, load_results
@@ -221,3 +221,14 @@ def test_a_damaged_file_of_rows_is_read_or_refused_by_name(tmp_path_factory, who
         except DeodarError as error:
             message = str(error)
         assert not message or str(folder) in message
+
+
+def test_a_row_with_another_digit_is_refused_with_its_file_and_line(tmp_path, whole):
+    for name in ("experiment.json", "model.json"):
+        (tmp_path / name).write_bytes((whole / name).read_bytes())
+    first, second, *rest = (whole / ROWS).read_bytes().splitlines(True)
+    changed = second.replace(b'"duration": 100', b'"duration": 900', 1)
+    assert changed != second
+    (tmp_path / ROWS).write_bytes(b"".join([first, changed, *rest]))
+    with pytest.raises(DamagedFile, match=r"trials\.jsonl: line 2 is not a row .* that of another line"):
+        load_results(tmp_path)
