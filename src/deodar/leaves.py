@@ -6,7 +6,7 @@ import dataclasses as dc
 import functools
 import math
 import typing
-from collections.abc import Callable, Container, Hashable, Iterator, Sequence, Sized
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence, Sized
 from typing import Any, TypeVar
 
 import numpy as np
@@ -17,36 +17,46 @@ from deodar.parameters import FrozenArray, Parameter, Part, PerAxis, parameter, 
 
 P = TypeVar("P", bound=Part)
 T = TypeVar("T")
+LeafValue = tuple[str, float | np.ndarray, Parameter]
+"""The path of a leaf, its value, and the declaration of its parameter."""
 
 
 # ---------------------------------------------------------------------------------------------- traced leaves
 
 
 def leaves(
-    part: Part, prefix: str = "", only: Container[str] | None = None
-) -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
+    part: Part, prefix: str = "", of: Callable[[type[Part]], Iterable[Parameter]] = parameters
+) -> Iterator[LeafValue]:
     """Yield (path, value, declaration) of every traced leaf, including nested parts: `kernel.0.sigma`.
 
-    `only` restricts the parameters to these names.
+    Args:
+        part: the part.
+        prefix: what stands before each path.
+        of: the parameters of a class that are asked, at any depth.
     """
-    for p in parameters(type(part)):
-        if only is not None and p.name not in only:
-            continue
-        value, path = getattr(part, p.name), prefix + p.name
-        if value is None:
-            continue
-        if p.form == "part":
-            yield from leaves(value, path + ".")
-        elif p.form == "parts":
-            for i, item in enumerate(value):
-                yield from leaves(item, f"{path}.{i}.")
-        elif p.traced:
-            if p.form == "numbers":
-                yield from ((f"{path}.{name}", number, p) for name, number in value)
-            elif isinstance(value, tuple):
-                yield from ((f"{path}.{i}", v, p) for i, v in enumerate(typing.cast(Any, value)))
-            else:
-                yield path, (value.data if isinstance(value, FrozenArray) else value), p
+    for p in of(type(part)):
+        yield from parameter_leaves(p, getattr(part, p.name), prefix, of)
+
+
+def parameter_leaves(
+    p: Parameter, value: Any, prefix: str = "", of: Callable[[type[Part]], Iterable[Parameter]] = parameters
+) -> Iterator[LeafValue]:
+    """Yield the traced leaves of one parameter, as `leaves` does."""
+    path = prefix + p.name
+    if value is None:
+        return
+    if p.form == "part":
+        yield from leaves(value, path + ".", of)
+    elif p.form == "parts":
+        for i, item in enumerate(value):
+            yield from leaves(item, f"{path}.{i}.", of)
+    elif p.traced:
+        if p.form == "numbers":
+            yield from ((f"{path}.{name}", number, p) for name, number in value)
+        elif isinstance(value, tuple):
+            yield from ((f"{path}.{i}", v, p) for i, v in enumerate(typing.cast(Any, value)))
+        else:
+            yield path, (value.data if isinstance(value, FrozenArray) else value), p
 
 
 def bind(part: P, values: Callable[[str], Any], prefix: str = "") -> P:
@@ -161,31 +171,30 @@ class StepLimit:
 
 def step_limits(part: Part) -> Iterator[StepLimit]:
     """Yield every parameter whose role limits the Euler step, including nested parts."""
-    only = _may_limit(type(part))
     return (
         StepLimit(path, value, p.role)
-        for path, value, p in leaves(part, only=only)
+        for path, value, p in leaves(part, of=_may_limit)
         if p.role in LIMITING and isinstance(value, float)
     )
 
 
 @functools.cache
-def _may_limit(cls: type[Part]) -> frozenset[str]:
-    return frozenset(p.name for p in parameters(cls) if p.role in LIMITING or p.form in ("part", "parts"))
+def _may_limit(cls: type[Part]) -> tuple[Parameter, ...]:
+    return tuple(p for p in parameters(cls) if p.role in LIMITING or p.form in ("part", "parts"))
 
 
 def resting(part: Part) -> dict[str, Parameter]:
     """Return the leaves that have their declared neutral value, with their declarations."""
     return {
         path: p
-        for path, value, p in leaves(part, only=_may_rest(type(part)))
-        if p.neutral is not None and np.ndim(value) == 0 and value == p.neutral
+        for path, value, p in leaves(part, of=_may_rest)
+        if p.neutral is not None and not isinstance(value, np.ndarray) and value == p.neutral
     }
 
 
 @functools.cache
-def _may_rest(cls: type[Part]) -> frozenset[str]:
-    return frozenset(p.name for p in parameters(cls) if p.neutral is not None or p.form in ("part", "parts"))
+def _may_rest(cls: type[Part]) -> tuple[Parameter, ...]:
+    return tuple(p for p in parameters(cls) if p.neutral is not None or p.form in ("part", "parts"))
 
 
 def is_neutral(value: Any) -> bool:
