@@ -31,7 +31,7 @@ def leaves(
 
     Args:
         part: the part.
-        prefix: what stands before each path.
+        prefix: the beginning of each path.
         of: the parameters of a class that are asked, at any depth.
     """
     for p in of(type(part)):

@@ -79,23 +79,33 @@ def connected(cluster: Cluster, stack: contextlib.ExitStack, look: Callable[[], 
 
 
 def _local(processes: int, stack: contextlib.ExitStack) -> Any:
-    """Start a scheduler in this process, and the processes of `local:N`."""
+    """Start a scheduler in this process, and the processes of `local:N`.
+
+    Their ports are open to every user of the machine, and a client of one can run programs in it: they require
+    a certificate that exists in these processes alone, and none of them serves pages.
+    """
     # an extra
     import dask.config
 
     # the main script is hidden as long as processes may start: a new one takes the place of a dead one
     with quiet(main=True):
-        settings = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES}
+        settings = {
+            "distributed.scheduler.allowed-failures": ALLOWED_FAILURES,
+            "distributed.scheduler.http.routes": [],
+        }
         with dask.config.set(settings):
             cluster = _library().LocalCluster(
                 n_workers=0,
                 threads_per_worker=1,
                 processes=True,
                 host="127.0.0.1",
+                security=_own_certificate(),
                 dashboard_address="127.0.0.1:0",
+                scheduler_kwargs={"dashboard": False},
                 silence_logs=logging.CRITICAL,
                 memory_limit=0,
                 env={"NPROC": "1"},
+                config={"distributed.worker.http.routes": []},
                 preload=["deodar.batch.cluster_task"],
             )
     stack.callback(_closed, cluster)
@@ -103,6 +113,14 @@ def _local(processes: int, stack: contextlib.ExitStack) -> Any:
     stack.enter_context(quiet(main=False, signals=False))
     cluster.scale(processes)
     return cluster
+
+
+def _own_certificate() -> Any:
+    """Return a certificate of this process, which its workers get when they start."""
+    try:
+        return _library().Security.temporary()
+    except ImportError:
+        raise MissingExtra("cryptography", "cluster", "processes of a cluster on this machine") from None
 
 
 def _await_port(cluster: Cluster, look: Callable[[], None]) -> None:
