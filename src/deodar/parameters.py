@@ -143,40 +143,14 @@ class Part(metaclass=PartType):
     """The base class of parts: a frozen dataclass whose annotations are read by `parameters`."""
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Part:
-        known = [p.name for p in parameters(cls)]
-        for name in kwargs:
-            if name not in known:
-                raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, known))
-        if len(args) > len(positional(cls)):
-            raise ParameterError(
-                f"{cls.__name__} takes {len(positional(cls))} values by position, not {len(args)}",
-                fix=f"In this order: {', '.join(positional(cls))}; the others by name",
-            )
+        require_known(cls, args, kwargs)
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
-        problems: list[Problem] = []
-        for p in parameters(type(self)):
-            given = getattr(self, p.name)
-            if isinstance(p.default, Needed) and (given is None or isinstance(given, Needed)):
-                problems.append(
-                    Problem(
-                        f"{type(self).__name__}.{p.name}",
-                        f"{type(self).__name__} needs {p.name}",
-                        _call(type(self), p),
-                    )
-                )
-                continue
-            try:
-                # an unchanged object is kept, so that changes can be detected by identity
-                if not _same(stored := normal(p, given), given):
-                    object.__setattr__(self, p.name, stored)
-            except ValueError as error:
-                problems.append(Problem(f"{type(self).__name__}.{p.name}", str(error)))
-        if not problems:
-            problems += [Problem(f"{type(self).__name__}.{where}", what) for where, what in self.validate()]
+        problems = [*set_normal(self)] or [Problem(where, what) for where, what in self.validate()]
         if problems:
-            raise ParameterError(problems)
+            kind = type(self).__name__
+            raise ParameterError([dc.replace(p, where=f"{kind}.{p.where}") for p in problems])
 
     def validate(self) -> Iterator[tuple[str, str]]:
         """Cross-parameter checks: yield (parameter, what is wrong). Override in subclasses."""
@@ -203,6 +177,34 @@ class Part(metaclass=PartType):
 
     def __dir__(self) -> list[str]:
         return sorted({*dir(type(self)), *(p.name for p in parameters(type(self)))})
+
+
+def require_known(cls: type[Any], args: Sequence[Any], values: Mapping[str, Any]) -> None:
+    """Refuse a call with a name that is no parameter of a class, or with too many values by position."""
+    known = [p.name for p in parameters(cls)]
+    for name in values:
+        if name not in known:
+            raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, known))
+    if len(args) > len(positional(cls)):
+        raise ParameterError(
+            f"{cls.__name__} takes {len(positional(cls))} values by position, not {len(args)}",
+            fix=f"In this order: {', '.join(positional(cls))}; the others by name",
+        )
+
+
+def set_normal(part: Any) -> Iterator[Problem]:
+    """Give each parameter of a new object its stored form; yield the problems of those that have none."""
+    for p in parameters(type(part)):
+        given = getattr(part, p.name)
+        if isinstance(p.default, Needed) and (given is None or isinstance(given, Needed)):
+            yield Problem(p.name, f"{type(part).__name__} needs {p.name}", _call(type(part), p))
+            continue
+        try:
+            # an unchanged object is kept, so that changes can be detected by identity
+            if not _same(stored := normal(p, given), given):
+                object.__setattr__(part, p.name, stored)
+        except ValueError as error:
+            yield Problem(p.name, str(error))
 
 
 def _call(cls: type[Any], last: Parameter) -> str:

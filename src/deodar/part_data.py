@@ -16,8 +16,8 @@ WHOLE = 2.0**53
 """Whole numbers below it are the same in float64 and as an integer."""
 
 
-def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -> JsonObject:
-    """Return plain data of a part: its kind, and every parameter that differs from its default.
+def to_data(part: Any, kind: bool = True, without: Sequence[str] = ("name",)) -> JsonObject:
+    """Return plain data of a part or an axis: its kind, and every parameter that differs from its default.
 
     Parameters in `without` are left out: they are stored elsewhere.
     """

@@ -18,7 +18,7 @@ from typing import Any, BinaryIO, cast
 import numpy as np
 import psutil
 
-from deodar import codec, npz, registry, regular_file
+from deodar import codec, npz, part_data, registry, regular_file
 from deodar.errors import DocumentError, did_you_mean, reading
 from deodar.leaves import parameter_values
 from deodar.model import output, package
@@ -71,7 +71,7 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     data: dict[str, Any] = {"deodar": VERSION, "name": doc.name, "time_unit": doc.time_unit}
     data |= {} if doc.dt is None else {"dt": doc.dt}
     data |= {} if doc.t0 == 0 else {"t0": doc.t0}
-    data["axes"] = {key: axis_data(axis) for key, axis in table.items()}
+    data["axes"] = {key: part_data.to_data(axis, kind=False, without=()) for key, axis in table.items()}
     data |= {
         "parameters": shared,
         "elements": elements,
@@ -192,17 +192,6 @@ def _key(table: dict[str, Any], base: str, shared: Any) -> str:
         key = f"{base}_{n}"
     table[key] = shared
     return key
-
-
-def axis_data(axis: Axis) -> dict[str, Any]:
-    """Return an axis as plain data."""
-    out: dict[str, Any] = {
-        "name": axis.name,
-        "lower": axis.lower,
-        "upper": axis.upper,
-        "samples": axis.samples,
-    }
-    return out | ({"periodic": True} if axis.periodic else {}) | ({"unit": axis.unit} if axis.unit else {})
 
 
 # --------------------------------------------------------------------------------------------------------- in
@@ -332,7 +321,6 @@ __all__ = [
     "array_file",
     "arrays",
     "axes",
-    "axis_data",
     "axis_key",
     "dumps",
     "from_data",

@@ -24,7 +24,7 @@ def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, A
     for p in parameters(cls):
         if p.name == "name":
             continue
-        form: dict[str, Any] = _schema_form(p, reference)
+        form: dict[str, Any] = form_schema(p, reference)
         if p.optional:
             form = {"oneOf": [form, {"type": "null"}]}
         for key, value in (("minimum", p.lower), ("maximum", p.upper)):
@@ -45,7 +45,8 @@ def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, A
     }
 
 
-def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
+def form_schema(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
+    """Return the JSON Schema of the values of a parameter, without its range."""
     number: dict[str, Any] = {"type": "number"}
     match p.form:
         case "number":

@@ -126,22 +126,14 @@ class _Reader:
 
     def axes(self) -> dict[str, Axis]:
         out: dict[str, Axis] = {}
-        properties = ("name", "lower", "upper", "samples", "periodic", "unit")
         for key, axis in self.table("axes").items():
             if not isinstance(axis, dict):
                 self.problem(f"axes.{key}", f"needs an object, not {show(axis)}")
                 continue
-            values = cast("dict[str, Any]", axis)
-            strange = [k for k in values if k not in properties]
-            missing = [k for k in ("lower", "upper", "samples") if k not in values]
-            if strange or missing:
-                fault = f"has no {missing[0]}" if missing else f"{strange[0]!r} is no property of an axis"
-                self.problem(f"axes.{key}", fault, did_you_mean(strange[0], properties) if strange else "")
-                continue
             try:
-                arguments: dict[str, Any] = {"name": key} | values
+                arguments: dict[str, Any] = {"name": key} | axis
                 out[key] = Axis(**arguments)
-            except AxesError as error:
+            except (AxesError, UnknownName) as error:
                 self.problems += [Problem(f"axes.{key}", p.what, p.fix) for p in error.problems]
         return out
 

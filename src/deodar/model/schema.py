@@ -9,8 +9,9 @@ from deodar import codec, registry
 from deodar.element import Element
 from deodar.model import output
 from deodar.model.document import READS, VERSION
-from deodar.model.parts import schema
-from deodar.parameters import Part
+from deodar.model.parts import form_schema, schema
+from deodar.numerics.axes import Axis
+from deodar.parameters import Part, parameters
 
 SHIPPED = Path(__file__).with_name("document.schema.json")
 """The generated schema, part of the package; `python tools/generate.py` writes it."""
@@ -43,12 +44,8 @@ def document_schema() -> dict[str, Any]:
     axis: dict[str, Any] = {
         "type": "object",
         "properties": {
-            "name": {"type": "string"},
-            "lower": {"type": "number"},
-            "upper": {"type": "number"},
-            "samples": {"type": "integer", "minimum": 1},
-            "periodic": {"type": "boolean"},
-            "unit": {"type": "string"},
+            p.name: form_schema(p, reference) | ({} if p.lower is None else {"minimum": p.lower})
+            for p in parameters(Axis)
         },
         "required": ["lower", "upper", "samples"],
         "additionalProperties": False,

@@ -96,11 +96,10 @@ class _Script:
         if self.encoded:
             yield "    arrays = np.load(io.BytesIO(base64.b64decode(ARRAYS)))"
         for axis, name in self.axes.items():
-            named: dict[str, Code] = {"samples": str(axis.samples)}
-            named |= {"periodic": "True"} if axis.periodic else {}
-            named |= {"unit": text(axis.unit)} if axis.unit else {}
-            axis_call = call("dd.Axis", text(axis.name), number(axis.lower), number(axis.upper), **named)
-            yield lines(Prefixed(f"{name} = ", axis_call), 4)
+            declared = [p for p in parameters(Axis) if not _is_default(p, getattr(axis, p.name))]
+            values = {p.name: self._value(p, getattr(axis, p.name)) for p in declared}
+            first = [values.pop(key) for key in ("name", "lower", "upper")]
+            yield lines(Prefixed(f"{name} = ", call("dd.Axis", *first, **values)), 4)
         general: dict[str, Code] = {}
         general |= {} if self.doc.time_unit == "ms" else {"time_unit": text(self.doc.time_unit)}
         general |= {} if self.doc.dt is None else {"dt": number(self.doc.dt)}

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 
-from deodar.errors import AxesError, Problem, UnknownName, did_you_mean
+from deodar.declarations import Recompile
+from deodar.errors import AxesError, Problem
 from deodar.numerics import units
-from deodar.parameters import FrozenArray, is_text, real, show
+from deodar.parameters import FrozenArray, positional, require_known, set_normal, show
 from deodar.summary import Summarised, Summary
 
 MOST_SAMPLES = 1_000_000
@@ -31,7 +32,7 @@ origin (a guess).
 """
 
 
-@dataclass(frozen=True, repr=False)
+@dc.dataclass(frozen=True, repr=False)
 class Axis(Summarised):
     """A metric dimension with its sampling.
 
@@ -50,22 +51,16 @@ class Axis(Summarised):
     name: str
     lower: float
     upper: float
-    samples: int
+    samples: Annotated[int, Recompile(lower=1, upper=MOST_SAMPLES)]
     periodic: bool = False
     unit: str = ""
 
     def __new__(cls, *args: Any, **values: Any) -> Self:
-        names = ("name", "lower", "upper", "samples", "periodic", "unit")
-        strange = [key for key in values if key not in names]
-        if strange:
-            raise UnknownName(f"an axis has no {strange[0]!r}", fix=did_you_mean(strange[0], names))
-        missing = [key for key in names[len(args) : 4] if key not in values]
-        if missing or len(args) > len(names):
-            problem = (
-                f"needs {', '.join(missing)}" if missing else f"takes {len(names)} values, not {len(args)}"
-            )
+        require_known(cls, args, values)
+        missing = [name for name in positional(cls)[len(args) : 4] if name not in values]
+        if missing:
             raise AxesError(
-                problem,
+                f"needs {', '.join(missing)}",
                 where=f"axis {show(args[0] if args else values.get('name', ''))}",
                 fix="For example Axis('x', 0, 100, samples=101)",
             )
@@ -73,45 +68,31 @@ class Axis(Summarised):
 
     def __reduce__(self) -> tuple[type[Self], tuple[Any, ...]]:
         """Copy and pickle by the values, which are checked again on reading."""
-        return type(self), (self.name, self.lower, self.upper, self.samples, self.periodic, self.unit)
+        return type(self), dc.astuple(self)
 
     def __post_init__(self) -> None:
-        for key in ("lower", "upper"):
-            bound = real(getattr(self, key))
-            if bound is None or not math.isfinite(bound):
-                raise AxesError(
-                    f"{key} needs a finite number, not {show(getattr(self, key))}",
-                    where=f"axis {show(self.name)}",
-                )
-            object.__setattr__(self, key, bound)
-        problems: list[Problem] = []
         where = f"axis {show(self.name)}"
-        if not isinstance(self.name, str) or not self.name or not is_text(self.name):
-            problems.append(Problem("axis", f"needs a name, not {show(self.name)}"))
+        faults = {p.where: p.what for p in set_normal(self)}
+        problems = [Problem(where, f"{name} {what}") for name, what in faults.items()]
+        if self.name == "":
+            problems.append(Problem("axis", "needs a name"))
+        if not {"samples", "periodic"} & faults.keys() and self.samples < 2 and not self.periodic:
+            problems.append(Problem(where, f"samples is 1; expected 2 to {MOST_SAMPLES}"))
+        if not {"lower", "upper"} & faults.keys():
+            problems += self._bounds(where)
+        if problems:
+            raise AxesError(problems)
+
+    def _bounds(self, where: str) -> Iterator[Problem]:
         farthest = max(abs(self.lower), abs(self.upper))
         if not self.lower < self.upper:
-            problems.append(Problem(where, f"lower {self.lower:g} is not below upper {self.upper:g}"))
+            yield Problem(where, f"lower {self.lower:g} is not below upper {self.upper:g}")
         elif farthest > FARTHEST or self.range < max(farthest, 1 / FARTHEST) * FINEST:
             problem = (
                 f"{self.lower:g}..{self.upper:g} cannot be sampled: single precision does not distinguish"
                 " its samples"
             )
-            problems.append(Problem(where, problem, "Choose another unit, or an origin nearer to the values"))
-        if isinstance(self.samples, bool) or not isinstance(self.samples, (int, np.integer)):
-            problems.append(Problem(where, f"samples needs a whole number, not {show(self.samples)}"))
-        elif not (1 if self.periodic else 2) <= self.samples <= MOST_SAMPLES:
-            least = "1" if self.periodic else "2"
-            problems.append(
-                Problem(where, f"samples is {show(self.samples)}; expected {least} to {MOST_SAMPLES}")
-            )
-        else:
-            object.__setattr__(self, "samples", int(self.samples))
-        if not isinstance(self.periodic, (bool, np.bool_)):
-            problems.append(Problem(where, f"periodic needs true or false, not {show(self.periodic)}"))
-        if not isinstance(self.unit, str) or not is_text(self.unit):
-            problems.append(Problem(where, f"unit needs text, not {show(self.unit)}"))
-        if problems:
-            raise AxesError(problems)
+            yield Problem(where, problem, "Choose another unit, or an origin nearer to the values")
 
     @property
     def range(self) -> float:

@@ -240,7 +240,7 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     ),
     "an axis without an end": (
         b'{"deodar": 1, "axes": {"x": {"lower": 1, "samples": 5}}, "elements": {}}',
-        ("axes.x: has no upper",),
+        ("axes.x: needs upper",),
     ),
     "a value out of range": (
         b'{"deodar": 1, "elements": {"u": {"kind": "Field", "tau": 0}}}',

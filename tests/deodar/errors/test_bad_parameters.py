@@ -237,7 +237,7 @@ CASES: dict[str, Case] = {
     ),
     # axes
     "axis: no name": (lambda: dd.Axis("", 0, 1, 2), AxesError, ("needs a name",)),
-    "axis: a name of numbers": (lambda: dd.Axis(1, 0, 1, 2), AxesError, ("needs a name, not 1",)),
+    "axis: a name of numbers": (lambda: dd.Axis(1, 0, 1, 2), AxesError, ("axis 1: name needs text, not 1",)),
     "axis: upside down": (
         lambda: dd.Axis("x", 1, 0, 2),
         AxesError,
@@ -246,9 +246,9 @@ CASES: dict[str, Case] = {
     "axis: of no length": (lambda: dd.Axis("x", 1, 1, 2), AxesError, ("lower 1 is not below upper 1",)),
     "axis: nan": (lambda: dd.Axis("x", NAN, 1, 2), AxesError, ("lower needs a finite number, not nan",)),
     "axis: infinite": (lambda: dd.Axis("x", 0, INF, 2), AxesError, ("upper needs a finite number, not inf",)),
-    "axis: text": (lambda: dd.Axis("x", "0", 1, 2), AxesError, ("lower needs a finite number, not '0'",)),
-    "axis: none": (lambda: dd.Axis("x", None, 1, 2), AxesError, ("lower needs a finite number, not None",)),
-    "axis: complex": (lambda: dd.Axis("x", 1j, 1, 2), AxesError, ("lower needs a finite number",)),
+    "axis: text": (lambda: dd.Axis("x", "0", 1, 2), AxesError, ("lower needs a number, not '0'",)),
+    "axis: none": (lambda: dd.Axis("x", None, 1, 2), AxesError, ("lower needs a value",)),
+    "axis: complex": (lambda: dd.Axis("x", 1j, 1, 2), AxesError, ("lower needs a number, not 1j",)),
     "axis: huge": (lambda: dd.Axis("x", 0, 10**400, 2), AxesError, ("upper needs a finite number",)),
     "axis: overflowing": (lambda: dd.Axis("x", -1e308, 1e308, 2), AxesError, ("cannot be sampled",)),
     "axis: finer than its numbers": (
@@ -260,10 +260,18 @@ CASES: dict[str, Case] = {
     "axis: no sample": (
         lambda: dd.Axis("x", 0, 1, 0, periodic=True),
         AxesError,
-        ("samples is 0; expected 1 to 1000000",),
+        ("samples is 0, below its lower bound 1",),
     ),
-    "axis: too many samples": (lambda: dd.Axis("x", 0, 1, 10**7), AxesError, ("samples is 10000000",)),
-    "axis: absurdly many samples": (lambda: dd.Axis("x", 0, 1, 10**5000), AxesError, ("samples is int",)),
+    "axis: too many samples": (
+        lambda: dd.Axis("x", 0, 1, 10**7),
+        AxesError,
+        ("samples is 1e+07, above its upper bound 1e+06",),
+    ),
+    "axis: absurdly many samples": (
+        lambda: dd.Axis("x", 0, 1, 10**5000),
+        AxesError,
+        ("samples needs a whole number, not int",),
+    ),
     "axis: half samples": (
         lambda: dd.Axis("x", 0, 1, 2.5),
         AxesError,
