@@ -71,15 +71,7 @@ class MovingGaussian(Stimulus):
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
-        return (
-            {
-                "center": starting.middle(axes),
-                "sigma": starting.one_or_each(starting.widths(axes)),
-                "amplitude": starting.STRENGTH,
-            }
-            if axes
-            else {"amplitude": starting.STRENGTH}
-        )
+        return starting.bump(axes, "sigma")
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if isinstance(self.waypoints, FrozenArray):

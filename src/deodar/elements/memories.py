@@ -147,9 +147,28 @@ class MemoryTrace(Element):
 EMPTY = ("zero", "nan")
 
 
+@dataclass(frozen=True)
+class StoredSamples(Element):
+    """The base class of histories: samples of the input over an axis of slots; subclasses say which."""
+
+    name: str = ""
+    axes: Sequence[Axis] = ()
+    slots: Axis = needed("slot")
+
+    def outputs(self, ins: PortAxes) -> PortAxes:
+        return {"output": (self.slots, *self.axes)}
+
+    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
+        if self.slots.name in [a.name for a in self.axes]:
+            yield (
+                f"the slots are called {self.slots.name!r} like an axis of the input",
+                "Give the axis of the slots another name",
+            )
+
+
 @register
 @dataclass(frozen=True)
-class History(Element):
+class History(StoredSamples):
     r"""A running history of the input: the newest sample first, the oldest dropped.
 
     Equation:
@@ -172,21 +191,8 @@ class History(Element):
         no reference
     """
 
-    name: str = ""
-    axes: Sequence[Axis] = ()
-    slots: Axis = needed("slot")
     interval: Annotated[float, Live("time", role="duration", exact=True, lower=1e-6)] = 1.0
     empty: Annotated[str, Recompile(choices=EMPTY)] = "zero"
-
-    def outputs(self, ins: PortAxes) -> PortAxes:
-        return {"output": (self.slots, *self.axes)}
-
-    def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
-        if self.slots.name in [a.name for a in self.axes]:
-            yield (
-                f"the slots are called {self.slots.name!r} like an axis of the input",
-                "Give the axis of the slots another name",
-            )
 
     def undefined(self) -> Sequence[str]:
         return ("output",) if self.empty == "nan" else ()
@@ -225,7 +231,7 @@ class History(Element):
 
 @register
 @dataclass(frozen=True)
-class SampledHistory(Element):
+class SampledHistory(StoredSamples):
     r"""The input, sampled at stated times and stored; see `History` for the recent past.
 
     Equation:
@@ -251,21 +257,11 @@ class SampledHistory(Element):
         no reference
     """
 
-    name: str = ""
-    axes: Sequence[Axis] = ()
-    slots: Axis = needed("slot")
     times: Annotated[ArrayLike, Rebuild("time", role="moment")] = FrozenArray([1.0, 5.0, 10.0])
     empty: Annotated[str, Recompile(choices=EMPTY)] = "zero"
 
-    def outputs(self, ins: PortAxes) -> PortAxes:
-        return {"output": (self.slots, *self.axes)}
-
     def validate_axes(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
-        if self.slots.name in [a.name for a in self.axes]:
-            yield (
-                f"the slots are called {self.slots.name!r} like an axis of the input",
-                "Give the axis of the slots another name",
-            )
+        yield from super().validate_axes(ins)
         given = self.times.shape if isinstance(self.times, FrozenArray) else ()
         if given != (self.slots.samples,):
             yield (

@@ -194,15 +194,7 @@ class GaussianStimulus(Stimulus):
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
-        return (
-            {
-                "center": starting.middle(axes),
-                "sigma": starting.one_or_each(starting.widths(axes)),
-                "amplitude": starting.STRENGTH,
-            }
-            if axes
-            else {"amplitude": starting.STRENGTH}
-        )
+        return starting.bump(axes, "sigma")
 
     def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
         yield from super().validate_axes(ins)
@@ -267,10 +259,7 @@ class BoxStimulus(Stimulus):
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
-        if not axes:
-            return {"amplitude": starting.STRENGTH}
-        width = starting.one_or_each(tuple(2 * sigma for sigma in starting.widths(axes)))
-        return {"center": starting.middle(axes), "width": width, "amplitude": starting.STRENGTH}
+        return starting.bump(axes, "width", 2)
 
     def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)

@@ -36,6 +36,20 @@ def one_or_each(values: tuple[float, ...]) -> PerAxis:
     return values[0] if values and len(set(values)) == 1 else values
 
 
+def bump(axes: Axes, width: str, sigmas: float = 1) -> dict[str, PerAxis]:
+    """Return the values of a new input around one position; its amplitude alone without axes.
+
+    Args:
+        axes: the axes of the input.
+        width: name of the parameter of its width.
+        sigmas: the width in sigma, as in `widths`.
+    """
+    if not axes:
+        return {"amplitude": STRENGTH}
+    wide = one_or_each(tuple(sigmas * sigma for sigma in widths(axes)))
+    return {"center": middle(axes), width: wide, "amplitude": STRENGTH}
+
+
 def hill(axes: Axes, at: float = 0.5) -> np.ndarray:
     """Return a Gaussian of height 1 over the axes, centred at a share of each range."""
     out = np.ones(shape(axes))
