@@ -31,10 +31,10 @@ and what a function counts without any (guesses).
 """
 
 
-def read(file: Path) -> list[str]:
-    """Return the functions that a table names, once for each row."""
+def read(file: Path, column: str = "test") -> list[str]:
+    """Return the functions, or another column, of a table, once for each row."""
     with file.open(encoding="utf-8", newline="") as text:
-        return [row["test"] for row in csv.DictReader(text)]
+        return [row[column] for row in csv.DictReader(text)]
 
 
 def scores(durations: Mapping[str, Duration], kills: Iterable[str]) -> dict[frozenset[str], float]:

@@ -43,7 +43,12 @@ def test_the_floor_is_taken_before_the_others() -> None:
 def test_the_tables_name_tests_that_exist_and_the_choice_keeps_the_budget() -> None:
     rows, kills, floor = durations.read(), verdict.read(verdict.KILLS), verdict.read(verdict.FLOOR)
     gone = [name for name in (*kills, *floor) if not durations.exists(name)]
-    assert not gone, f"kills.csv or floor.csv name tests that are gone: {gone[:5]}"
+    gone += [
+        file
+        for file in verdict.read(verdict.FLOOR, "file")
+        if not (durations.FILE.parents[1] / file).is_file()
+    ]
+    assert not gone, f"kills.csv or floor.csv name tests or files that are gone: {gone[:5]}"
     names = verdict.chosen(rows, kills, floor)
     fixtures = {fixture for name in names for fixture in rows[name].fixtures if fixture in rows}
     assert sum(rows[name].seconds for name in names | fixtures) <= verdict.BUDGET + 0.1
