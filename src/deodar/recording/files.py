@@ -273,7 +273,10 @@ def _write_zarr(record: xarray.Dataset, path: Path) -> None:
         sources = portable.sources(record, stored)
         for name in stored.variables:
             encoding.setdefault(name, {})["compressors"] = COMPRESSORS
-        stored.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=encoding)
+        # Zarr leaves out chunks of its fill value; all chunks are written below
+        unset = {n: np.full((), np.nan if v.dtype.kind == "f" else 0, v.dtype) for n, v in stored.items()}
+        hollow = stored.copy(data={n: np.broadcast_to(v, stored[n].shape) for n, v in unset.items()})
+        hollow.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=encoding)
     for name, metadata in group_file.prove(path)["consolidated_metadata"]["metadata"].items():
         array, variable = ChunkedArray(path / name, metadata), sources[name]
         for slab in slabs(variable.shape, portable.BLOCK):
