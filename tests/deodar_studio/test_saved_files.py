@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar import regular_file
 from deodar.errors import DeodarError
 from deodar_studio.files.saved_files import SavedFolder
 from deodar_studio.files.workspace import Workspace
@@ -102,6 +103,18 @@ def test_a_deleted_preset_takes_no_arrays_of_another_one(root: Path) -> None:
     assert dd.load(root / "presets/pattern/gain 0.5.json").document == model.document
     folder.remove("preset", "gain 0.5")
     assert list((root / "presets/pattern").iterdir()) == []
+
+
+def test_a_preset_that_cannot_be_read_is_deleted(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = SavedFolder(Workspace(root), "m")
+    path = folder.save_preset("locked", dd.Model("m").document)
+
+    def refuse(path: Path) -> bytes:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(regular_file, "read_bytes", refuse)
+    folder.remove("preset", "locked")
+    assert not path.exists()
 
 
 def test_a_snapshot_of_another_model_is_refused_and_the_run_goes_on(root: Path) -> None:

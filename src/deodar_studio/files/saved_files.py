@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
 import re
 from collections.abc import Callable
@@ -74,10 +75,13 @@ class SavedFolder:
         return load_snapshot(self._existing("snapshot", name), trust)
 
     def remove(self, sort: Sort, name: str) -> None:
-        """Delete a snapshot or preset."""
-        path = self._existing(sort, name)
+        """Delete a snapshot or preset; a preset that cannot be read without its arrays."""
+        path, content = self._existing(sort, name), b""
+        if sort == "preset":
+            with contextlib.suppress(OSError):
+                content = regular_file.read_bytes(path)
+        arrays = own_array_file(content, path.stem)
         try:
-            arrays = own_array_file(regular_file.read_bytes(path), path.stem) if sort == "preset" else ""
             path.unlink()
             if arrays:
                 path.with_name(arrays).unlink(missing_ok=True)
