@@ -218,12 +218,10 @@ class CommandInbox:
 
     def offer(self, motor: str, raw: bytes) -> None:
         """Take a message for a motor, or count why it is not taken."""
-        try:
-            message = WireMessage.from_bytes(raw)
-        except BadMessage:
-            self.counts["bad"] += 1
-            return
         with self._lock:
+            message = self._message(raw)
+            if message is None:
+                return
             refused = self._refused(motor, message)
             self.counts[refused or "accepted"] += 1
             if refused:
@@ -236,14 +234,9 @@ class CommandInbox:
 
     def end(self, raw: bytes) -> None:
         """Take the message that ends the commands of a period; its parts are the number of commands."""
-        try:
-            message = WireMessage.from_bytes(raw)
-        except BadMessage:
-            self.counts["bad"] += 1
-            return
         with self._lock:
-            if not self._commander or message.commander != self._commander:
-                self.counts["foreign"] += 1
+            message = self._message(raw)
+            if message is None:
                 return
             if message.sequence <= self._ended:
                 self.counts["old"] += 1
@@ -254,14 +247,9 @@ class CommandInbox:
 
     def halt(self, raw: bytes) -> None:
         """Take the message that puts all motors to rest: forget the commands up to its number."""
-        try:
-            message = WireMessage.from_bytes(raw)
-        except BadMessage:
-            self.counts["bad"] += 1
-            return
         with self._lock:
-            if not self._commander or message.commander != self._commander:
-                self.counts["foreign"] += 1
+            message = self._message(raw)
+            if message is None:
                 return
             self._halted = max(self._halted, message.sequence)
             self._newest = {m: c for m, c in self._newest.items() if c.sequence > self._halted}
@@ -271,10 +259,20 @@ class CommandInbox:
         with self._lock:
             return {m: c for m, c in self._newest.items() if sequence is None or c.sequence == sequence}
 
+    def _message(self, raw: bytes) -> WireMessage | None:
+        """Return a message of the present commander; None, and a count, for another one."""
+        try:
+            message = WireMessage.from_bytes(raw)
+        except BadMessage:
+            self.counts["bad"] += 1
+            return None
+        if self._commander and message.commander == self._commander:
+            return message
+        self.counts["foreign"] += 1
+        return None
+
     def _refused(self, motor: str, message: WireMessage) -> str:
-        """Return why a command is not accepted; empty: it is."""
-        if not self._commander or message.commander != self._commander:
-            return "foreign"
+        """Return why a command of the commander is not accepted; empty: it is."""
         signal = self._motors.get(motor)
         if signal is None:
             return "unknown"
