@@ -221,6 +221,11 @@ class Given:
         there = layout(node.axes(port)) if dims is None else dims
         self.draft.outlets[of or self.id, port] = PartOutput(part, component, there, state, free)
 
+    def carry(self, part: FilePart) -> None:
+        """Let a part take the input of the entry, and show its output."""
+        self.take(part)
+        self.show(part)
+
     def take(
         self, part: FilePart, port: str = "input", slot: int = 0, *, of: str = "", dims: Dims | None = None
     ) -> None:

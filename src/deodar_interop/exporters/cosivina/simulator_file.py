@@ -145,7 +145,7 @@ def write(model: Model, name: str) -> Exported:
             b.drop(f"cosivina has no {type(entry.element).__name__}")
             continue
         try:
-            writer(b)
+            writer(b, entry.element)
         except Unwritable as error:
             b.drop(str(error))
         else:

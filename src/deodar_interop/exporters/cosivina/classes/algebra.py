@@ -34,10 +34,8 @@ def logistic(b: Given, found: SigmoidFunction) -> tuple[float, float]:
     return Logistic().beta, threshold
 
 
-def gain(b: Given) -> None:
+def gain(b: Given, element: Gain) -> None:
     """Write ScaleInput; with the sum before it, SumDimension or DiagonalSum."""
-    element = b.element
-    assert isinstance(element, Gain)
     factor = element.factor
     for before in b.draft.followers(b.id, "sum"):
         wires = b.draft.wires.into.get((b.id, "input"), [])
@@ -46,12 +44,10 @@ def gain(b: Given) -> None:
                 return sum_dimension(b, before, factor)
             if isinstance(before.element, DiagonalSum):
                 return diagonal_sum(b, before, factor)
-    part = b.sized("ScaleInput", {"amplitude": factor})
-    b.take(part)
-    b.show(part)
+    b.carry(b.sized("ScaleInput", {"amplitude": factor}))
 
 
-def total(b: Given) -> None:
+def total(b: Given, element: Sum) -> None:
     """Write SumInputs; a sum of timed boosts, or of a shifted input and its border, is one element."""
     sources = [c.source for c in b.draft.wires.into.get((b.id, "input"), [])]
     boosts = [e for e in b.draft.followers(b.id, "period") if isinstance(e.element, Boost)]
@@ -64,27 +60,24 @@ def total(b: Given) -> None:
         and isinstance(border[0].element, Pattern)
     ):
         return shift_input(b, moved[0], border[0])
-    part = b.sized("SumInputs", {}, sums=True)
-    b.take(part)
-    b.show(part)
+    b.carry(b.sized("SumInputs", {}, sums=True))
 
 
-def product(b: Given) -> None:
+def product(b: Given, element: Product) -> None:
     """Write PointwiseProduct; with a gate that opens at times, TimedSwitch."""
     wires = b.draft.wires.into.get((b.id, "factor"), [])
     for gate in b.draft.followers(b.id, "on"):
-        element = gate.element
+        opening = gate.element
         if (
-            isinstance(element, Boost)
-            and element.amplitude == 1
-            and element.windows
+            isinstance(opening, Boost)
+            and opening.amplitude == 1
+            and opening.windows
             and [c.source for c in wires] == [gate.id]
             and b.draft.readers(gate.id) == 1
         ):
             b.claim([gate])
-            part = b.sized("TimedSwitch", {"onTimes": periods(b, element.windows)})
-            b.take(part)
-            b.show(part)
+            part = b.sized("TimedSwitch", {"onTimes": periods(b, opening.windows)})
+            b.carry(part)
             return
     part = b.sized("PointwiseProduct", {})
     ports = [c.target_port for c in b.draft.doc.connections if c.target == b.id]
@@ -94,10 +87,8 @@ def product(b: Given) -> None:
     b.show(part)
 
 
-def sigmoid(b: Given) -> None:
+def sigmoid(b: Given, element: Sigmoid) -> None:
     """Write Sigmoid or HalfWaveRectification."""
-    element = b.element
-    assert isinstance(element, Sigmoid)
     found = element.sigmoid
     if found == SemiLinear(1.0, 0.0):
         part = b.sized("HalfWaveRectification", {})
@@ -106,20 +97,16 @@ def sigmoid(b: Given) -> None:
         part = b.sized("Sigmoid", {"beta": beta, "threshold": threshold})
     else:
         raise Unwritable(f"cosivina has no {type(found).__name__} of an input; it has the Logistic")
-    b.take(part)
-    b.show(part)
+    b.carry(part)
 
 
-def delay(b: Given) -> None:
+def delay(b: Given, element: Delay) -> None:
     """Write a register: an element that passes its input on is read a step later by those before it."""
-    element = b.element
-    assert isinstance(element, Delay)
     part = b.sized("SumInputs", {}, sums=True)
     if element.initial:
         b.say("initial", "dropped", "cosivina begins with 0")
         b.approximate(f"it begins with 0, not with {element.initial:g}")
-    b.take(part)
-    b.show(part)
+    b.carry(part)
 
 
 KINDS = {Gain: gain, Sum: total, Product: product, Sigmoid: sigmoid, Delay: delay}

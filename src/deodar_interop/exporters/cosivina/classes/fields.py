@@ -20,10 +20,8 @@ from deodar_interop.exporters.cosivina.inverse import inverse
 from deodar_interop.exporters.cosivina.layout import size
 
 
-def field(b: Given) -> None:
+def field(b: Given, element: Field) -> None:
     """Write NeuralField; kernels, global inhibition and noise of the field are elements of their own."""
-    element = b.element
-    assert isinstance(element, Field)
     beta, threshold = logistic(b, element.sigmoid)
     values = {"tau": element.tau, "h": element.resting_level - threshold, "beta": beta}
     part = b.sized("NeuralField", values, sums=True)
@@ -41,7 +39,7 @@ def field(b: Given) -> None:
     b.take(part)
     for component in ("output", "activation"):
         b.show(part, component, component)
-    field_kernels(b, part)
+    field_kernels(b, element, part)
     if element.noise:
         noise = noise_part(
             b, tuple(element.axes), element.noise, element.noise_length, label=f"noise {b.label}"
@@ -49,10 +47,8 @@ def field(b: Given) -> None:
         b.inner(part, noise, after=None)
 
 
-def rate_node(b: Given) -> None:
+def rate_node(b: Given, element: RateNode) -> None:
     """Write SingleNodeDynamics."""
-    element = b.element
-    assert isinstance(element, RateNode)
     beta, threshold = logistic(b, element.sigmoid)
     if threshold:
         b.say("sigmoid", "approximated", "cosivina's threshold is 0; the resting level is lower by it")
@@ -73,10 +69,8 @@ def rate_node(b: Given) -> None:
         b.show(part, port, component)
 
 
-def memory_trace(b: Given) -> None:
+def memory_trace(b: Given, element: MemoryTrace) -> None:
     """Write MemoryTrace, whose rates are per step."""
-    element = b.element
-    assert isinstance(element, MemoryTrace)
     if element.graded or element.gated or element.fades:
         what = [name for name in ("graded", "gated", "fades") if getattr(element, name)]
         for name in what:
@@ -90,15 +84,12 @@ def memory_trace(b: Given) -> None:
         inverse(lambda v: max(v * step, 1e-6), t, t / step) for t in (element.tau_build, element.tau_decay)
     )
     part = b.sized("MemoryTrace", {"tauBuild": build, "tauDecay": decay, "threshold": element.threshold})
-    b.take(part)
-    b.show(part)
+    b.carry(part)
     b.show(part, "active", "activeRegions")
 
 
-def integrator(b: Given) -> None:
+def integrator(b: Given, element: Integrator) -> None:
     """Write DynamicVariable, with the time constant 1 / rate."""
-    element = b.element
-    assert isinstance(element, Integrator)
     if not element.rate:
         raise Unwritable("cosivina divides by the time constant, which a rate of 0 does not have")
     initial: Any = element.initial
@@ -110,10 +101,8 @@ def integrator(b: Given) -> None:
     b.show(part, "output", "state")
 
 
-def placeholder(b: Given) -> None:
+def placeholder(b: Given, element: Placeholder) -> None:
     """Leave out a placeholder, which gives 0."""
-    element = b.element
-    assert isinstance(element, Placeholder)
     raise Unwritable(f"it stands for {element.missing or 'a missing element'}, whose parameters are not here")
 
 

@@ -14,19 +14,15 @@ from deodar_interop.importers._piece import Dims
 from deodar_interop.importers.cosivina.classes.fields import MOST_COUNTED
 
 
-def running(b: Given) -> None:
+def running(b: Given, element: History) -> None:
     """Write RunningHistory."""
-    element = b.element
-    assert isinstance(element, History)
     values = {"timeSlots": element.slots.samples, "interval": element.interval}
     part = b.sized("RunningHistory", values, layout(tuple(element.axes)))
     _stored(b, part, element.slots, layout(tuple(element.axes)), element.empty)
 
 
-def sampled(b: Given) -> None:
+def sampled(b: Given, element: SampledHistory) -> None:
     """Write History, with the times as cosivina counts them."""
-    element = b.element
-    assert isinstance(element, SampledHistory)
     times = np.asarray(element.times.data if isinstance(element.times, FrozenArray) else [], np.float64)
     start, step = b.draft.start, b.draft.step
     ticks = np.round((times.reshape(-1) - start) / step)

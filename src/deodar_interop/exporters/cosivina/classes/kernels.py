@@ -30,10 +30,8 @@ MOST_DIMENSIONS = 3
 """Number of dimensions up to which cosivina has kernels."""
 
 
-def convolve(b: Given) -> None:
+def convolve(b: Given, element: Convolve) -> None:
     """Write GaussKernel or MexicanHatKernel, or what else has the kernel."""
-    element = b.element
-    assert isinstance(element, Convolve)
     moved = _as_shift(b, element.kernel)
     if moved is None:
         parts = _parts(b, b.axes(), element.kernel, 0.0, KernelWish())
@@ -46,10 +44,8 @@ def convolve(b: Given) -> None:
     b.show(_joined(b, parts))
 
 
-def interact(b: Given) -> None:
+def interact(b: Given, element: Interaction) -> None:
     """Write LateralInteractions, KernelFFT or KernelInverseFFT, or what else has the kernels."""
-    element = b.element
-    assert isinstance(element, Interaction)
     axes = b.axes()
     sides = [e for c in ("horizontalSum", "verticalSum") for e in b.draft.followers(b.id, c)]
     part = (None if sides else _transformed(b, element)) or _discrete(b, element)
@@ -84,10 +80,8 @@ def interact(b: Given) -> None:
     b.show(total, "total", dims=(None, None))
 
 
-def field_kernels(b: Given, part: FilePart) -> None:
+def field_kernels(b: Given, element: Field, part: FilePart) -> None:
     """Write the interaction of a field with itself."""
-    element = b.element
-    assert isinstance(element, Field)
     if not element.kernel and not element.global_inhibition:
         return
     axes = tuple(element.axes)
@@ -111,18 +105,14 @@ def field_kernels(b: Given, part: FilePart) -> None:
             b.approximate("its interaction consists of several elements, and what reads it is not connected")
 
 
-def shift(b: Given) -> None:
+def shift(b: Given, element: Shift) -> None:
     """Write ShiftInput for whole samples."""
-    element = b.element
-    assert isinstance(element, Shift)
     axes, dims = b.axes(), b.dims()
     amounts = [v / a.step for a, v in zip(axes, per_axis(element.amount, axes), strict=True)]
     rings = {a.periodic for a in axes}
     if len(dims) > 2 or len(rings) > 1 or any(abs(v - round(v)) > 1e-9 for v in amounts):
         raise Unwritable("cosivina shifts rows and planes, by whole samples, on a ring or a line")
-    part = b.sized("ShiftInput", _shift_values(dims, axes, amounts, True in rings, 0.0, 1.0))
-    b.take(part)
-    b.show(part)
+    b.carry(b.sized("ShiftInput", _shift_values(dims, axes, amounts, True in rings, 0.0, 1.0)))
 
 
 def shift_input(b: Given, moved: Entry, border: Entry) -> None:

@@ -11,10 +11,8 @@ from deodar_interop.exporters.cosivina.layout import is_row, layout, size
 from deodar_interop.importers._piece import Dims
 
 
-def project(b: Given) -> None:
+def project(b: Given, element: Project) -> None:
     """Write what a projection does: sums over dimensions, then an expansion or a transposition."""
-    element = b.element
-    assert isinstance(element, Project)
     came, dims = b.dims("input"), b.dims()
     if b.draft.passes_on(b.id):
         part = b.sized("FastFourierTransform", {})
@@ -30,14 +28,11 @@ def project(b: Given) -> None:
     else:
         _through(b, came, dims, dict(element.rename), element.reduce, element.interpolation)
         return
-    b.take(part)
-    b.show(part)
+    b.carry(part)
 
 
-def resample(b: Given) -> None:
+def resample(b: Given, element: Resample) -> None:
     """Write the change of the grid of a row."""
-    element = b.element
-    assert isinstance(element, Resample)
     _through(b, b.dims("input"), b.dims(), {}, "integral", element.interpolation)
 
 
@@ -73,17 +68,15 @@ def diagonal_sum(b: Given, before: Entry, amplitude: float) -> None:
     b.show(part)
 
 
-def diagonals(b: Given) -> None:
+def diagonals(b: Given, element: DiagonalSum) -> None:
     """Write DiagonalSum with an amplitude of 1."""
     came = b.dims("input")
     if len(came) != 2 or size(came)[0] != size(came)[1]:
         raise Unwritable("cosivina sums along the diagonals of a square alone")
-    part = b.part("DiagonalSum", {"inputSize": size(came), "amplitude": 1})
-    b.take(part)
-    b.show(part)
+    b.carry(b.part("DiagonalSum", {"inputSize": size(came), "amplitude": 1}))
 
 
-def diagonal_expansion(b: Given) -> None:
+def diagonal_expansion(b: Given, element: DiagonalExpansion) -> None:
     """Write DiagonalExpansion; an importer puts its amplitude in front of it."""
     dims = b.dims()
     if len(dims) != 2 or size(dims)[0] != size(dims)[1]:

@@ -37,15 +37,13 @@ MOST_TIMED = 2
 """Number of dimensions up to which cosivina has timed Gaussian stimuli."""
 
 
-def gaussian(b: Given) -> None:
+def gaussian(b: Given, element: GaussianStimulus) -> None:
     """Write GaussStimulus1D, 2D or 3D, and their timed forms."""
-    element = b.element
-    assert isinstance(element, GaussianStimulus)
     axes, dims = tuple(element.axes), b.dims()
     rank = 1 if is_row(dims) else len(dims)
     timed = bool(element.windows)
     if rank > (MOST_TIMED if timed else len(LETTERS)):
-        return sampled(b)
+        return sampled(b, element)
     amplitude = element.amplitude / (cell(axes) if element.normalized else 1)
     values: dict[str, Any] = {"amplitude": amplitude, "normalized": element.normalized}
     places = dict(zip([a.name for a in axes], positions(axes, element.center), strict=True))
@@ -62,10 +60,8 @@ def gaussian(b: Given) -> None:
     b.show(part, free=not timed)
 
 
-def boost(b: Given) -> None:
+def boost(b: Given, element: Boost) -> None:
     """Write BoostStimulus or TimedBoost; over axes a CustomStimulus, which has a size."""
-    element = b.element
-    assert isinstance(element, Boost)
     if element.axes:
         return _pattern(b, np.full(shape(element.axes), element.amplitude), element.windows)
     late = any(c.reads == "delayed" for c in b.draft.wires.out.get(b.id, []))
@@ -94,17 +90,13 @@ def timed_boosts(b: Given, boosts: Sequence[Entry]) -> None:
     b.show(part)
 
 
-def pattern(b: Given) -> None:
+def pattern(b: Given, element: Pattern) -> None:
     """Write CustomStimulus or TimedCustomStimulus."""
-    element = b.element
-    assert isinstance(element, Pattern)
     _pattern(b, element.amplitude * _data(element.values), element.windows)
 
 
-def sampled(b: Given) -> None:
+def sampled(b: Given, element: Stimulus) -> None:
     """Write the samples of a stimulus that cosivina does not have as a CustomStimulus."""
-    element = b.element
-    assert isinstance(element, Stimulus)
     axes = tuple(element.axes)
     with jax.enable_x64(True):
         values = np.asarray(element.pattern(Setting({}, {"output": axes}, "float64")))
@@ -112,10 +104,8 @@ def sampled(b: Given) -> None:
     _pattern(b, np.broadcast_to(values, shape(axes)), element.windows)
 
 
-def series(b: Given) -> None:
+def series(b: Given, element: TimeSeries) -> None:
     """Write CustomStimulusSequence: patterns that are each shown until the next."""
-    element = b.element
-    assert isinstance(element, TimeSeries)
     dims = b.dims()
     if element.interpolation != "hold" or element.period or element.windows:
         raise Unwritable("cosivina shows one pattern after another, without interpolation, period or windows")
@@ -145,10 +135,8 @@ def series(b: Given) -> None:
     b.show(part)
 
 
-def space_code(b: Given) -> None:
+def space_code(b: Given, element: SpaceCode) -> None:
     """Write ScalarToGaussian, with its position if elements read that."""
-    element = b.element
-    assert isinstance(element, SpaceCode)
     dims = b.dims()
     if not is_row(dims):
         raise Unwritable("cosivina has a peak for a number on a row alone")
@@ -170,14 +158,11 @@ def space_code(b: Given) -> None:
     if kinds == [Sum, Gain, Boost]:
         b.claim([*place, *scaled, *moved])
         b.show(part, "output", "position", of=place[0].id)
-    b.take(part)
-    b.show(part)
+    b.carry(part)
 
 
-def noise(b: Given) -> None:
+def noise(b: Given, element: Noise) -> None:
     """Write NormalNoise; correlated noise has a kernel behind it."""
-    element = b.element
-    assert isinstance(element, Noise)
     part = noise_part(b, tuple(element.axes), element.amplitude, element.length)
     b.show(part, free=True)
 

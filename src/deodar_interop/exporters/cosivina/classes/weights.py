@@ -19,10 +19,8 @@ from deodar_interop.importers.cosivina.classes.weights import REWARDED
 ROWS = "cosivina has weights from a row to a row; put a Project before and behind them"
 
 
-def weights(b: Given) -> None:
+def weights(b: Given, element: Weights) -> None:
     """Write WeightMatrix."""
-    element = b.element
-    assert isinstance(element, Weights)
     if not isinstance(element.weights, FrozenArray):
         raise Unwritable("its weights are in another file, which is not loaded")
     if not is_row(b.dims()) or not is_row(b.dims("input")):
@@ -31,15 +29,11 @@ def weights(b: Given) -> None:
     rows, columns = math.prod(shape(came)), math.prod(shape(b.axes()))
     given = np.asarray(element.weights.data, np.float64).reshape(columns, rows).T
     matrix = given if cell(came) == 1 else given * cell(came)
-    part = b.part("WeightMatrix", {"size": [rows, columns], "weights": matrix.tolist()})
-    b.take(part)
-    b.show(part)
+    b.carry(b.part("WeightMatrix", {"size": [rows, columns], "weights": matrix.tolist()}))
 
 
-def adaptive(b: Given) -> None:
+def adaptive(b: Given, element: AdaptiveWeights) -> None:
     """Write AdaptiveWeightMatrix, whose rate is per step and whose weights begin at 0."""
-    element = b.element
-    assert isinstance(element, AdaptiveWeights)
     if not is_row(b.dims()) or not is_row(b.dims("input")):
         raise Unwritable(ROWS)
     if cell(b.axes("input")) != 1:
@@ -59,10 +53,8 @@ def adaptive(b: Given) -> None:
     b.show(part, "weights", "weights")
 
 
-def hebbian(b: Given) -> None:
+def hebbian(b: Given, element: Hebbian) -> None:
     """Write HebbianConnection, whose weights begin at 0."""
-    element = b.element
-    assert isinstance(element, Hebbian)
     if element.rule not in ("instar", "outstar"):
         raise Unwritable(f"cosivina has no rule {element.rule!r}; it has instar and outstar")
     lost = [
