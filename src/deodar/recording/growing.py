@@ -7,7 +7,8 @@ whole. So a reader finds all arrays up to one moment at any time, also after the
 has a checksum (CRC-32C).
 
 A thread writes, twice a second. The last chunk of an array, which is not full yet, is written again each
-time; the samples behind the end of the array are NaN.
+time; the samples behind the end of the array are NaN. If the disk is full, as many of the waiting samples as
+fit are written and committed before the error is raised.
 """
 
 from __future__ import annotations
@@ -438,7 +439,7 @@ class GrowingRecord:
             try:
                 if waiting or requested > self._committed:
                     with _writing(self.path):
-                        self._write(waiting, lengths)
+                        self._write_all(waiting, lengths)
             except BaseException as error:
                 with self._changed:
                     self._error = error
@@ -448,6 +449,62 @@ class GrowingRecord:
                 self._bytes -= sum(a.nbytes for samples in waiting for a in samples.arrays.values())
                 self._committed = requested
                 self._changed.notify_all()
+
+    def _write_all(self, waiting: Sequence[_Samples], lengths: Mapping[str, int]) -> None:
+        """Write samples; if the system refuses, write as many of them as fit before the error is raised."""
+        committed = self.sample_counts
+        try:
+            self._write(waiting, lengths)
+        except (OSError, OutputError):
+            self.sample_counts = committed
+            with contextlib.suppress(OSError, OutputError):
+                for samples in waiting:
+                    self._write_what_fits(samples)
+            raise
+
+    def _write_what_fits(self, samples: _Samples) -> None:
+        """Write the first of some samples, fewer with each attempt that the system refuses.
+
+        Raises:
+            OSError, OutputError: not all of them fit; the others are committed.
+        """
+        count = len(samples.times)
+        while len(samples.times):
+            self._drop_uncommitted()
+            committed, part = self.sample_counts, self._some(samples, slice(count))
+            end = {samples.dimension: samples.first + count}
+            try:
+                self._write([part], committed | end)
+            except (OSError, OutputError):
+                self.sample_counts = committed
+                if count == 1:
+                    raise
+                count = count * 3 // 4
+            else:
+                samples = self._some(samples, slice(count, None))
+                count = min(count, len(samples.times))
+
+    def _some(self, samples: _Samples, part: slice) -> _Samples:
+        """Return a part of some samples."""
+        arrays = {
+            name: values[*(slice(None),) * self._axis[self._names.get(name, name)], part]
+            for name, values in samples.arrays.items()
+        }
+        first = samples.first + (part.start or 0)
+        return samples._replace(first=first, times=samples.times[part], arrays=arrays)
+
+    def _drop_uncommitted(self) -> None:
+        """Remove the chunks without a sample of the last commit, which makes room."""
+        self._require_present()
+        self._tails = {}
+        self._timed = {d: min(n, self.sample_counts[d]) for d, n in self._timed.items()}
+        for name, array in self._arrays.items():
+            axis, chunks = self._axis[name], array.folder / "c"
+            used = -(-self.sample_counts[self._dimension[name]] // array.chunks[axis])
+            for path in [path for path in chunks.rglob("*") if path.is_file()]:
+                number = path.relative_to(chunks).parts[axis]
+                if number.isdecimal() and int(number) >= used:
+                    path.unlink()
 
     def _write(self, waiting: Sequence[_Samples], lengths: Mapping[str, int]) -> None:
         self._require_present()

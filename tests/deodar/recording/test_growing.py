@@ -196,6 +196,50 @@ def test_a_full_disk_is_an_error_of_the_next_call_and_keeps_what_was_committed(
     GrowingRecord.resumed(tmp_path / "r.zarr", {"time": 6}).close(False)
 
 
+@pytest.mark.parametrize("committed", [0, 6])
+@pytest.mark.parametrize("longest", [4, 21])
+def test_a_full_disk_keeps_the_samples_that_fit(
+    whole: xarray.Dataset, tmp_path: Path, committed: int, longest: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Chunks of 4 samples, and one chunk; samples that are committed already, and none."""
+    monkeypatch.setattr(growing, "LONGEST_CHUNK", longest)
+    path, replace = tmp_path / "r.zarr", output.replace
+    writer = begin(whole, path)
+    if committed:
+        put(writer, whole, 0, committed)
+        writer.commit()
+    shutil.copytree(path, tmp_path / "all.zarr")
+    rest = GrowingRecord.resumed(tmp_path / "all.zarr", {"time": committed})
+    put(rest, whole, committed, 21)
+    rest.close(False)
+    free = (size(tmp_path / "all.zarr") - size(path)) * 2 // 3  # of the bytes that the rest needs
+    limit = size(path) + free
+
+    def limited(place: Path, content: bytes) -> None:
+        if size(path) + len(content) > limit:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        replace(place, content)
+
+    with monkeypatch.context() as full:
+        full.setattr(output, "replace", limited)
+        put(writer, whole, committed, 21)
+        with pytest.raises(OutputError, match="No space left"):
+            writer.commit()
+        writer.abandon()
+    kept = files.load_record(path)
+    assert committed < kept.sizes["time"] < 21
+    assert kept.drop_attrs().identical(whole.isel(time=slice(kept.sizes["time"])).drop_attrs())
+    again = GrowingRecord.resumed(path, {"time": kept.sizes["time"]})
+    put(again, whole, kept.sizes["time"], 21)
+    again.close(True)
+    assert files.load_record(path).identical(whole)
+
+
+def size(path: Path) -> int:
+    """Return the bytes of all chunks of a record."""
+    return sum(p.stat().st_size for p in path.glob("*/c/**/*") if p.is_file())
+
+
 @pytest.mark.parametrize("how", ["removed", "replaced"])
 def test_a_record_that_is_taken_away_is_not_created_again(
     whole: xarray.Dataset, tmp_path: Path, how: str
