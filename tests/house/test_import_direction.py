@@ -17,7 +17,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
     for floor in (
         "short_traceback summary",
         "errors",
-        "plugins docstring declarations",
+        "plugins docstring declarations file_version",
         "names registry extensions part_type family codec",
         "credentials sealed npz regular_file",
         "parameters",

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from deodar import codec
+from deodar import codec, file_version
 from deodar.errors import RecordError
 
 if TYPE_CHECKING:
@@ -74,6 +74,7 @@ class SavedAnalysis(ABC):
         if cls.KIND not in provenance:
             raise RecordError(f"is a record without {cls.PHRASE}", where=str(path))
         try:
-            return cls.of_record(record, provenance)
+            with file_version.naming_later_writer(provenance):
+                return cls.of_record(record, provenance)
         except RecordError as error:
             raise RecordError([replace(p, where=str(path)) for p in error.problems]) from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses as dc
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -9,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Self, cast
 
-from deodar import codec, plugins, regular_file
+from deodar import codec, file_version, plugins, regular_file
 from deodar.codec import Json, JsonObject
 from deodar.errors import (
     DeodarError,
@@ -23,7 +24,7 @@ from deodar.errors import (
 )
 from deodar.experiments.actions import ACTIONS
 from deodar.experiments.events import EVENTS
-from deodar.experiments.experiment_migrations import migrate
+from deodar.experiments.experiment_migrations import VERSION, migrate
 from deodar.experiments.factor import DESIGNS, Factor, assign
 from deodar.experiments.measures import MEASURES
 from deodar.experiments.trial import TrialPlan
@@ -36,7 +37,6 @@ from deodar.part_data import defaults, from_data, part_of, to_data
 from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
 
-VERSION = 3
 KINDS: Mapping[str, Mapping[str, type[Part]]] = {
     "conditions": EVENTS,
     "actions": ACTIONS,
@@ -177,9 +177,14 @@ class Design(Summarised, Part):
                 raise DocumentError("is not an experiment: it is a model", fix=fix)
             raise DocumentError("is not an experiment: it has no key 'experiment'")
         content = _migrated(cast("dict[str, Any]", data), folder, read)
-        if content.pop("experiment") != VERSION:
-            problem = f"is an experiment of another version; this deodar reads versions 1 to {VERSION}"
-            raise DocumentError(problem, fix="Type: pip install --upgrade deodar")
+        with file_version.naming_later_writer(data):
+            return cls._of_content(content, folder)
+
+    @classmethod
+    def _of_content(cls, content: dict[str, Any], folder: Path | None) -> Self:
+        """Return the experiment of plain data of the present version."""
+        for key in ("experiment", file_version.KEY):
+            content.pop(key, None)
         problems: list[Problem] = []
         needed = plugins.stated(content.pop("packages", {}), problems)
         for key, kinds in KINDS.items():
@@ -219,17 +224,18 @@ class Design(Summarised, Part):
         """Write a file; a model without a file is written beside it, as NAME.model.json."""
         path = output.claim(path, force)
         content = self.to_data()
+        of_file = {"experiment": VERSION, file_version.KEY: file_version.HERE}
         if isinstance(self.model, Model):
             beside = path.with_name(f"{path.stem}.model.json")
             save(self.model, beside, force)
-            content = {"experiment": VERSION, "name": self.name, "model": beside.name} | content
+            of_file |= {"name": self.name, "model": beside.name}
         if isinstance(self.world, World):
             raise ParameterError(
                 "a world that was made by a script cannot be written",
                 where="world",
                 fix="Name it as on the command line: world='arena:blocks'",
             )
-        output.write(path, (codec.text(content, finite=True) + "\n").encode())
+        output.write(path, (codec.text(of_file | content, finite=True) + "\n").encode())
 
     @classmethod
     def load(cls, path: str | Path, read: Callable[[str], Model] = load) -> Self:
@@ -255,6 +261,7 @@ class Design(Summarised, Part):
         properties_of = [_schema({"": cls}, named=False)["oneOf"][0]["properties"] for cls in classes]
         properties = by_key(*properties_of) | {
             "experiment": {"enum": list(range(1, VERSION + 1))},
+            file_version.KEY: {"type": "string"},
             "name": {"type": "string"},
             "model": {"type": "string"},
             "world": {"type": "string"},
@@ -309,12 +316,11 @@ def _migrated(data: Mapping[str, Json], folder: Path | None, read: Callable[[str
     If the model cannot be opened, the paths of version 1 are not converted: no trial can run without the
     model.
     """
-    if data["experiment"] != 1:
-        return migrate(data, None)
-    try:
-        return migrate(data, read(str(_beside(data.get("model", ""), folder, False))).document)
-    except DeodarError:
-        return migrate(data, None)
+    doc = None
+    if data["experiment"] == 1:
+        with contextlib.suppress(DeodarError):
+            doc = read(str(_beside(data.get("model", ""), folder, False))).document
+    return migrate(data, doc)
 
 
 def _beside(text: Any, folder: Path | None, world: bool) -> Any:

@@ -9,9 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, cast
 
+from deodar import file_version
 from deodar.codec import Json, JsonObject
 from deodar.model.document import Document
 from deodar.model.migrations import recorded
+
+VERSION = 3
+"""Version of experiments, in their files and in the identity of their rows."""
 
 PATHS: Mapping[str, tuple[str, ...]] = {
     "Crosses": ("of",),
@@ -32,20 +36,29 @@ Convert = Callable[[str, dict[str, Any]], dict[str, Any]]
 
 
 def migrate(experiment: Mapping[str, Json], doc: Document | None) -> JsonObject:
-    """Convert an experiment of an older version; one of another version is returned unchanged.
+    """Convert an experiment of an older version; one of the present version is returned unchanged.
 
     Data of an unexpected form are not changed: the reader reports them.
 
     Args:
         experiment: the plain data of the experiment.
         doc: the document of its model, which resolves the paths of version 1; None: they are not converted.
+
+    Raises:
+        DocumentError: it is of a later version.
     """
+    require_readable(experiment)
     version, out = experiment.get("experiment"), dict(experiment)
     if version == 1 and doc is not None:
         out = _from_1(out, doc)
     if version in (1, 2):
-        out = _parts(out, _renamed) | {"experiment": 3}
+        out = _parts(out, _renamed) | {"experiment": VERSION}
     return out
+
+
+def require_readable(experiment: Mapping[str, Json]) -> None:
+    """Raise DocumentError if an experiment is of a later version; one that states none is of the first."""
+    file_version.require_readable("an experiment", experiment.get("experiment", 1), VERSION, experiment)
 
 
 def _from_1(experiment: JsonObject, doc: Document) -> JsonObject:

@@ -153,7 +153,7 @@ class RowsTail:
             lines = content[:whole].splitlines()
             lacking, first = self._lacking, 0
             if lacking is None and lines:
-                identity, self._checked = row_line.read_first(lines[0], ABOUT)
+                identity, self._checked = row_line.read_first(lines[0], ABOUT, self.path)
                 lacking, first = lacks(identity), 1
         except (OSError, ValueError, LookupError, TypeError) as error:
             raise RecordError(

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import xarray
 
-from deodar import codec, regular_file, sealed
+from deodar import codec, file_version, regular_file, sealed
 from deodar.codec import Json, JsonObject
 from deodar.errors import (
     Fix,
@@ -25,6 +25,7 @@ from deodar.errors import (
     WorkerError,
     first_line,
     option,
+    reading,
 )
 from deodar.experiments.rows import Row, different
 from deodar.model import output
@@ -51,6 +52,9 @@ TRIALS_A_FOLDER = 1000
 
 VERSION = 1
 """Version of the store and its objects."""
+
+OBJECT_VERSION = "deodar_records"
+"""Name of the attribute with the version of an object."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +127,8 @@ class PieceRecords:
 
     def put(self) -> JsonObject:
         """Store all records as one object; return its entry in the rows."""
-        content = self._writer.close({"deodar_records": VERSION, "trials": self._entries})
+        about = {OBJECT_VERSION: VERSION, file_version.KEY: file_version.HERE, "trials": self._entries}
+        content = self._writer.close(about)
         return self._target.put(self._trials, content)
 
 
@@ -183,30 +188,28 @@ def experiment_of(mark: bytes, where: str) -> JsonObject:
     """Return the identity of the experiment of a store.
 
     Raises:
-        RecordError: the file that states it is damaged, of a newer version, or that of a folder of rows.
+        RecordError: the file that states it is damaged, of a later version, or that of a folder of rows.
     """
     try:
         content = codec.parse(mark)
-        if isinstance(content, dict) and "records" not in content and "limit" in content:
+        if not isinstance(content, dict):
+            raise TypeError
+        if "records" not in content and "limit" in content:
             raise RecordError(
                 "is the folder of the rows of an experiment, and no store of records",
                 where=where,
                 fix="Name another folder for the store; records in files beside rows are read by"
                 " dd.load_record",
             )
-        version, identity = content["records"], content["experiment"]
-        if not isinstance(version, int) or not isinstance(identity, dict):
+        version, identity = content["records"], content.get("experiment")
+        with reading(where, RecordError):
+            file_version.require_readable("a store", version, VERSION, identity, RecordError)
+        if not isinstance(identity, dict):
             raise TypeError
     except (ValueError, LookupError, TypeError):
         raise RecordError(
             f"{MARK} in it is damaged, or of another program", where=where, fix="Name another store"
         ) from None
-    if version > VERSION:
-        raise RecordError(
-            f"is a store of version {version}; this deodar reads versions up to {VERSION}",
-            where=where,
-            fix="Install a newer deodar",
-        )
     return identity
 
 

@@ -11,7 +11,7 @@ from collections.abc import Generator, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from deodar import codec, regular_file
+from deodar import codec, file_version, regular_file
 from deodar.batch.driver import WorkerWatch
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed_model import require_portable
@@ -107,7 +107,8 @@ def _run_trials(
         if not (out / MODEL).exists():
             documents.save(setup.model.document, out / MODEL)
         if not (out / EXPERIMENT).exists():
-            output.write(out / EXPERIMENT, (codec.text(_plan(setup)) + "\n").encode())
+            content = _plan(setup) | {file_version.KEY: file_version.HERE}
+            output.write(out / EXPERIMENT, (codec.text(content) + "\n").encode())
         records: Path | RecordTarget | None = out / RECORDS if setup.recorded else None
         if setup.store:
             target = records = claimed(StoreAddress.of(setup.store), identity, rows.found, out, read)
@@ -262,7 +263,7 @@ def load_results(path: str | Path) -> xarray.Dataset:
     folder = output.location(path)
     try:
         with regular_file.open_binary(folder / ROWS) as file:
-            identity, checked = row_line.read_first(file.readline(), ABOUT)
+            identity, checked = row_line.read_first(file.readline(), ABOUT, folder / ROWS)
             rows = (row_line.read(line, checked) for line in file if line.endswith(b"\n"))
             return dataset(rows, identity)
     except (OSError, ValueError, LookupError, TypeError, OverflowError):
@@ -278,7 +279,7 @@ def stored(folder: Path) -> tuple[JsonObject, list[Row]]:
     """
     try:
         with regular_file.open_binary(folder / ROWS) as file:
-            identity, checked = row_line.read_first(file.readline(), ABOUT)
+            identity, checked = row_line.read_first(file.readline(), ABOUT, folder / ROWS)
             lacking = lacks(identity)
             lines = (line for line in file if line.endswith(b"\n"))
             return identity, [

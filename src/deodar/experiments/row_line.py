@@ -7,10 +7,13 @@ read the checksum as a column of the rows.
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 from deodar import codec, sealed
 from deodar.codec import Json
+from deodar.errors import RecordError, reading
+from deodar.experiments.experiment_migrations import require_readable
 
 CHECKSUM = "crc32c"
 ENDING = re.compile(rb',"' + CHECKSUM.encode() + rb'":"([0-9a-f]{8})"\}\n?$')
@@ -46,17 +49,22 @@ def read(line: bytes, checked: bool) -> Any:
     return codec.parse(body + b"}")
 
 
-def read_first(line: bytes, name: str) -> tuple[Any, bool]:
+def read_first(line: bytes, name: str, path: Path) -> tuple[Any, bool]:
     """Return the only entry of the first line, and whether the lines of its file have checksums.
 
     Args:
         line: the line.
         name: name of the entry.
+        path: the file.
 
     Raises:
+        RecordError: the entry is the identity of an experiment of a later version.
         ValueError: the line is damaged, or has no such entry.
     """
     data = read(line, False)
     if not isinstance(data, dict) or list(data) != [name] or not isinstance(data[name], dict):
         raise ValueError(f"its first line is not that of {name!r}")
+    if isinstance(data[name].get("experiment"), int):  # rows of other jobs have a name there, or nothing
+        with reading(path, RecordError):
+            require_readable(data[name])
     return data[name], ENDING.search(line) is not None

@@ -182,7 +182,7 @@ class Rows(Summarised):
     def _line(self, line: bytes, number: int) -> Row:
         if number == 1:
             try:
-                identity, self._checked = row_line.read_first(line, ABOUT)
+                identity, self._checked = row_line.read_first(line, ABOUT, self.path)
             except ValueError:
                 raise self._no_rows() from None
             return {ABOUT: identity}

@@ -10,15 +10,17 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from deodar import sealed
-from deodar.errors import DeodarError, RecordError, RunWarning, did_you_mean
+from deodar import file_version, sealed
+from deodar.errors import DeodarError, RecordError, RunWarning, did_you_mean, reading
 from deodar.experiments import record_index
 from deodar.experiments.record_index import INDEX, IndexedObject
 from deodar.experiments.record_target import (
     MARK,
+    OBJECT_VERSION,
     OBJECTS,
     PLACE,
     SUFFIX,
+    VERSION,
     experiment_of,
     object_name,
     stored_place,
@@ -46,10 +48,15 @@ class _Opened:
         self.close()
 
     def get(self, name: str) -> Archive:
-        """Return an object, opened."""
+        """Return an object, opened; raise RecordError if it is of a later version."""
         if self.archive is None or name != self.name:
             self.close()
+            self.name = ""
             self.archive = Archive(self.store.open(name), f"{self.store.shown}/{name}")
+            about = self.archive.attributes
+            with reading(self.archive.where, RecordError):
+                version = about.get(OBJECT_VERSION, 1)
+                file_version.require_readable("an object of a store", version, VERSION, about, RecordError)
             self.name = name
         return self.archive
 

@@ -19,6 +19,7 @@ READS = ("", "previous", "current", "delayed")
 KEYS = (
     *(
         "deodar",
+        "written_by",
         "name",
         "time_unit",
         "dt",

@@ -18,14 +18,14 @@ from typing import Any, BinaryIO, cast
 import numpy as np
 import psutil
 
-from deodar import codec, npz, part_data, registry, regular_file
+from deodar import codec, file_version, npz, part_data, registry, regular_file
 from deodar.errors import DocumentError, did_you_mean, reading
 from deodar.leaves import parameter_values
 from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
 from deodar.model.parts import axes_in, kinds_in, to_json
 from deodar.model.paths import display
-from deodar.model.reader import from_data
+from deodar.model.reader import from_data, require_document
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, show
 
@@ -117,6 +117,7 @@ def axis_key(table: dict[str, Axis], axis: Axis) -> str:
 def dumps(doc: Document, arrays_file: str = "") -> tuple[str, bytes | None]:
     """Return the document as JSON text, and the content of its array file (None without arrays)."""
     body, arrays = to_data(doc)
+    body[file_version.KEY] = file_version.HERE
     packed = pack(arrays) if arrays else None
     if packed is not None:
         digest = hashlib.sha256(packed).hexdigest()
@@ -275,7 +276,8 @@ def _arrays(data: Any, read: Callable[[str], bytes | None]) -> dict[str, FrozenA
     """Return the arrays that a document names; `read` returns the content of a file of its folder, or
     None.
     """
-    entry = cast("dict[str, Any]", data).get("arrays") if isinstance(data, dict) else None
+    require_document(data)
+    entry = data.get("arrays")
     if entry is None:
         return {}
     if (

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, cast
 
 import msgspec
 
+from deodar import file_version
 from deodar.codec import JsonObject
 from deodar.errors import DocumentError, first_line
 from deodar.summary import Summarised, Summary, counted, sized
@@ -101,7 +102,7 @@ class Contents(Summarised, msgspec.Struct, frozen=True, forbid_unknown_fields=Tr
 
     def to_data(self) -> JsonObject:
         """Return plain data; `from_data` reads it."""
-        return {"deodar_package": VERSION, **msgspec.to_builtins(self)}
+        return {"deodar_package": VERSION, file_version.KEY: file_version.HERE, **msgspec.to_builtins(self)}
 
     @classmethod
     def from_data(cls, plain: Any) -> Contents:
@@ -112,13 +113,10 @@ class Contents(Summarised, msgspec.Struct, frozen=True, forbid_unknown_fields=Tr
         """
         content = dict(cast("dict[str, Any]", plain)) if isinstance(plain, dict) else {}
         version = content.pop("deodar_package", None)
-        if version != VERSION:
-            raise DocumentError(
-                f"is a package of version {version!r}; this deodar reads version {VERSION}"
-                if version is not None
-                else f"is not a package of deodar: its {CONTENTS} does not say so",
-                fix="Type: pip install --upgrade deodar" if version is not None else "",
-            )
+        if version is None:
+            raise DocumentError(f"is not a package of deodar: its {CONTENTS} does not say so")
+        file_version.require_readable("a package", version, VERSION, content)
+        content.pop(file_version.KEY, None)
         try:
             return msgspec.convert(content, cls)
         except msgspec.ValidationError as error:

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Collection, Mapping
 from typing import Any, cast
 
-from deodar import plugins, registry
+from deodar import file_version, plugins, registry
 from deodar.element import Element
 from deodar.errors import (
     AxesError,
@@ -39,30 +39,35 @@ if both are many.
 
 def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:
     """Return the document that plain data describe; the error lists every problem."""
-    return _Reader(data, arrays).read()
+    require_document(data)
+    with file_version.naming_later_writer(data):
+        return _Reader(data, arrays).read()
+
+
+def require_document(data: Any) -> None:
+    """Refuse plain data that are no document, or one of a later version.
+
+    Raises:
+        DocumentError: they are not.
+    """
+    if not isinstance(data, dict):
+        raise DocumentError(f"is not a deodar document: it holds {type(data).__name__}, not an object")
+    content = cast("dict[str, Any]", data)
+    if "deodar" not in content:
+        if "experiment" in content:
+            fix = Fix("Open it: dd.Experiment.load(FILE)", "Type: deodar experiment FILE --check")
+            raise DocumentError("is not a model: it is an experiment", fix=fix)
+        raise DocumentError("is not a deodar document: it has no key 'deodar'")
+    file_version.require_readable("a document", content["deodar"], VERSION, content)
 
 
 class _Reader:
-    def __init__(self, data: Any, arrays: Mapping[str, FrozenArray]) -> None:
-        if not isinstance(data, dict):
-            raise DocumentError(f"is not a deodar document: it holds {type(data).__name__}, not an object")
-        self.data = cast("dict[str, Any]", data)
+    def __init__(self, data: dict[str, Any], arrays: Mapping[str, FrozenArray]) -> None:
+        self.data = migrate(data)
         self.arrays = arrays
         self.problems: list[Problem] = []
 
     def read(self) -> Document:
-        version = self.data.get("deodar")
-        if version is None:
-            if "experiment" in self.data:
-                fix = Fix("Open it: dd.load_experiment(FILE)", "Type: deodar experiment FILE --check")
-                raise DocumentError("is not a model: it is an experiment", fix=fix)
-            raise DocumentError("is not a deodar document: it has no key 'deodar'")
-        if not isinstance(version, int) or isinstance(version, bool) or not 1 <= version <= VERSION:
-            raise DocumentError(
-                f"is a document of version {show(version)}; this deodar reads versions 1 to {VERSION}",
-                fix="Type: pip install --upgrade deodar",
-            )
-        self.data = migrate(self.data)
         for key in self.data:
             if key not in KEYS:
                 self.problem(key, "is not a key of a document", did_you_mean(key, KEYS))

@@ -83,6 +83,7 @@ def document_schema() -> dict[str, Any]:
         "type": "object",
         "properties": {
             "deodar": {"enum": list(range(1, VERSION + 1))},
+            "written_by": {"type": "string"},
             "name": {"type": "string"},
             "time_unit": {"type": "string"},
             "dt": {"type": "number", "exclusiveMinimum": 0},

@@ -21,7 +21,7 @@ import xarray
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import DamagedFile, RecordError
+from deodar.errors import DamagedFile, RecordError, reading
 from deodar.recording import portable
 from deodar.recording.chunks import ChunkedArray, ChunkIndex
 
@@ -98,10 +98,15 @@ class Archive:
         """Return a record; its values are compared with their checksums.
 
         Raises:
-            RecordError: it does not exist, or is damaged.
+            RecordError: it does not exist, is damaged, or of a later version.
         """
         try:
             group = codec.parse(self._zip.read(f"{name}/{META}"))
+        except Exception as error:  # libraries that read untrusted bytes may raise any exception
+            raise self._damaged(error, name) from None
+        with reading(f"{self.where}: {name}", RecordError):
+            portable.require_proof(group["attributes"], True)
+        try:
             members: Mapping[str, Any] = group["consolidated_metadata"]["metadata"]
             variables = {new: self._variable(name, new, metadata) for new, metadata in members.items()}
             return portable.unpack(xarray.Dataset(variables, attrs=group["attributes"]))

@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 import xarray
 
-from deodar import codec
+from deodar import codec, file_version
 from deodar.errors import DamagedFile, RecordError
+from deodar.recording.provenance import KEY as PROVENANCE
 from deodar.recording.shown_dataset import ShownDataset
 from deodar.recording.slabs import slabs
 
@@ -143,10 +144,9 @@ def unpack(stored: xarray.Dataset, lazily: bool = False) -> xarray.Dataset:
     Raises:
         RecordError: an array that is read differs from the one that was written.
     """
-    text = stored.attrs.get(KEY)
-    if text is None:
+    if KEY not in stored.attrs:
         return stored
-    layout = _layout(text)
+    layout = _layout(stored.attrs)
     names: Mapping[str, str] = layout["names"]
     if not lazily and set(layout["variables"]) != set(map(str, stored.variables)):
         raise DamagedFile(
@@ -176,13 +176,13 @@ def unpack(stored: xarray.Dataset, lazily: bool = False) -> xarray.Dataset:
 
 
 def require_proof(attributes: Mapping[str, Any], proven: bool) -> None:
-    """Refuse metadata without a proof that a file of their version has.
+    """Refuse metadata of a later version, and those without a proof that a file of their version has.
 
     Raises:
-        DamagedFile: they have none.
+        RecordError: they are of a later version.
+        DamagedFile: they have no proof.
     """
-    text = attributes.get(KEY)
-    if text is not None and not proven and _layout(str(text)).get("version", 1) >= PROVEN:
+    if KEY in attributes and _layout(attributes).get("version", 1) >= PROVEN and not proven:
         raise DamagedFile("is damaged: its metadata have no proof")
 
 
@@ -190,21 +190,17 @@ def whole_arrays(attributes: Mapping[str, Any]) -> set[str]:
     """Return the stored names of the arrays that have all of their chunks: they do not grow, and are not of
     an earlier version, which left out chunks of zeros.
     """
-    layout = _layout(str(attributes.get(KEY, "{}")))
+    layout = _layout(attributes)
     if layout.get("version", 1) < PROVEN:
         return set()
     return {name for name, description in layout["variables"].items() if "grows" not in description}
 
 
-def _layout(text: str) -> dict[str, Any]:
-    """Return the layout that an attribute lists; raise RecordError if it is of a newer version."""
-    layout = codec.parse(text)
-    version = layout.get("version", 1)
-    if version > VERSION:
-        raise RecordError(
-            f"is a record of version {version}; this deodar reads versions up to {VERSION}",
-            fix="Install a newer deodar",
-        )
+def _layout(attributes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the layout that attributes list; raise RecordError if it is of a later version."""
+    layout = codec.parse(str(attributes.get(KEY, "{}")))
+    provenance = codec.parse(str(attributes.get(PROVENANCE, "{}")))
+    file_version.require_readable("a record", layout.get("version", 1), VERSION, provenance, RecordError)
     return layout
 
 

@@ -8,7 +8,7 @@ import platform
 from collections.abc import Mapping
 from typing import Any
 
-from deodar import plugins
+from deodar import file_version, plugins
 from deodar.codec import Json, JsonObject
 from deodar.compiler import hosts
 from deodar.compiler.device import cores
@@ -113,9 +113,8 @@ def _processor() -> str:
 
 def document(origin: Mapping[str, Any]) -> Document:
     """Return the document of a record."""
-    arrays = (
-        document_files.unpack(base64.b64decode(origin["arrays"]), "the record")
-        if origin.get("arrays")
-        else {}
-    )
-    return document_files.from_data(origin["document"], arrays)
+    document_files.require_document(origin["document"])
+    packed = base64.b64decode(origin.get("arrays") or "")
+    arrays = document_files.unpack(packed, "the record") if packed else {}
+    with file_version.naming_later_writer(origin):
+        return document_files.from_data(origin["document"], arrays)

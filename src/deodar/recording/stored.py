@@ -15,10 +15,10 @@ from typing import Any
 import jax
 import numpy as np
 
-from deodar import codec, npz, regular_file, sealed
+from deodar import codec, file_version, npz, regular_file, sealed
 from deodar.codec import JsonObject
 from deodar.compiler import hosts
-from deodar.errors import DamagedFile, RecordError
+from deodar.errors import DamagedFile, RecordError, reading
 from deodar.model import output
 from deodar.numerics.pytree import PyTree
 
@@ -64,7 +64,7 @@ def write(path: Path, metadata: Mapping[str, Any], arrays: Sequence[np.ndarray],
     Raises:
         OutputError: the system refused.
     """
-    text = codec.line({"kind": kind, "version": VERSION, **metadata})
+    text = codec.line({"kind": kind, "version": VERSION, file_version.KEY: file_version.HERE, **metadata})
     numbered = {f"{k:06}": array for k, array in enumerate(arrays)}
     content = npz.packed({HEADER: np.frombuffer(text.encode(), np.uint8)} | numbered)
     output.write(path, sealed.seal(content), durable=False)
@@ -74,7 +74,7 @@ def header(path: Path) -> JsonObject:
     """Return the text of a state without its arrays.
 
     Raises:
-        RecordError: there is no such file.
+        RecordError: there is no such file, or it is of a later version.
         DamagedFile: it is damaged.
     """
     return _opened(path, arrays=False)[0]
@@ -84,19 +84,13 @@ def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
     """Return the text and the arrays of a state.
 
     Raises:
-        RecordError: there is no such file, or it is of another kind, or of a newer version.
+        RecordError: there is no such file, or it is of another kind, or of a later version.
         DamagedFile: it is damaged.
     """
     metadata: Any
     metadata, arrays = _opened(path)
     if metadata.get("kind") != kind:
         raise RecordError(f"expected a {kind}, got another file", where=str(path))
-    if metadata.get("version", 0) > VERSION:
-        raise RecordError(
-            f"is a {kind} of version {metadata['version']}; this deodar reads versions up to {VERSION}",
-            where=str(path),
-            fix="Install a newer deodar",
-        )
     return metadata, arrays
 
 
@@ -114,6 +108,9 @@ def _opened(path: Path, arrays: bool = True) -> tuple[JsonObject, list[np.ndarra
         metadata = codec.parse(named.pop(HEADER).tobytes().decode())
         if not isinstance(metadata, dict):
             raise ValueError("its text is not an object")
+        with reading(path, RecordError):  # before the seal, which a later version may have in another form
+            noun, version = f"a {metadata.get('kind', 'state')}", metadata.get("version", UNSEALED)
+            file_version.require_readable(noun, version, VERSION, metadata, RecordError)
         if not proven and metadata.get("version") != UNSEALED:
             raise ValueError("it has no seal")
     except DamagedFile as error:

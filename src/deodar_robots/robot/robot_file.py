@@ -9,8 +9,8 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta
 
-from deodar import codec, regular_file
-from deodar.errors import DeodarError, WorldError, did_you_mean
+from deodar import codec, file_version, regular_file
+from deodar.errors import DeodarError, WorldError, did_you_mean, reading
 from deodar.worlds._motor_rule import STOPS_AFTER, MotorRule
 
 MOST_BYTES = 2**20
@@ -174,6 +174,9 @@ def load_robot(path: Path) -> RobotFile:
         raise
     except DeodarError as error:
         raise WorldError(error.problems[0].what, where=str(path)) from None
+    if isinstance(data, dict) and isinstance(data.get("robot"), int):
+        with reading(path, WorldError):
+            file_version.require_readable("a robot file", data["robot"], VERSION, data, WorldError)
     try:
         file = msgspec.convert(data, RobotFile)
     except msgspec.ValidationError as error:

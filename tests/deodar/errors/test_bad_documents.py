@@ -64,7 +64,7 @@ TEXT = json.dumps(DATA)
 
 def test_the_unchanged_document_is_valid() -> None:
     assert document_files.from_data(json.loads(TEXT), ARRAYS) == rich().document
-    assert set(document_files.KEYS) - set(DATA) == {"arrays"}
+    assert set(document_files.KEYS) - set(DATA) == {"arrays", "written_by"}
 
 
 def _places(document: Any, at: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
@@ -209,7 +209,7 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "of another program": (b'{"format": 1, "layers": {}}', ("has no key 'deodar'",)),
     "of another version": (
         b'{"deodar": 4, "elements": {}}',
-        ("of version 4; this deodar reads versions 1 to 3", "pip install --upgrade"),
+        ("of version 4; this deodar, ", "reads versions 1 to 3", "pip install --upgrade"),
     ),
     "of a version in words": (b'{"deodar": "1", "elements": {}}', ("is a document of version '1'",)),
     "of no version": (b'{"deodar": true, "elements": {}}', ("is a document of version True",)),

@@ -441,7 +441,7 @@ def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
         and "Did you mean 'of'" in text
     )
     file.write_text(json.dumps(document | {"experiment": 4}))
-    with pytest.raises(DocumentError, match="another version"):
+    with pytest.raises(DocumentError, match="of version"):
         Experiment.load(file)
     file.write_text("{}")
     with pytest.raises(DocumentError, match="is not an experiment"):

@@ -453,7 +453,10 @@ def test_a_store_of_another_experiment_or_of_something_else_is_refused(tmp_path,
         made().run(tmp_path / "out 3", records=tmp_path / "none" / "store")
     for text, says in (
         ("{", "experiment.json in it is damaged"),
-        ('{"records": 2, "experiment": {}}', "is a store of version 2; this deodar reads versions up to 1"),
+        (
+            '{"records": 2, "experiment": {}}',
+            r"is a store of version 2; this deodar, .*, reads version 1\. Type: pip install",
+        ),
     ):
         (copied / "experiment.json").write_text(text)
         with pytest.raises(RecordError, match=says):

@@ -32,7 +32,7 @@ def test_each_flipped_bit_of_a_line_is_noticed(first: bool) -> None:
         flipped[bit // 8] ^= 1 << (bit % 8)
         with pytest.raises(ValueError):
             if first:
-                row_line.read_first(bytes(flipped), "about")
+                row_line.read_first(bytes(flipped), "about", Path("rows"))
             else:
                 row_line.read(bytes(flipped), True)
 
