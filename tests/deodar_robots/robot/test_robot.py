@@ -110,7 +110,7 @@ def test_a_place_changes_what_it_states(written):
 @pytest.mark.parametrize(
     ("keys", "message"),
     [
-        ({"robot": 2}, r"is not the file of a robot: .*\$\.robot"),
+        ({"robot": 2}, "is a robot file of version 2"),
         ({"kind": "areno"}, "no kind 'areno' of robots. Did you mean 'arena'"),
         ({"kind": "combined"}, "no kind 'combined' of robots"),
         ({"kind": "robot"}, "no kind 'robot' of robots"),
