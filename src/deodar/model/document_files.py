@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import io
 import re
+import time
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -32,6 +33,16 @@ from deodar.parameters import FrozenArray, show
 MOST_BYTES = 64 * 2**20
 """Largest size of a document file; larger data are stored as arrays (a guess, hundreds of times the largest
 known architecture).
+"""
+
+ARRAY_ENDING = r"\.[0-9a-f]{8}\.npz"
+"""Pattern of the names of array files behind that of their document: the beginning of their SHA-256."""
+
+ENDING_LENGTH = len("12345678.npz")
+
+LEFT_SECONDS = 600
+"""Age of an array file without a document from which on it is one that was left behind, in seconds: saving
+takes much less (a guess).
 """
 
 ARRAY_SHARE = 0.5
@@ -158,8 +169,30 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
         if not (place.is_file() and regular_file.read_bytes(place) == packed):
             output.write(output.claim(place, force), packed)
     output.write(path, text.encode())
-    if old and old != new:
-        path.with_name(old).unlink(missing_ok=True)
+    left = left_arrays(path.parent, path.stem, new)
+    for place in [*left, path.with_name(old)] if old and old != new else left:
+        place.unlink(missing_ok=True)
+
+
+def left_arrays(folder: Path, stem: str = "", named: str = "") -> list[Path]:
+    """Return array files, with names that `save` gives, that no document of their folder names.
+
+    A process that was killed leaves one: arrays are written before the document that names them. So one that
+    is younger than LEFT_SECONDS is not returned: its document may follow.
+
+    Args:
+        folder: the folder.
+        stem: name of the document without the ending; "": any.
+        named: an array file that a document names.
+    """
+    form = re.compile((re.escape(stem) or ".+") + ARRAY_ENDING)
+    try:
+        found = [path for path in folder.iterdir() if form.fullmatch(path.name) and path.name != named]
+        found = [path for path in found if time.time() - path.lstat().st_mtime > LEFT_SECONDS]
+        texts = [regular_file.read_bytes(path) for path in folder.glob("*.json") if found and path.is_file()]
+    except OSError:
+        return []
+    return [path for path in found if not any(path.name[-ENDING_LENGTH:].encode() in text for text in texts)]
 
 
 def array_file(content: bytes | str) -> str:
@@ -180,7 +213,7 @@ def own_array_file(content: bytes, stem: str) -> str:
         stem: name of its file without the ending.
     """
     name = array_file(content)
-    return name if re.fullmatch(re.escape(stem) + r"\.[0-9a-f]{8}\.npz", name) else ""
+    return name if re.fullmatch(re.escape(stem) + ARRAY_ENDING, name) else ""
 
 
 def _key(table: dict[str, Any], base: str, shared: Any) -> str:

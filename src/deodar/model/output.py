@@ -9,7 +9,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import tempfile
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -17,7 +16,7 @@ from typing import Any
 
 from deodar import codec
 from deodar.errors import Fix, OutputError, OutputExists
-from deodar.model import written
+from deodar.model import partial, written
 
 THREADS = 16
 """Number of files that are flushed to the disk at the same time (a guess)."""
@@ -104,28 +103,21 @@ def write(
         OutputError: the system refused; an existing file is unchanged.
     """
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.name[:40]}.", suffix=path.suffix, dir=path.parent)
-        os.close(handle)
-    except OSError as error:
-        raise OutputError(f"cannot be written: {error.strerror}", where=str(path)) from None
-    beside = Path(name)
-    try:
-        if callable(content):
-            content(beside)
-        else:
-            beside.write_bytes(content)
-        if not private:
-            beside.chmod(0o666 & ~_umask())
-        if durable:
-            sync(beside)
-        beside.replace(path)
+        with partial.file(path) as beside:
+            if callable(content):
+                content(beside)
+            else:
+                beside.write_bytes(content)
+            if not private:
+                beside.chmod(0o666 & ~_umask())
+            if durable:
+                sync(beside)
+            beside.replace(path)
         if durable:
             sync_folder(path.parent)
             note(path)
     except OSError as error:
         raise failed(path, error) from None
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def replace(path: Path, content: bytes) -> None:

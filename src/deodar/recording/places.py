@@ -5,12 +5,11 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
 from deodar.errors import OutputError, OutputExists, Problem, option
-from deodar.model import output, written
+from deodar.model import output, partial, written
 
 MOST_NUMBERED = 100_000
 
@@ -56,36 +55,32 @@ def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False
 
     An existing one is replaced with `replace`, or if the running script wrote it.
     """
-    beside = old = None
+    unfinished = str(path)
     try:
-        beside = Path(tempfile.mkdtemp(prefix=f".{path.name[:40]}.", dir=path.parent))
-        inner = beside / "new"
-        inner.mkdir()
-        fill(inner)
-        output.sync_tree(inner)
-        if path.is_dir() and (replace or written.owned(path)):
-            old = beside / "old"
-            path.rename(old)
-        if path.exists():
-            raise OutputExists("was created meanwhile", where=str(path), fix="Choose another name")
-        try:
-            inner.rename(path)
-            output.sync_folder(path.parent)
-        except OSError:
-            if old is not None:
-                old.rename(path)
-            raise
-        output.note(path)
+        with partial.folder(path) as beside:
+            inner, old = beside / "new", beside / partial.OLD
+            unfinished = str(inner)
+            inner.mkdir()
+            fill(inner)
+            output.sync_tree(inner)
+            if path.is_dir() and (replace or written.owned(path)):
+                path.rename(old)
+            if path.exists():
+                raise OutputExists("was created meanwhile", where=str(path), fix="Choose another name")
+            try:
+                inner.rename(path)
+                output.sync_folder(path.parent)
+            except OSError:
+                if old.exists():
+                    old.rename(path)
+                raise
+            output.note(path)
     except OutputError as error:
-        unfinished = str(beside / "new") if beside is not None else str(path)
         raise type(error)(
             [Problem(p.where.replace(unfinished, str(path)), p.what, p.fix) for p in error.problems]
         ) from None
     except OSError as error:
         raise output.failed(path, error) from None
-    finally:
-        if beside is not None:
-            shutil.rmtree(beside, ignore_errors=True)
 
 
 def free(parent: Path, name: str, suffix: str = "") -> Path:

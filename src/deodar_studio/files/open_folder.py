@@ -12,7 +12,7 @@ from pathlib import Path
 from types import TracebackType
 
 from deodar.errors import DocumentError
-from deodar.model import output
+from deodar.model import output, partial
 
 BY_DESCRIPTOR = hasattr(os, "O_NOFOLLOW") and {os.open, os.unlink, os.rename} <= os.supports_dir_fd
 """Whether this system can open files relative to an open folder.
@@ -112,19 +112,23 @@ class OpenFolder:
         The content is written to a temporary file in the folder, synchronised to the disk, and renamed. A
         link of that name is replaced, never followed.
         """
-        beside = f".{name[:40]}.{secrets.token_hex(6)}"
+        at = self._descriptor
+        taken = None if at is None else partial.take(name, descriptor=at)
+        beside = taken[0] if taken else f".{name[:40]}.{secrets.token_hex(6)}"
         try:
-            descriptor = self._open(beside, NEW | NO_LINK)
             try:
+                descriptor = os.dup(taken[1]) if taken else self._open(beside, NEW | NO_LINK)
                 with os.fdopen(descriptor, "wb") as file:
                     file.write(content)
                     file.flush()
                     output.sync_open(file.fileno())
                 self._rename(beside, name)
                 self._sync()
-            except BaseException:
-                self.remove(beside)
-                raise
+            finally:
+                if taken:
+                    partial.drop(*taken, descriptor=at)
+                else:
+                    self.remove(beside)
         except OSError as error:
             raise output.failed(Path(name), error) from None
 

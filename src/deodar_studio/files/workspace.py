@@ -128,8 +128,10 @@ class Workspace:
             # the document last, because it refers to the other files
             for name in sorted(made, key=lambda name: name == place.name):
                 folder.write(name, made[name])
-            if old and old not in made:
-                folder.remove(old)
+            arrays = next((name for name in made if name != place.name), "")
+            left = document_files.left_arrays(place.parent, place.stem, arrays)
+            for name in {old, *(path.name for path in left)} - {"", *made}:
+                folder.remove(name)
 
     def _named(self, place: Path) -> str:
         return place.relative_to(self.root).as_posix() if place.is_relative_to(self.root) else str(place)

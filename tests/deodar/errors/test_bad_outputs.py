@@ -12,7 +12,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DeodarError, OutputError, OutputExists
-from deodar.model import output
+from deodar.model import output, partial
 from tests.deodar.errors.refused import refused
 
 X = dd.Axis("x", 0, 10, samples=11)
@@ -112,6 +112,7 @@ def test_permission_denied_while_writing_is_an_error(
     def refuse(*args: Any, **kwargs: Any) -> Any:
         raise PermissionError(13, "Permission denied")
 
+    monkeypatch.setattr(partial, "take", lambda *_: None)
     monkeypatch.setattr(tempfile, "mkstemp", refuse)
     refused(
         lambda: dd.save(model, tmp_path / "m.json"),
