@@ -378,6 +378,14 @@ class Element(Part):
         """
         return at.constants
 
+    def state_axes(self, ins: PortAxes) -> Mapping[str, Sequence[Axis | int]]:
+        """Return the dimensions of the states that do not have the axes of the first output.
+
+        A running state is carried along them to other axes. A number `n` stands for `n` rows, which have
+        no positions.
+        """
+        return {}
+
     def output(self, at: Setting) -> Arrays:
         """Return the value of every output port at time t."""
         raise NotImplementedError

@@ -200,6 +200,10 @@ class TimeError(DeodarError):
     """
 
 
+class ThreadError(DeodarError):
+    """Raised when a thread calls a session in which another thread is."""
+
+
 class NotFinite(DeodarError):
     """Raised at the end of a chunk in which a value became infinite or undefined; names the step (`step`),
     and the elements in `paths`.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -114,6 +114,10 @@ class DelayLine(Element):
             "moments_low": jnp.zeros(rows, at.dtype),
             "newest": at.full((), 0.0),
         }
+
+    def state_axes(self, ins: PortAxes) -> Mapping[str, Sequence[Axis | int]]:
+        rows = self.slots + 2
+        return {"kept": (rows, *self.axes), "moments": (rows,), "moments_low": (rows,)}
 
     def output(self, at: Setting) -> Arrays:
         kept, rows = at.state["kept"], self.slots + 2

@@ -138,6 +138,9 @@ class Hebbian(Coupling):
         )
         return {"weights": (scale * (drawn if self.random else jnp.sign(drawn))).reshape(*pre, *post)}
 
+    def state_axes(self, ins: PortAxes) -> Mapping[str, Sequence[Axis | int]]:
+        return {"weights": (*ins["input"], *self.axes)}
+
     def output(self, at: Setting) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)
         out = cell(at.ins["input"]) * plasticity.read(

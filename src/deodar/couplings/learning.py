@@ -90,6 +90,9 @@ class AdaptiveWeights(Coupling):
             else at.array(self.start)
         }
 
+    def state_axes(self, ins: PortAxes) -> Mapping[str, Sequence[Axis | int]]:
+        return {"weights": (*ins["input"], *self.axes)}
+
     def output(self, at: Setting) -> Arrays:
         x, w = at.inputs["input"], at.state["weights"]
         return {
@@ -273,6 +276,9 @@ class GainAdaptation(Coupling):
         return {
             "gains": at.full(at.ins["input"], self.initial) if self.start is None else at.array(self.start)
         }
+
+    def state_axes(self, ins: PortAxes) -> Mapping[str, Sequence[Axis | int]]:
+        return {"gains": ins["input"]}
 
     def output(self, at: Setting) -> Arrays:
         gains, f = at.state["gains"], at.inputs["input"] * cell(at.ins["input"])

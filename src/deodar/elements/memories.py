@@ -204,6 +204,9 @@ class History(StoredSamples):
         state = {"kept": at.full((self.slots, *self.axes), 0.0), "newest": at.full((), 0.0)}
         return state | ({"count": at.full((), 0.0)} if self.empty == "nan" else {})
 
+    def state_axes(self, ins: PortAxes) -> Mapping[str, Sequence[Axis | int]]:
+        return {"kept": (self.slots.samples, *self.axes)}
+
     def output(self, at: Setting) -> Arrays:
         kept = jnp.roll(at.state["kept"], -at.state["newest"].astype(int), axis=0)
         if self.empty == "nan":  # only the output has NaN; the state is finite
@@ -277,6 +280,9 @@ class SampledHistory(StoredSamples):
 
     def init(self, at: Setting) -> Arrays:
         return {"kept": at.full((self.slots, *self.axes), 0.0), "stored": at.full((self.slots,), 0.0)}
+
+    def state_axes(self, ins: PortAxes) -> Mapping[str, Sequence[Axis | int]]:
+        return {"kept": (self.slots.samples, *self.axes), "stored": (self.slots.samples,)}
 
     def output(self, at: Setting) -> Arrays:
         kept = at.state["kept"]

@@ -22,9 +22,10 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import real
 from deodar.session import memory
 from deodar.session.adopt import adopt
-from deodar.session.keep import with_learned
+from deodar.session.carry import nodes_of, put_rows, put_states
+from deodar.session.keep import put_learned, with_learned
 from deodar.session.run import Run, host, require_step
-from deodar.session.session_snapshot import put_rows, put_states, rows
+from deodar.session.session_snapshot import rows
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
@@ -232,17 +233,20 @@ class TrialCopies:
         only if `keep_learned` is false.
         """
         run = self.run
-        first, copy = ((), ()) if self.alone else ((row,), (self.rows.index(row),))
-        states, state = rows(*self._start, first), run.state.copy()
-        if keep_learned or not self.alone:  # put_states has arrays of its own
-            state["groups"], state["held"] = jax.tree.map(_writable, (state["groups"], state["held"]))
+        first = () if self.alone else (row,)
+        states, before = rows(*self._start, first), nodes_of(self._start[0])
+        if self.alone:
+            learned_rows = rows(run.program, host(run.state)) if keep_learned else {}
+            put_states(run, states, before)
+            if keep_learned:
+                put_learned(run, learned_rows)
+            return
+        state, copy = run.state.copy(), (self.rows.index(row),)
+        state["groups"], state["held"] = jax.tree.map(_writable, (state["groups"], state["held"]))
         if keep_learned:
             states = with_learned(run.doc, rows(run.program, state, copy), states)
-        if self.alone:
-            put_states(run, states)
-        else:
-            put_rows(run.program, state, states, copy)
-            run.state = state
+        put_rows(run.program, state, states, before, copy)
+        run.state = state
 
     def world_of(self, row: int) -> World | None:
         """Return the world of a trial, which actions change."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from deodar.model.document import Document
+from deodar.session.carry import fill, nodes_of, require_carried
 from deodar.session.run import Run, host, require_step
-from deodar.session.session_snapshot import fill, rows
+from deodar.session.session_snapshot import rows
 
 
 def adopt(run: Run, doc: Document, steps: Iterable[float]) -> str:
-    """Continue with another document; elements that remain (by id) keep their states.
+    """Continue with another document; elements that remain (by id) keep their states, over their new axes.
 
     Return the cost: live, rebuild or recompile. After an error nothing changed.
 
@@ -22,6 +23,7 @@ def adopt(run: Run, doc: Document, steps: Iterable[float]) -> str:
     Raises:
         TimeError: a step is too long for a time constant.
         WorldError: the world does not have a sensor or motor of the document.
+        ParameterError: a state cannot be carried.
     """
     new = run.continued(doc)
     if new is None or new.limiting:
@@ -29,9 +31,10 @@ def adopt(run: Run, doc: Document, steps: Iterable[float]) -> str:
     if new is not None:
         run.change(new)
         return new.cost
-    states = rows(run.program, host(run.state))
-    run.load(doc)
-    fill(run, states)
+    states, before = rows(run.program, host(run.state)), nodes_of(run.program)
+    with run.undone_on_error():
+        run.load(doc)
+        fill(run, states, before)
     return "recompile"
 
 
@@ -40,3 +43,4 @@ def require(run: Run, doc: Document, steps: Iterable[float]) -> None:
     for step in set(steps):
         require_step(doc, step)
     run.exchange.require(doc)
+    require_carried(run, doc)

@@ -8,9 +8,12 @@ import numpy as np
 
 from deodar.element import Element
 from deodar.errors import ParameterError
+from deodar.model import edit
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.session.session_snapshot import SessionSnapshot, StateRow
+from deodar.session.carry import nodes, nodes_of, put_rows
+from deodar.session.run import Run, host
+from deodar.session.session_snapshot import SessionSnapshot, StateRow, rows
 
 
 def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:
@@ -52,6 +55,44 @@ def with_learned(
             visible, coming = ({**old, **{name: new[name] for name in names}} for old, new in pairs)
             out[entry.id] = visible, coming
     return out
+
+
+def put_learned(run: Run, learned_rows: Mapping[str, tuple[StateRow, StateRow]]) -> None:
+    """Write what elements have learned, in rows of the present program, into the state of a run."""
+    state = host(run.state)
+    put_rows(
+        run.program,
+        state,
+        with_learned(run.doc, learned_rows, rows(run.program, state)),
+        nodes_of(run.program),
+    )
+    run.state = state
+
+
+def beginning(run: Run, kept: SessionSnapshot) -> Document:
+    """Return the document of a run with the values that were learned at a snapshot as initial values, over
+    the present axes.
+
+    Raises:
+        ParameterError: they cannot be carried to the present axes.
+    """
+    fresh, _ = run.program.init(run.values, run.seed, run.trials)
+    state = host(fresh)
+    reasons = put_rows(run.program, state, kept.states, nodes(kept.document))
+    by, entries = rows(run.program, state), run.doc.by_id()
+    values: dict[str, np.ndarray] = {}
+    for ident, name in (place.split(".", 1) for place in learned(kept)):
+        if ident in reasons:
+            raise ParameterError(
+                f"what was kept cannot be carried: {reasons[ident]}",
+                where=entries[ident].path,
+                fix="Keep it again, or make another session",
+            )
+        if ident in entries:
+            values[f"{entries[ident].path}.{name}"] = np.array(
+                entries[ident].element.learned_parameters(by[ident][0])[name]
+            )
+    return edit.change_all(run.doc, values)
 
 
 def keep(snapshot: SessionSnapshot, model: Model) -> list[str]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses as dc
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from types import EllipsisType
 from typing import Any, NamedTuple
 
@@ -148,11 +149,20 @@ class Run:
         """The document with the present values of the parameters."""
         return self.build.doc
 
-    def load(self, doc: Document) -> None:
-        """Use another document, with a program of its own; the state stays.
+    @contextlib.contextmanager
+    def undone_on_error(self) -> Generator[None]:
+        """Undo what the block changed in the run, if it raises; a world that moved is not moved back."""
+        exchange = self.exchange
+        before, exchanged = vars(self).copy(), vars(exchange).copy()
+        try:
+            yield
+        except BaseException:
+            vars(self).update(before)
+            vars(exchange).update(exchanged)
+            raise
 
-        After an error nothing changed.
-        """
+    def load(self, doc: Document) -> None:
+        """Use another document, with a program of its own; the state stays."""
         self._load(self.build.of(doc))
 
     def _load(self, build: Build) -> None:
@@ -413,9 +423,10 @@ class Run:
 
         After an error nothing changed.
         """
-        self.exchange = Exchange(self.doc if coming is None else coming, world)
-        self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
-        self.forget()
+        with self.undone_on_error():
+            self.exchange = Exchange(self.doc if coming is None else coming, world)
+            self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
+            self.forget()
 
     def _clock_arrays(self, counts: Mapping[str, int] | None = None) -> tuple[np.ndarray, np.ndarray]:
         period = self._period() if self.exchange.inside else 1

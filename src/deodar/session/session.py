@@ -29,15 +29,17 @@ from deodar.recording.provenance import stored
 from deodar.resources import Resources, use_resources
 from deodar.session import agreement, memory
 from deodar.session.adopt import adopt, require
+from deodar.session.carry import fill, nodes
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.journal import Change
-from deodar.session.keep import keep
+from deodar.session.keep import beginning, keep, put_learned
 from deodar.session.meter import Meter
+from deodar.session.one_thread import OneThread
 from deodar.session.port_reader import PortKey, PortReader
 from deodar.session.recorder import Recorder
 from deodar.session.run import Run, host, require_duration, require_step, whole
 from deodar.session.run_live import BETWEEN_EVERY, run_live
-from deodar.session.session_snapshot import SessionSnapshot, fill, rows
+from deodar.session.session_snapshot import SessionSnapshot, rows
 from deodar.summary import Summarised, Summary
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
@@ -81,6 +83,8 @@ class Session(Summarised):
         self.device = use_resources(on, "dd.Session", "device", "devices").device
         numbers, accuracy = Arithmetic.of(precision)
         distribution = distributed(Batch(), several(on.devices, on.device))[0]
+        self._one_thread = OneThread()
+        self._kept: SessionSnapshot | None = None
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
         self._recorder: Recorder | None = None
@@ -108,11 +112,12 @@ class Session(Summarised):
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 0:
             raise TimeError(f"a number of steps is a whole number, 0 or above, not {show(n)}")
         steps_left = int(n)
-        while steps_left:
-            steps_left -= self._to_new_dt(steps_left)
-            if steps_left:
-                self._advance(steps_left if self._coming_dt is None else 0)
-                steps_left = 0 if self._coming_dt is None else steps_left
+        with self._one_thread:
+            while steps_left:
+                steps_left -= self._to_new_dt(steps_left)
+                if steps_left:
+                    self._advance(steps_left if self._coming_dt is None else 0)
+                    steps_left = 0 if self._coming_dt is None else steps_left
 
     def run(self, duration: float) -> None:
         """Advance by a duration in document time: a whole number of steps of the present dt."""
@@ -134,7 +139,8 @@ class Session(Summarised):
         `deodar.session.run_live.run_live`.
         """
         hosts.require_one("a run that follows the wall clock", self.program.across)
-        return run_live(self, duration, speed, longest_step, between, between_every)
+        with self._one_thread:
+            return run_live(self, duration, speed, longest_step, between, between_every)
 
     def costs(self, seconds: float = SECONDS) -> StepCost:
         """Measure the cost of each element in a step; see `deodar.session.cost.costs`.
@@ -156,13 +162,27 @@ class Session(Summarised):
             )
         return moment(self._run)
 
-    def reset(self, seed: int | None = None) -> None:
-        """Reset state, time and noise to the start, with another seed if one is given; parameters stay."""
-        new = self.seed if seed is None else require_seed(seed)
-        self.journal.append(Change(self.tick, "reset", (new,)))
+    def reset(self, seed: int | None = None, keep_learned: bool = False) -> None:
+        """Reset state, time and noise to the start, with another seed if one is given; parameters stay.
+
+        Elements begin with what `keep` wrote last. After an error nothing changed.
+
+        Args:
+            seed: seed of all noise; None: the present one.
+            keep_learned: whether learned states (weights, traces, gains) stay as they are now.
+        """
+        new, run, tick = self.seed if seed is None else require_seed(seed), self._run, self.tick
+        with self._one_thread, run.undone_on_error():
+            if self._kept is not None:
+                adopt(run, beginning(run, self._kept), (self.dt, self.next_dt))
+            learned_rows = rows(run.program, host(run.state)) if keep_learned else {}
+            run.seed = new
+            run.reset()
+            if keep_learned:
+                put_learned(run, learned_rows)
+        self._kept = None
+        self.journal.append(Change(tick, "reset", (new, True) if keep_learned else (new,)))
         self._end_record("the session was reset")
-        self._run.seed = new
-        self._run.reset()
 
     def inject(self, path: str | Handle, amount: np.ndarray | float, n: int = 1) -> None:
         """Inject an external input for `n` Euler steps, without adding an element.
@@ -177,20 +197,21 @@ class Session(Summarised):
         exact_amount = frozen.data if frozen.shape else float(frozen.data)
         if self.program.across:
             hosts.require_equal("what is injected", [entry.path, n, frozen.digest])
-        self.journal.append(Change(self.tick, "inject", (entry.path, frozen, n)))
         g, r = self._run.program.plan.row[entry.id]
-        for _ in range(n):
-            dt, recorder, self._recorder = self.dt, self._recorder, None
-            try:
-                self.step()
-            finally:
-                self._recorder = recorder
-            self._run.put_row(
-                g, r, entry.element.inject(state := self._run.row(g, r), exact_amount, dt) or state
-            )
-            if recorder is not None:  # a sample at this tick contains the injected input
-                recorder.note()
-                recorder.sample(self._run)
+        with self._one_thread:
+            self.journal.append(Change(self.tick, "inject", (entry.path, frozen, n)))
+            for _ in range(n):
+                dt, recorder, self._recorder = self.dt, self._recorder, None
+                try:
+                    self.step()
+                finally:
+                    self._recorder = recorder
+                self._run.put_row(
+                    g, r, entry.element.inject(state := self._run.row(g, r), exact_amount, dt) or state
+                )
+                if recorder is not None:  # a sample at this tick contains the injected input
+                    recorder.note()
+                    recorder.sample(self._run)
 
     def _to_new_dt(self, most: int) -> int:
         """Advance to the next tick common to all parts, where a changed dt takes effect.
@@ -245,6 +266,7 @@ class Session(Summarised):
         Raises:
             TimeError: the step is too long for a time constant.
             WorldError: the world does not have a sensor or motor of the document.
+            ParameterError: a state cannot be carried.
         """
         require(self._run, document, (self.dt, self.next_dt))
 
@@ -276,15 +298,17 @@ class Session(Summarised):
         return find.value(self.document, path)
 
     def set(self, path: str | Mapping[str, Any], value: Any = ...) -> str:
-        """Change a parameter, or several at once, from the next step on; states stay.
+        """Change a parameter, or several at once, from the next step on.
 
-        Return the cost of the change: live, rebuild or recompile.
+        States stay; over other axes they are interpolated where both axes have positions. Return the cost of
+        the change: live, rebuild or recompile.
 
         For example `session.set("u.tau", 30)` or `session.set({"u.tau": 30, "v.tau": 10})`; after an error no
         parameter has changed.
         """
         values = edit.assignments(path, value)
-        cost = adopt(self._run, edit.change_all(self.document, values), (self.dt, self.next_dt))
+        with self._one_thread:
+            cost = adopt(self._run, edit.change_all(self.document, values), (self.dt, self.next_dt))
         self.journal += [
             Change(self.tick, "set", (at, FrozenArray(v) if isinstance(v, np.ndarray) else v))
             for at, v in values.items()
@@ -292,11 +316,12 @@ class Session(Summarised):
         return cost
 
     def edit(self, document: Document) -> str:
-        """Continue with another document; elements that remain (by id) keep their states.
+        """Continue with another document; elements that remain (by id) keep their states, as with `set`.
 
         Return the cost.
         """
-        cost = adopt(self._run, document, (self.dt, self.next_dt))
+        with self._one_thread:
+            cost = adopt(self._run, document, (self.dt, self.next_dt))
         self._ports.clear()
         self.journal.append(Change(self.tick, "edit", (document,)))
         return cost
@@ -313,8 +338,13 @@ class Session(Summarised):
             run.exchange.keep(),
         )
 
-    def restore(self, snapshot: SessionSnapshot) -> None:
-        """Restore a snapshot of this session or of another session of the same model."""
+    def restore(self, snapshot: SessionSnapshot, seed: int | None = None) -> None:
+        """Restore a snapshot of this session or of another session of the same model.
+
+        Args:
+            snapshot: what `snapshot` returned.
+            seed: seed of all noise from this moment on, for another future; None: that of the snapshot.
+        """
         if not isinstance(snapshot, SessionSnapshot):
             raise ParameterError(
                 f"expected a snapshot, got {show(snapshot)}", fix="Take one with session.snapshot()"
@@ -325,26 +355,28 @@ class Session(Summarised):
             )
         if not set(self.document.by_id()) & set(snapshot.document.by_id()):
             raise ParameterError(f"the snapshot is of another model, {snapshot.document.name!r}")
-        self.go_back(snapshot, self.world)
+        self.go_back(snapshot, self.world, None if seed is None else require_seed(seed))
 
-    def go_back(self, snapshot: SessionSnapshot, world: World | None) -> None:
-        """Restore a snapshot of this session with the world of that moment, whatever was edited since."""
-        self.journal.append(Change(self.tick, "restore", (snapshot,)))
-        self._end_record("a snapshot was restored")
-        run = self._run
-        before = run.clock, run.seed, run.exchange
-        try:
-            run.clock, run.seed, self._coming_dt = snapshot.clock, snapshot.seed, None
-            if world is not self.world:
-                run.see(world, snapshot.document)
+    def go_back(self, snapshot: SessionSnapshot, world: World | None, seed: int | None = None) -> None:
+        """Restore a snapshot of this session with the world of that moment, whatever was edited since.
+
+        After an error nothing changed.
+        """
+        run, tick, present_seed = self._run, self.tick, self.seed
+        with self._one_thread, run.undone_on_error():
+            run.clock, run.seed = snapshot.clock, snapshot.seed if seed is None else seed
+            if world is not self.world or (
+                world is not None and world.repeatable and run.seed != present_seed
+            ):
+                run.see(world, snapshot.document)  # its noise follows from the seed
             if snapshot.document != self.document:
                 run.load(snapshot.document)
-                self._ports.clear()
-        except BaseException:
-            run.clock, run.seed, run.exchange = before
-            raise
-        fill(run, snapshot.states)
-        run.exchange.put(snapshot.world)
+            fill(run, snapshot.states, nodes(snapshot.document))
+            run.exchange.put(snapshot.world)
+        self._coming_dt = None
+        self._ports.clear()
+        self.journal.append(Change(tick, "restore", (snapshot,) if seed is None else (snapshot, seed)))
+        self._end_record("a snapshot was restored")
 
     def record(
         self,
@@ -383,9 +415,12 @@ class Session(Summarised):
     def keep(self) -> list[str]:
         """Write learned values (weights, traces, gains) back to the model as initial values, for `save`.
 
-        Return the paths of the parameters.
+        The next `reset` of this session begins with them, too. Return the paths of the parameters.
         """
-        return keep(self.snapshot(), self._model)
+        snapshot = self.snapshot()
+        paths = keep(snapshot, self._model)
+        self._kept = snapshot
+        return paths
 
     # ----------------------------------------------------------------------------------- objects in the world
 
@@ -498,7 +533,8 @@ class Session(Summarised):
     @world.setter
     def world(self, world: World | None) -> None:
         hosts.require_one("a world", self.program.across and world is not None)
-        self._run.see(world)
+        with self._one_thread:
+            self._run.see(world)
         self.journal.append(Change(self.tick, "world", (world,)))
 
     @property
@@ -514,9 +550,10 @@ class Session(Summarised):
     @dt.setter
     def dt(self, value: float) -> None:
         require_step(self.document, value)
-        self._coming_dt = float(value)
-        self.journal.append(Change(self.tick, "dt", (float(value),)))
-        self._to_new_dt(0)
+        with self._one_thread:
+            self._coming_dt = float(value)
+            self.journal.append(Change(self.tick, "dt", (float(value),)))
+            self._to_new_dt(0)
 
     @property
     def next_dt(self) -> float:

@@ -13,7 +13,6 @@ from deodar.compiler.executable import Executable
 from deodar.model.document import Document
 from deodar.session.clock import Clock
 from deodar.session.exchange import WorldState
-from deodar.session.run import Run, host
 from deodar.summary import Summarised, Summary
 
 StateRow = Mapping[str, np.ndarray]
@@ -63,39 +62,3 @@ def rows(
         )
         out[ident] = (visible, coming)
     return out
-
-
-def put_rows(
-    program: Executable,
-    state: ProgramState,
-    states: Mapping[str, tuple[StateRow, StateRow]],
-    copy: tuple[int, ...] = (),
-) -> None:
-    """Copy states by id into arrays on the host, for elements whose states have the same shapes."""
-    for ident, (g, r) in program.plan.row.items():
-        if ident in states:
-            for source, target in zip(
-                states[ident], (state["groups"][g], state["held"].get(str(g), {})), strict=True
-            ):
-                for name, values in source.items():
-                    if name in target and target[name].shape[len(copy) + 1 :] == np.shape(values):
-                        target[name][(*copy, r)] = values
-
-
-def fill(run: Run, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
-    """Copy states by id into the present program; other elements start at their initial states.
-
-    Noise follows from seed and tick.
-    """
-    fresh, run.keys = run.program.init(run.values, run.seed, run.trials)
-    state = host(fresh)
-    put_rows(run.program, state, states)
-    run.state = state
-    run.forget()
-
-
-def put_states(run: Run, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
-    """Replace the states of elements; time, noise, parameters, the world and its readings continue."""
-    sensed, unread = run.sensed, run.exchange.unread
-    fill(run, states)
-    run.sensed, run.exchange.unread = sensed, unread

@@ -20,7 +20,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from deodar.errors import ModelError, NotFinite, Problem, problems_of
+from deodar.errors import ModelError, NotFinite, ParameterError, Problem, problems_of
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.session.cost import StepCost, costs
@@ -193,11 +193,12 @@ class Engine:
         if published is None:
             raise ModelError("The run has no moment to continue from", fix="Start it first")
         state = published[1]
-        self.play(False)
+        self._keep_step()
         try:
             self.states.branch(session, state.tick, self._report)
         finally:
             self.busy, self._stale = "compiling" if self._target else "", True
+        self.play(False)
         self.busy, self._target, self.injection = "", None, None
         self.ring = self.ring.until(state.tick)
         self.traces = {request: trace.until(state.time) for request, trace in self.traces.items()}
@@ -218,8 +219,8 @@ class Engine:
             ParameterError: the snapshot is of another model.
         """
         session = self._require()
-        self.play(False)
         session.restore(snapshot)
+        self.play(False)
         self.busy, self._target, self.injection = "", None, None
         if session.next_dt != session.document.step:  # a step that was lengthened
             session.dt = session.document.step
@@ -532,11 +533,9 @@ class Engine:
                 at_sampled,
             ][-MOST_LOOKS:]
             if document is not session.document and self._target is not None and self._target[1] is document:
-                session.edit(document)
-                self._target = None
+                self._continue(session, document)
             elif self._target is not None and session.cost(self._target[1]) != "recompile":
-                session.edit(self._target[1])
-                self._target = None
+                self._continue(session, self._target[1])
         except Exception as error:  # the program that runs continues
             self._target, self._uncompiled = None, True
             self.failure = (problems_of(error), ())
@@ -549,6 +548,18 @@ class Engine:
         if self._target is not None or places_now != places_read or session.program is not program:
             self._make()
         return None
+
+    def _continue(self, session: Session, document: Document) -> None:
+        """Continue with a document that was accepted when its compilation began.
+
+        A state that had nothing to lose then, and cannot be carried now, begins again with the whole run.
+        """
+        try:
+            session.require(document)
+        except ParameterError:
+            self.reset()
+        session.edit(document)
+        self._target = None
 
 
 def _found(readers: Sequence[PortReader], program: Any, places: Iterable[PortKey]) -> PortReader | None:

@@ -313,3 +313,29 @@ def test_a_trace_up_to_a_time_has_the_earlier_samples() -> None:
         trace.add(at, 2.0 * at)
     np.testing.assert_array_equal(trace.until(3).since(0), [(t, 2.0 * t) for t in range(4)])
     assert trace.count == 10
+
+
+def test_an_edit_that_loses_a_state_is_refused_while_the_model_runs_and_begins_it_again_before(
+    driven: Driven,
+) -> None:
+    engine, m = driven.engine, driven.model
+    plane = [X, dd.Axis("y", 0, 10, samples=11)]
+    m.set("u.axes", plane)
+    assert driven.do(lambda: engine.adopt(m, m.document)) == "recompile"
+    driven.do(lambda: engine.session.step(5))  # type: ignore[union-attr]
+    driven.until(lambda: engine.session is not None and engine.session.document is m.document)
+    assert engine.session is not None and engine.session.tick == 0 and not engine.failure[0]
+    driven.do(lambda: engine.session.step(5))  # type: ignore[union-attr]
+    m.undo()
+    with pytest.raises(ParameterError, match=r"u: .*it is no longer along the axis y"):
+        driven.do(lambda: engine.adopt(m, m.document))
+
+
+def test_a_snapshot_of_another_model_is_refused_and_the_run_continues(driven: Driven) -> None:
+    engine, other = driven.engine, dd.Model("other")
+    other.add(dd.Field("v", [X]))
+    wrong = dd.Session(other).snapshot()
+    driven.do(lambda: engine.play(True))
+    with pytest.raises(ParameterError, match=r"another model"):
+        driven.do(lambda: engine.restore(wrong))
+    assert engine.running
