@@ -175,6 +175,7 @@ class Exchange:
                         )
             self._commands = None
             self._last, self._due = instant.tick - late, instant.tick - late + period
+        self.unread = True  # after an error the next step reads them again
         if readings is None:
             with errors_of(self.world, "sense"):
                 moment = (instant.time - (instant.tick - self._last) * dt) * instant.unit

@@ -116,7 +116,12 @@ class CameraReader:
             raise WorldError(
                 f"{ended}has delivered no picture for {silent:.1f} s",
                 where=self.source.where,
-                fix="Check that it is connected and sends pictures, then reset the run",
+                fix="Check that it is connected and sends pictures, then "
+                + (
+                    "reset the run"
+                    if self.source.form == "file"
+                    else "continue: the next reading opens it again"
+                ),
             )
         return stream.newest
 

@@ -29,8 +29,8 @@ class Camera(World):
     sensor and replay it (`Recording`).
 
     A file is played once, at its own rate; `Video` plays one in the time of the model. A camera that is
-    absent or stops is an error that says why. The user, the password and secret parameters of an address are
-    in no record and no message, which show `***` instead.
+    absent or stops is an error that says why; if it comes back, the session continues. The user, the
+    password and secret parameters of an address are in no record and no message, which show `***` instead.
 
     Equation:
         y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
@@ -98,7 +98,12 @@ class Camera(World):
 
     def picture(self) -> np.ndarray:
         """Return the newest picture (height, width, 3) of bytes."""
-        return self._open().picture()
+        try:
+            return self._open().picture()
+        except WorldError:
+            if self._reader is not None and self._reader.source.form != "file":
+                self.close()  # it may come back: the next reading opens it again
+            raise
 
     def close(self) -> None:
         """Release the camera for other programs; the next reading opens it again."""

@@ -142,3 +142,27 @@ class Each(Tank):
 def test_a_batch_of_a_world_with_readings_of_each_copy_is_refused() -> None:
     with pytest.raises(WorldError, match="level differ from copy to copy"):
         dd.simulate(closed(True), 8, trials=2, record="u.activation", world=Each())
+
+
+def test_a_sensor_that_fails_once_is_read_again_and_the_world_does_not_act_twice() -> None:
+    class Loose(Tank):
+        failures = 0
+
+        def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
+            if self.failures:
+                self.failures -= 1
+                raise OSError("unplugged")
+            return super().sense(sensor, axes, time)
+
+    worlds = Tank(), Loose()
+    steady, loose = (dd.Session(closed(outside=True), world=world) for world in worlds)
+    steady.step(12)
+    loose.step(7)
+    worlds[1].failures = 2
+    for _ in range(2):
+        with pytest.raises(WorldError, match=r"unplugged"):
+            loose.step(5)
+        assert loose.tick == 8
+    loose.step(4)
+    assert worlds[1].acted == worlds[0].acted
+    assert np.array_equal(loose.read("level.output"), steady.read("level.output"))
