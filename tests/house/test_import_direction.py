@@ -20,7 +20,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "plugins docstring declarations file_version",
         "names registry extensions part_type family codec",
         "credentials sealed npz regular_file",
-        "parameters",
+        "parameters guarded",
         "leaves part_data",
         "numerics",
         "element",

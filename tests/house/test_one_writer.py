@@ -10,6 +10,7 @@ from tests.house.source import MODULES, module, tree
 
 OTHERS = {
     "model.partial": "the names beside the final ones, which `output` and `places` write",
+    "guarded.child": "messages to its parent",
     "recording.places": "whole folders, each file of which `output` puts on the disk",
     "deodar_studio.files.open_folder": "the same steps in a folder that is held open, past links",
     "model.package": "writes into the temporary file that `output` gives it, and into folders of `places`",

@@ -1,0 +1,176 @@
+"""The child processes of this process: started when a file is read, kept, and used again."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import os
+import secrets
+import signal
+import subprocess
+import sys
+import threading
+import weakref
+from collections.abc import Generator
+from typing import BinaryIO, cast
+
+from deodar.errors import DeodarError
+from deodar.guarded.channel import BrokenChannel, Channel, Message, ParentFunction, Plain, error_data
+from deodar.guarded.child import Request
+
+MOST_IDLE = 2
+"""Most children that are kept without work."""
+
+PIPE_BYTES = 2**20
+"""Size of the pipes, where the system can change it: pictures of a video pass faster."""
+
+
+class EndedChild(Exception):
+    """Raised if a child ended before it answered; the message says by what."""
+
+
+class Child:
+    """One child, which one thread uses at a time.
+
+    Attributes:
+        functions: names of the functions that it has called.
+        waits: whether it has answered its last request, and waits for another one.
+        end: ends it; it is also called when this object is deleted, and at the end of this process.
+    """
+
+    def __init__(self) -> None:
+        mark = secrets.token_hex(8)
+        self.functions: set[str] = set()
+        self.waits = True
+        self._seconds = 0.0
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "deodar.guarded.child", mark],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={
+                **os.environ,
+                "PYTHONPATH": os.pathsep.join(path or os.getcwd() for path in sys.path),
+                "JAX_PLATFORMS": "cpu",
+                "OPENBLAS_NUM_THREADS": "1",
+                "RUST_BACKTRACE": "0",
+            },
+        )
+        source, sink = cast(BinaryIO, self._process.stdout), cast(BinaryIO, self._process.stdin)
+        for pipe in (source, sink):
+            _enlarge(pipe.fileno())
+        self._lent: list[ParentFunction] = []
+        self._channel = Channel(source, sink, mark, self._lent)
+        self.end = weakref.finalize(self, _end, self._process, os.getpid())
+
+    def request(self, request: Request) -> None:
+        """Ask the child to call a function."""
+        self.waits = False
+        self.functions.add(request.function)
+        self._lent.clear()
+        self._channel.longest, self._seconds = request.memory, request.seconds
+        self.say("call", request)
+
+    def say(self, word: str, content: Plain = None) -> None:
+        """Send a message; that a child has ended is found when its answer is read."""
+        with contextlib.suppress(BrokenChannel):
+            self._channel.send(word, content)
+
+    def answer(self) -> Message:
+        """Return the next item, or what the function returned or raised.
+
+        Raises:
+            EndedChild: the child ended, or was ended after the longest time.
+        """
+        late = threading.Event()
+        timer = threading.Timer(self._seconds, self._expire, [late])
+        timer.start()
+        try:
+            word, content = self._channel.receive()
+            while word == "ask":
+                self._reply(*cast("tuple[int, list[Plain]]", content))
+                word, content = self._channel.receive()
+        except BrokenChannel:
+            self._process.kill()
+            status = self._process.wait()
+            raise EndedChild(_ended_by(status, self._seconds if late.is_set() else None)) from None
+        finally:
+            timer.cancel()
+        self.waits = word != "item"
+        return word, content
+
+    def stop(self) -> None:
+        """Let the child leave the generator that it reads."""
+        self.say("stop")
+        with contextlib.suppress(EndedChild):
+            while not self.waits:
+                self.answer()
+
+    def _expire(self, late: threading.Event) -> None:
+        late.set()
+        self._process.kill()
+
+    def _reply(self, number: int, values: list[Plain]) -> None:
+        try:
+            self.say("value", self._lent[number](*values))
+        except DeodarError as error:
+            self.say("error", error_data(error))
+
+
+class Children:
+    """The children of one process that wait for work; several threads may take one each."""
+
+    def __init__(self) -> None:
+        self._waiting: list[Child] = []
+        self._lock = threading.Lock()
+
+    @contextlib.contextmanager
+    def child(self, function: str) -> Generator[Child]:
+        """Return a child, preferably one that has called a function; it is kept unless it ended."""
+        with self._lock:
+            self._waiting.sort(key=lambda child: function in child.functions)
+            child = self._waiting.pop() if self._waiting else None
+        child = child or Child()
+        try:
+            yield child
+        finally:
+            with self._lock:
+                stays = child.waits and len(self._waiting) < MOST_IDLE
+                if stays:
+                    self._waiting.append(child)
+            if not stays:
+                child.end()
+
+
+def children() -> Children:
+    """Return the children of this process; a process that was forked has others than its parent."""
+    return _children(os.getpid())
+
+
+@functools.cache
+def _children(pid: int) -> Children:
+    return Children()
+
+
+def _end(process: subprocess.Popen[bytes], parent: int) -> None:
+    """End a child, unless this process is a fork of its parent."""
+    if os.getpid() == parent:
+        process.kill()
+        process.communicate()
+
+
+def _enlarge(descriptor: int) -> None:
+    with contextlib.suppress(ImportError, AttributeError, OSError):
+        # absent on Windows
+        import fcntl
+
+        fcntl.fcntl(descriptor, fcntl.F_SETPIPE_SZ, PIPE_BYTES)
+
+
+def _ended_by(status: int, longest: float | None) -> str:
+    if longest is not None:
+        return f"it takes longer than {longest:g} s"
+    if status < 0:
+        with contextlib.suppress(ValueError):
+            return f"its reader ended by {signal.Signals(-status).name}"
+    return f"its reader ended with status {status}"

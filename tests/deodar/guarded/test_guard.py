@@ -1,0 +1,170 @@
+"""A child reads for its parent: what passes, what ends it, and who has it."""
+
+from __future__ import annotations
+
+import math
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import psutil
+import pytest
+
+from deodar.errors import MEDIA, DocumentError, MissingExtra, WorldError
+from deodar.guarded.children import MOST_IDLE, children
+from deodar.guarded.guard import Guard
+from tests.deodar.guarded import foreign
+
+GUARD = Guard(WorldError, "file.xml")
+SMALL = Guard(DocumentError, "file.xml", memory=2**28, seconds=0.5)
+LINUX = sys.platform == "linux"
+
+
+def test_plain_data_pass_as_they_are() -> None:
+    plain = {"": [None, True, 2**70, 0.1, "ä\udc80\0"], "bytes": [b"", b"\n{}"], "inside": {"bytes": 0}}
+    assert GUARD.call(foreign.same, plain) == plain
+    assert math.isnan(GUARD.call(foreign.same, math.nan))
+    assert GUARD.call(foreign.same, (1, (2,))) == [1, [2]]
+    for array in (
+        np.arange(6, dtype=">i2").reshape(2, 3).T,
+        np.array("text"),
+        np.zeros((0, 2)),
+        np.float32(3),
+    ):
+        passed = GUARD.call(foreign.same, array)
+        assert passed.dtype == array.dtype and passed.shape == array.shape and np.array_equal(passed, array)
+    GUARD.call(foreign.same, np.zeros(2))[0] = 1
+
+
+def test_what_a_library_prints_is_no_message() -> None:
+    assert GUARD.call(foreign.printed) == 1
+    with pytest.raises(WorldError, match=r"file\.xml: cannot be read: TypeError: object is no plain data"):
+        GUARD.call(foreign.unplain)
+    with pytest.raises(TypeError, match="object is no plain data"):
+        GUARD.call(foreign.same, object())
+
+
+@pytest.mark.parametrize(
+    ("function", "end"),
+    [
+        (foreign.crash, "its reader ended by SIGSEGV"),
+        (foreign.leave, "its reader ended with status 3"),
+        (foreign.never, "it takes longer than 0.5 s"),
+        (foreign.fail, "ValueError: no such"),
+    ],
+)
+def test_an_error_says_what_ended_the_reader(function: Callable[[], object], end: str) -> None:
+    with pytest.raises(DocumentError) as caught:
+        SMALL.call(function)
+    problem = caught.value.problems[0]
+    assert (problem.where, problem.what) == ("file.xml", f"cannot be read: {end}") and problem.fix
+    assert GUARD.call(foreign.same, 1) == 1, "the next file has another reader"
+
+
+@pytest.mark.skipif(not LINUX, reason="only Linux limits the memory")
+def test_memory_is_limited_for_each_call() -> None:
+    with pytest.raises(
+        DocumentError, match=r"file\.xml: cannot be read: it needs more than 0\.25 GiB of mem"
+    ):
+        SMALL.call(foreign.take, 2**29)
+    assert GUARD.call(foreign.take, 2**29) == 2**29
+
+
+def test_an_error_of_deodar_passes_with_its_class_and_problems() -> None:
+    with pytest.raises(WorldError) as caught:
+        GUARD.call(foreign.refuse)
+    first, second = caught.value.problems
+    assert type(caught.value) is WorldError
+    assert (first.where, first.what, second.what, second.severity) == (
+        "here",
+        "is wrong",
+        "and this",
+        "warning",
+    )
+    assert [first.fix_at(medium) for medium in MEDIA] == ["Type: a", "Type: b", "Choose c"]
+    with pytest.raises(MissingExtra, match=r"reading needs the package package.*deodar\[extra\]"):
+        GUARD.call(foreign.lack)
+
+
+def test_a_function_is_called_in_the_parent() -> None:
+    def answer(text: str) -> bytes:
+        if text == "b" and refuses:
+            raise DocumentError("leads out of the folder", where=text)
+        return f"{text} {os.getpid()}".encode()
+
+    refuses = False
+    assert GUARD.call(foreign.ask, answer) == [f"{text} {os.getpid()}".encode() for text in "ab"]
+    refuses = True
+    with pytest.raises(DocumentError, match="b: leads out of the folder"):
+        GUARD.call(foreign.ask, answer)
+    with pytest.raises(ZeroDivisionError):
+        GUARD.call(foreign.ask, lambda text: 1 // 0)
+    assert GUARD.call(foreign.same, 1) == 1
+
+
+def test_items_come_one_by_one_and_those_before_a_crash_count() -> None:
+    assert list(GUARD.items(foreign.count, 5)) == [0, 1, 2, 3, 4]
+    items = GUARD.items(foreign.count, 10**9)
+    assert next(items) == 0 and next(items) == 1
+    assert GUARD.call(foreign.process) != os.getpid(), "another file meanwhile"
+    items.close()
+    taken: list[int] = []
+    with pytest.raises(WorldError, match="its reader ended by SIGSEGV"):
+        taken.extend(GUARD.items(foreign.count_and_crash, 3))
+    assert taken == [0, 1, 2]
+
+
+def test_a_child_is_kept_and_one_thread_uses_it_at_a_time() -> None:
+    assert GUARD.call(foreign.process) == GUARD.call(foreign.process)
+    used: list[int] = []
+    threads = [threading.Thread(target=lambda: used.append(GUARD.call(foreign.busy, 0.2))) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(set(used)) == 4
+    readers = {GUARD.call(foreign.process) for _ in range(3)}
+    assert len(readers) == 1 and len([pid for pid in used if psutil.pid_exists(pid)]) <= MOST_IDLE
+    assert children() is children()
+
+
+ENDS = """
+import os, sys
+from deodar.errors import WorldError
+from deodar.guarded.guard import Guard
+from tests.deodar.guarded import foreign
+guard = Guard(WorldError, "file")
+own = guard.call(foreign.process)
+if not os.fork():
+    other = guard.call(foreign.process)
+    print(own, other, flush=True)
+    sys.exit()
+os.wait()
+assert guard.call(foreign.process) == own
+os.kill(os.getpid(), 9)
+"""
+
+
+@pytest.mark.skipif(not LINUX, reason="forks")
+def test_a_fork_has_another_child_and_both_end_with_their_parents() -> None:
+    root = Path(__file__).parents[3]
+    done = subprocess.run([sys.executable, "-c", ENDS], capture_output=True, text=True, cwd=root)
+    assert done.returncode == -9 and not done.stderr
+    first, second = map(int, done.stdout.split())
+    assert first != second
+    until = time.monotonic() + 60
+    while any(_runs(pid) for pid in (first, second)) and time.monotonic() < until:
+        time.sleep(0.01)
+    assert not _runs(first) and not _runs(second)
+
+
+def _runs(pid: int) -> bool:
+    try:
+        return psutil.Process(pid).status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
