@@ -81,8 +81,8 @@ def connected(cluster: Cluster, stack: contextlib.ExitStack, look: Callable[[], 
 def _local(processes: int, stack: contextlib.ExitStack) -> Any:
     """Start a scheduler in this process, and the processes of `local:N`.
 
-    Their ports are open to every user of the machine, and a client of one can run programs in it: they require
-    a certificate that exists in these processes alone, and none of them serves pages.
+    Their ports are open to every user of the machine, and a client of one can run programs in it: they
+    require a certificate that exists in these processes alone, and none of them serves pages.
     """
     # an extra
     import dask.config
