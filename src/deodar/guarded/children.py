@@ -34,14 +34,16 @@ class Child:
 
     Attributes:
         functions: names of the functions that it has called.
-        waits: whether it has answered its last request, and waits for another one.
+        yields: whether it is inside a generator.
+        useful: whether it waits for another request. After an exception that is none of deodar, or for want
+            of memory, a library may be in any state, such as holding a lock, and the child is not used again.
         end: ends it; it is also called when this object is deleted, and at the end of this process.
     """
 
     def __init__(self) -> None:
         mark = secrets.token_hex(8)
         self.functions: set[str] = set()
-        self.waits = True
+        self.yields, self.useful = False, True
         self._seconds = 0.0
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-m", "deodar.guarded.child", mark],
@@ -65,7 +67,7 @@ class Child:
 
     def request(self, request: Request) -> None:
         """Ask the child to call a function."""
-        self.waits = False
+        self.yields = self.useful = False
         self.functions.add(request.function)
         self._lent.clear()
         self._channel.longest, self._seconds = request.memory, request.seconds
@@ -85,6 +87,7 @@ class Child:
         late = threading.Event()
         timer = threading.Timer(self._seconds, self._expire, [late])
         timer.start()
+        self.yields = False
         try:
             word, content = self._channel.receive()
             while word == "ask":
@@ -96,14 +99,14 @@ class Child:
             raise EndedChild(_ended_by(status, self._seconds if late.is_set() else None)) from None
         finally:
             timer.cancel()
-        self.waits = word != "item"
+        self.yields, self.useful = word == "item", word in ("value", "error")
         return word, content
 
     def stop(self) -> None:
         """Let the child leave the generator that it reads."""
         self.say("stop")
         with contextlib.suppress(EndedChild):
-            while not self.waits:
+            while self.yields:
                 self.answer()
 
     def _expire(self, late: threading.Event) -> None:
@@ -126,7 +129,7 @@ class Children:
 
     @contextlib.contextmanager
     def child(self, function: str) -> Generator[Child]:
-        """Return a child, preferably one that has called a function; it is kept unless it ended."""
+        """Return a child, preferably one that has called a function; it is kept if it is still useful."""
         with self._lock:
             self._waiting.sort(key=lambda child: function in child.functions)
             child = self._waiting.pop() if self._waiting else None
@@ -135,7 +138,7 @@ class Children:
             yield child
         finally:
             with self._lock:
-                stays = child.waits and len(self._waiting) < MOST_IDLE
+                stays = child.useful and len(self._waiting) < MOST_IDLE
                 if stays:
                     self._waiting.append(child)
             if not stays:

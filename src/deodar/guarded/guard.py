@@ -69,7 +69,7 @@ class Guard:
                     child.say("next")
                 self._content(*answer)
             finally:
-                if not child.waits:
+                if child.yields:
                     child.stop()
 
     @contextlib.contextmanager

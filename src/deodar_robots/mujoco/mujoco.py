@@ -25,7 +25,7 @@ from deodar_robots.mujoco import solids
 from deodar_robots.mujoco.cameras import CAMERAS, MuJoCoCameras, Renderer, visible
 from deodar_robots.mujoco.objects import PlacedObject
 from deodar_robots.mujoco.reach import Arm
-from deodar_robots.mujoco.scene_file import ROBOTS, SCENES, SceneFile, compiled, is_scalar, simulator
+from deodar_robots.mujoco.scene_file import ROBOTS, SCENES, SceneFile, is_scalar, simulator
 
 CONTROL = 0.01
 """Interval between two commands to the joints, s, if the time step of the scene is shorter."""
@@ -110,10 +110,8 @@ class MuJoCo(World):
 
     def _build(self) -> None:
         """Compile the scene with its objects."""
-        spec = self.files.specification()
-        for thing in self.objects.values():
-            thing.add_to(spec)
-        self.model = model = compiled(spec, self.files.scene)
+        model, self._home = self.files.compiled(thing.body() for thing in self.objects.values())
+        self.model = model
         model.opt.disableflags |= int(simulator().mjtDisableBit.mjDSBL_AUTORESET)
         period = float(self.period or 0)
         steps = period / (1000 * model.opt.timestep)
@@ -127,7 +125,6 @@ class MuJoCo(World):
         self._steps = round(steps)
         self._control = max(1, round(CONTROL / model.opt.timestep))
         self._joints = [k for k in range(model.njnt) if is_scalar(model, k)]
-        self._home = self.files.home(model)
         self.arm = Arm.find(model, self._home)
         self._colors, self._shown = pictures.shades(model), simulator().MjData(model)
         self._renderers: dict[tuple[int, int], Renderer] = {}

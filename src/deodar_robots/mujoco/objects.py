@@ -11,7 +11,7 @@ from deodar.codec import Json
 from deodar.errors import WorldError
 from deodar.parameters import real, show
 from deodar.worlds._scene import pair
-from deodar_robots.mujoco.scene_file import simulator
+from deodar_robots.mujoco.scene_file import FreeBody
 
 SHAPES = ("cylinder", "box")
 HEIGHT = 0.01
@@ -71,22 +71,18 @@ class PlacedObject:
         red, green, blue = (float(c) for c in shades if c is not None)
         return cls(name, pair(f"{name}.center", center), wide, (red, green, blue), high, shape)
 
-    def add_to(self, spec: Any) -> None:
-        """Add the object to a specification, as a body with a free joint."""
-        kinds = simulator().mjtGeom
-        body = spec.worldbody.add_body(name=self.name, pos=[*self.center, self.height / 2])
-        body.add_freejoint(name=self.name)
+    def body(self) -> FreeBody:
+        """Return the object as a body of a scene."""
         half = [self.size[0] / 2, self.size[1] / 2, self.height / 2]
         round_ = self.shape == "cylinder"
-        body.add_geom(
-            name=self.name,
-            type=kinds.mjGEOM_CYLINDER if round_ else kinds.mjGEOM_BOX,
-            size=[half[0], half[2], 0] if round_ else half,
-            rgba=[*self.color, 1],
-            density=DENSITY,
-            contype=1,
-            conaffinity=3,
-        )
+        return {
+            "name": self.name,
+            "position": [*self.center, self.height / 2],
+            "geom": "mjGEOM_CYLINDER" if round_ else "mjGEOM_BOX",
+            "size": [half[0], half[2], 0] if round_ else half,
+            "color": [*self.color, 1],
+            "density": DENSITY,
+        }
 
     def to_data(self) -> dict[str, Json]:
         """Return the object as plain data."""

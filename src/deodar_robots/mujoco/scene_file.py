@@ -1,15 +1,22 @@
-"""Scene and robot files in the format of MuJoCo (MJCF), and the specification that they give together."""
+"""Scene and robot files in the format of MuJoCo (MJCF), and the model that they give together.
+
+MuJoCo trusts the sizes in a file, so a child compiles it (`compile_files`) and hands back the compiled model.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import warnings
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
+
+import numpy as np
 
 from deodar import regular_file
 from deodar.errors import MissingExtra, WorldError, did_you_mean, first_line
+from deodar.guarded.guard import Guard
 
 FOLDER = Path(__file__).parent
 SCENES, ROBOTS = FOLDER / "scenes", FOLDER / "robots"
@@ -60,43 +67,28 @@ class SceneFile:
         Raises:
             WorldError: there is no such file.
         """
-        found = _found(scene, SCENES, "scene")
-        own = found.parent == SCENES
-        if robot is None and own and _read(found).site(MOUNT) is not None:
+        simulator()
+        file = _path(scene, SCENES, "scene")
+        if (
+            robot is None
+            and file.parent == SCENES
+            and Guard(WorldError, str(file)).call(has_mount, str(file))
+        ):
             robot = "lwr4"
-        return cls(found, None if robot is None else _found(robot, ROBOTS, "robot"))
+        return cls(file, None if robot is None else _path(robot, ROBOTS, "robot"))
 
-    def specification(self) -> Any:
-        """Read the files.
+    def compiled(self, bodies: Iterable[FreeBody] = ()) -> tuple[Any, dict[str, float]]:
+        """Return the model of the files and of bodies, and the position of each joint of the keyframe `home`.
 
         Raises:
-            WorldError: a file is not valid MJCF, or the scene has no place for the robot.
+            WorldError: a file is not valid MJCF, or needs too much memory or time; the scene has no place for
+                the robot, or MuJoCo cannot build it.
         """
-        spec = _read(self.scene)
-        if self.robot is not None:
-            if spec.site(MOUNT) is None:
-                raise WorldError(
-                    "has no site called 'robot', at which the robot would be attached",
-                    where=str(self.scene),
-                    fix=f'Add <site name="{MOUNT}" pos="0 0 0"/> to the scene, or open it without a robot',
-                )
-            with warnings.catch_warnings():
-                # names of the robot stay as they are in its file; a clash of names is an error of `compile`
-                warnings.simplefilter("ignore")
-                spec.attach(_read(self.robot), site=MOUNT, prefix="")
-        return spec
-
-    def home(self, model: Any) -> dict[str, float]:
-        """Return the position of each joint of the keyframe `home`, by the joint's name; 0 without one."""
-        source = compiled(_read(self.robot), self.robot) if self.robot is not None else model
-        names = [source.joint(k).name for k in range(source.njnt)]
-        keys = [source.key(k).name for k in range(source.nkey)]
-        if HOME not in keys:
-            return {}
-        values = source.key(HOME).qpos
-        return {
-            name: float(values[source.jnt_qposadr[k]]) for k, name in enumerate(names) if is_scalar(source, k)
-        }
+        robot = None if self.robot is None else str(self.robot)
+        where = str(self.scene) if robot is None else f"{self.scene} with {self.robot}"
+        compiled = Guard(WorldError, where).call(compile_files, str(self.scene), robot, list(bodies))
+        name = "compiled.mjb"
+        return simulator().MjModel.from_binary_path(name, {name: compiled["model"]}), compiled["home"]
 
     def digest(self) -> str:
         """Return a digest of both files."""
@@ -104,24 +96,12 @@ class SceneFile:
         return hashlib.sha256(b"\0".join(regular_file.read_bytes(file) for file in files)).hexdigest()
 
 
-def compiled(spec: Any, where: Path | None) -> Any:
-    """Compile a specification, or raise WorldError with what MuJoCo says."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            return spec.compile()
-    except ValueError as error:
-        raise WorldError(
-            f"MuJoCo cannot build this scene: {first_line(error)}", where=str(where or "scene")
-        ) from None
-
-
 def is_scalar(model: Any, joint: int) -> bool:
     """Return whether a joint has one position: a hinge or a slide."""
     return int(model.jnt_type[joint]) >= int(simulator().mjtJoint.mjJNT_SLIDE)
 
 
-def _found(given: str | Path, folder: Path, what: str) -> Path:
+def _path(given: str | Path, folder: Path, what: str) -> Path:
     builtin = {file.stem: file for file in sorted(folder.glob("*.xml"))}
     if str(given) in builtin:
         return builtin[str(given)]
@@ -135,8 +115,109 @@ def _found(given: str | Path, folder: Path, what: str) -> Path:
     return path.resolve()
 
 
-def _read(path: Path) -> Any:
+# --------------------------------------------------------------------------------------------- in the child
+
+
+class FreeBody(TypedDict):
+    """A body with a free joint and one geom, which all have its name.
+
+    Attributes:
+        name: the name.
+        position: of its middle: x, y and z, m.
+        geom: name of the geom's kind in MuJoCo.
+        size: size of the geom as MuJoCo states it, m.
+        color: red, green, blue and opacity, 0 to 1.
+        density: density of the geom, kg/m3.
+    """
+
+    name: str
+    position: list[float]
+    geom: str
+    size: list[float]
+    color: list[float]
+    density: float
+
+
+class CompiledFiles(TypedDict):
+    """A compiled model in the format of MuJoCo (MJB), and joints of the keyframe `home` by name."""
+
+    model: bytes
+    home: dict[str, float]
+
+
+def has_mount(scene: str) -> bool:
+    """Return whether a robot can be attached to a scene."""
+    return _specification(scene).site(MOUNT) is not None
+
+
+def compile_files(scene: str, robot: str | None, bodies: list[FreeBody]) -> CompiledFiles:
+    """Return the model of a scene, of a robot that is attached to it, and of bodies that are added.
+
+    Raises:
+        WorldError: a file is not valid MJCF, the scene has no place for the robot, or MuJoCo cannot build it.
+    """
+    mujoco = simulator()
+    spec = _specification(scene)
+    if robot is not None:
+        if spec.site(MOUNT) is None:
+            raise WorldError(
+                "has no site called 'robot', at which the robot would be attached",
+                where=scene,
+                fix=f'Add <site name="{MOUNT}" pos="0 0 0"/> to the scene, or open it without a robot',
+            )
+        with warnings.catch_warnings():
+            # names of the robot stay as they are in its file; a clash of names is an error of `compile`
+            warnings.simplefilter("ignore")
+            spec.attach(_specification(robot), site=MOUNT, prefix="")
+    for body in bodies:
+        _add(spec, body)
+    model = _compiled(spec, scene)
+    content = np.empty(mujoco.mj_sizeModel(model), np.uint8)
+    mujoco.mj_saveModel(model, None, content)
+    home = _home(model if robot is None else _compiled(_specification(robot), robot))
+    return {"model": content.tobytes(), "home": home}
+
+
+def _specification(path: str) -> Any:
     try:
-        return simulator().MjSpec.from_file(str(path))
-    except (ValueError, RuntimeError) as error:  # MuJoCo raises the latter for what it cannot allocate
-        raise WorldError(f"is not a valid MJCF file: {first_line(error)}", where=str(path)) from None
+        return simulator().MjSpec.from_file(path)
+    except RuntimeError:
+        # MuJoCo raises it for what it cannot allocate, and holds a lock from then on
+        raise MemoryError from None
+    except ValueError as error:
+        raise WorldError(f"is not a valid MJCF file: {first_line(error)}", where=path) from None
+
+
+def _add(spec: Any, body: FreeBody) -> None:
+    added = spec.worldbody.add_body(name=body["name"], pos=body["position"])
+    added.add_freejoint(name=body["name"])
+    added.add_geom(
+        name=body["name"],
+        type=getattr(simulator().mjtGeom, body["geom"]),
+        size=body["size"],
+        rgba=body["color"],
+        density=body["density"],
+        contype=1,
+        conaffinity=3,
+    )
+
+
+def _compiled(spec: Any, where: str) -> Any:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return spec.compile()
+    except ValueError as error:
+        raise WorldError(f"MuJoCo cannot build this scene: {first_line(error)}", where=where) from None
+
+
+def _home(model: Any) -> dict[str, float]:
+    """Return the position of each joint of the keyframe `home`, by the joint's name; none without one."""
+    if HOME not in [model.key(k).name for k in range(model.nkey)]:
+        return {}
+    positions = model.key(HOME).qpos
+    return {
+        model.joint(k).name: float(positions[model.jnt_qposadr[k]])
+        for k in range(model.njnt)
+        if is_scalar(model, k)
+    }

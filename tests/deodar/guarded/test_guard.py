@@ -59,11 +59,12 @@ def test_what_a_library_prints_is_no_message() -> None:
     ],
 )
 def test_an_error_says_what_ended_the_reader(function: Callable[[], object], end: str) -> None:
+    before = {GUARD.call(foreign.process) for _ in range(2)}
     with pytest.raises(DocumentError) as caught:
         SMALL.call(function)
     problem = caught.value.problems[0]
     assert (problem.where, problem.what) == ("file.xml", f"cannot be read: {end}") and problem.fix
-    assert GUARD.call(foreign.same, 1) == 1, "the next file has another reader"
+    assert GUARD.call(foreign.process) not in before, "the next file has another reader"
 
 
 @pytest.mark.skipif(not LINUX, reason="only Linux limits the memory")

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import jax.numpy as jnp
@@ -16,6 +18,7 @@ from deodar.numerics import homography
 from deodar.numerics.axes import Axis
 from deodar.worlds._scene import SceneBody
 from deodar_robots.mujoco.mujoco import MuJoCo
+from deodar_studio.world.embodiment import Embodiment
 
 FINE = Axis("column", 0, 159, 160), Axis("row", 0, 119, 120), Axis("channel", 0, 2, 3)
 
@@ -204,6 +207,24 @@ def test_the_command_line_states_scene_robot_and_settings(cart: Path):
     ):
         with pytest.raises(WorldError, match=says):
             MuJoCo.open(argument)
+
+
+@pytest.mark.parametrize(
+    "asset",
+    [
+        '<hfield name="large" nrow="100000" ncol="100000" size="1 1 1 1"/>',
+        '<texture name="large" type="2d" builtin="flat" width="60000" height="60000"/>',
+    ],
+)
+def test_a_small_file_that_states_a_huge_object_is_an_error(asset: str, tmp_path: Path):
+    """MuJoCo does not ask whether 40 GB were there for the height field, and writes to them."""
+    file = tmp_path / "large.xml"
+    file.write_text(f"<mujoco><asset>{asset}</asset><worldbody/></mujoco>")
+    with pytest.raises(WorldError, match=r"large\.xml: "):
+        MuJoCo(file)
+    assert MuJoCo("table").arm is not None
+    with closing(Embodiment()) as embodiment, pytest.raises(WorldError, match=r"^large\.xml: "):
+        embodiment.open_content("MuJoCo", file.name, base64.b64encode(file.read_bytes()).decode(), {})
 
 
 def test_files_and_settings_with_errors_are_refused_by_name(tmp_path: Path, cart: Path):
