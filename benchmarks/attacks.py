@@ -1,10 +1,12 @@
 """Attacks the studio and prints what became of it: `python benchmarks/attacks.py
-[edits|undo|documents|messages|kills|records|bits|soak ...] [--size N] [--seed N]`.
+[edits|undo|documents|messages|kills|records|bits|formats|soak ...] [--size N] [--seed N]`.
 
 `edits`: 8 pages edit one document at once, 10,000 edits. `undo`: edits of 48 kinds are made in random order
 until each kind was undone and redone 1,000 times. `documents`: 2,090 mutated documents. `messages`: 3,614
 hostile messages. `kills`: 50 kills while a page saves. `records`: 50 runs are killed while they record.
 `bits`: 10,000 bits of files that deodar reads back are flipped, each alone.
+`formats`: 100,000 mutated files of all formats are read, in hours; `--continue FILE` keeps a row of each, and
+continues after those that it has; `--only N ...` reads some of them again, and `--format NAME` those of one.
 `soak`: pages come and go for 600 seconds, and the studio must hold no more afterwards than before: memory,
 files and sockets, Python objects, tasks, threads, sessions, connections, with the limits in
 `tests/attacks/soak.py`. `--size` sets another number. The attacks are in `tests/attacks`; the tests run them
@@ -14,6 +16,7 @@ in a quick form. Ends with 1 if an attack found something.
 from __future__ import annotations
 
 import argparse
+import functools
 import os
 import sys
 import tempfile
@@ -22,7 +25,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from tests.attacks import bits, documents, edits, kills, messages, records, soak, undo
+from tests.attacks import bits, documents, edits, formats, kills, messages, records, soak, undo
 
 
 def _edits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
@@ -74,6 +77,16 @@ def _bits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
     ), outcome.errors
 
 
+def _formats(folder: Path, size: int, seed: int, part: formats.Part = formats.WHOLE) -> tuple[str, list[str]]:
+    outcome = formats.attack(folder, size, seed, part)
+    lines = "".join(f"\n  {name:16} {became}" for name, became in outcome.by_format.items())
+    counts = f"{outcome.count('read')} read, {outcome.count('refused')} refused"
+    return (
+        f"{outcome.count()} mutations of {len(outcome.by_format)} formats, {counts}{lines}\n ",
+        outcome.errors,
+    )
+
+
 def _soak(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
     found = soak.attack(folder, size, seed)
     return f"{found.visits} visits; after a quarter {found.early}, at the end {found.late}", found.errors
@@ -87,6 +100,7 @@ ATTACKS: dict[str, tuple[Callable[[Path, int, int], tuple[str, list[str]]], int]
     "kills": (_kills, 50),
     "records": (_records, 50),
     "bits": (_bits, 10_000),
+    "formats": (_formats, 100_000),
     "soak": (_soak, 600),
 }
 
@@ -100,13 +114,24 @@ def main() -> int:
     parser.add_argument(
         "--size",
         type=int,
-        help="how many edits, undos and redos of each kind, documents, messages, kills, bits or seconds",
+        help="how many edits, undos and redos of each kind, documents, messages, kills, bits, files, seconds",
     )
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument(
+        "--continue",
+        dest="kept",
+        metavar="FILE",
+        type=Path,
+        help="formats: rows of an attack that is continued",
+    )
+    parser.add_argument("--only", type=int, nargs="+", metavar="N", help="formats: numbers of mutations")
+    parser.add_argument("--format", nargs="+", metavar="NAME", help="formats: those of some")
     args = parser.parse_args()
+    part = formats.Part(args.kept, tuple(args.only or ()), tuple(args.format or ()))
+    attacks = ATTACKS | {"formats": (functools.partial(_formats, part=part), ATTACKS["formats"][1])}
     errors = 0
-    for name in args.attack or ATTACKS:
-        run, usual = ATTACKS[name]
+    for name in args.attack or attacks:
+        run, usual = attacks[name]
         with tempfile.TemporaryDirectory() as home:
             folder = Path(home) / "folder"
             folder.mkdir()

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 import os
+import signal
 from pathlib import Path
 
 import pytest
 
 from deodar.model import edit
-from tests.attacks import bits, documents, kills, messages, records, soak, undo
+from tests.attacks import bits, documents, formats, kills, messages, records, soak, undo
 
 
 def test_mutated_documents_are_read_or_refused_without_other_errors() -> None:
@@ -55,6 +56,32 @@ def test_no_reader_waits_for_a_named_pipe_in_place_of_a_file(tmp_path: Path) -> 
     outcome = bits.pipes(tmp_path)
     assert outcome.errors == []
     assert outcome.by_kind.keys() == bits.KINDS.keys() and outcome.refused > 20
+
+
+def test_the_same_number_gives_the_same_mutation(tmp_path: Path) -> None:
+    seeds = {kind: file_format.seeds() for kind, file_format in formats.formats().items()}
+    for number in range(2 * len(seeds)):
+        places = [tmp_path / name / str(number) for name in ("first", "second")]
+        opened = [formats.write(seeds, place, 7, number) for place in places]
+        contents = [
+            {path.relative_to(place): path.read_bytes() for path in place.rglob("*") if path.is_file()}
+            for place in places
+        ]
+        assert contents[0] == contents[1] and contents[0] and opened[0][:2] == opened[1][:2]
+
+
+def test_readers_that_misbehave_are_detected(tmp_path: Path) -> None:
+    reading = formats.Reading("tests.attacks.misbehaving", longest=5.0)
+    outcome = formats.attack(tmp_path, 12, reading=reading)
+    became = {kind: next(iter(summary.states)) for kind, summary in outcome.by_format.items()}
+    assert became.pop("crash") == f"crash ({-signal.SIGABRT})"
+    assert became.pop("without a message") == became.pop("more memory") == "foreign"
+    assert became.pop("program") == became.pop("import") == "run"
+    assert became.pop("slow") in ("slow", "hang")
+    assert became == {kind: kind for kind in ("read", "refused", "foreign", "hang", "memory", "run")}
+    assert len(outcome.errors) == 10 and outcome.errors[0].startswith(
+        "--only 2: foreign, node.json: foreign: KeyError"
+    )
 
 
 def test_closed_pages_leave_no_data_in_the_studio(tmp_path: Path) -> None:
