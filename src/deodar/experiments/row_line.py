@@ -13,7 +13,6 @@ from typing import Any
 from deodar import codec, sealed
 from deodar.codec import Json
 from deodar.errors import RecordError, reading
-from deodar.experiments.experiment_migrations import require_readable
 
 CHECKSUM = "crc32c"
 ENDING = re.compile(rb',"' + CHECKSUM.encode() + rb'":"([0-9a-f]{8})"\}\n?$')
@@ -65,6 +64,9 @@ def read_first(line: bytes, name: str, path: Path) -> tuple[Any, bool]:
     if not isinstance(data, dict) or list(data) != [name] or not isinstance(data[name], dict):
         raise ValueError(f"its first line is not that of {name!r}")
     if isinstance(data[name].get("experiment"), int):  # rows of other jobs have a name there, or nothing
+        # start-up time: commands import this module
+        from deodar.experiments.experiment_migrations import require_readable
+
         with reading(path, RecordError):
             require_readable(data[name])
     return data[name], ENDING.search(line) is not None

@@ -1,7 +1,7 @@
 """Files and folders beside their final ones, while they are written.
 
-The name follows from the final one, and whoever writes holds a lock, which the system releases when the
-process ends, however it ends. So a process that is killed leaves at most one, which the next process that
+The name follows from the final one, and the process that writes holds a lock, which the system releases when
+it ends, however it ends. So a process that is killed leaves at most one, which the next process that
 writes the same file takes over, and processes that write it at once get names of their own. Windows, and file
 systems without locks, have no such lock; there each name is a new one, and what a killed process leaves
 stays. `deodar doctor` names all that is left.
