@@ -287,12 +287,19 @@ class MissingExtra(DeodarError):
         )
 
 
-class Interrupted(DeodarError):
-    """Raised when a run is stopped with Ctrl-C; `data` is the record until then (an `xarray.Dataset`)."""
+class Interrupted(KeyboardInterrupt):
+    """Raised when a run is stopped with Ctrl-C; `data` is the record until then (an `xarray.Dataset`).
+
+    It is no `DeodarError`, so that a loop that continues after errors can be stopped.
+    """
 
     def __init__(self, what: str, data: Any) -> None:
         self.data = data
         super().__init__(what)
+
+    def __reduce__(self) -> Any:
+        """Pickle it with its data, as errors are."""
+        return _again, (type(self), self.args, self.__dict__)
 
 
 @contextlib.contextmanager

@@ -27,7 +27,7 @@ from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import stored
 from deodar.session import memory
-from deodar.session.run import gaps, require_step, whole
+from deodar.session.run import gaps, require_sampled, require_step, whole
 from deodar.session.session import LARGEST_SEED, require_model, require_seed
 from deodar.sweep import Points
 from deodar.worlds._base import World
@@ -87,7 +87,7 @@ class RunPlan:
         require_step(self.doc, step)
         seed = require_seed(request.seed)
         self.steps = whole(request.duration, step, "the duration")
-        asked_for, gap, strides = _probes(request, step, writes)
+        asked_for, gap, strides = _probes(request, step, self.steps, writes)
         self.labels, self.numbers = _trials(request.trials)
         self.points = SweepPoints(self.doc, request.sweep, request.first)
         for document in self.points.documents():
@@ -209,7 +209,7 @@ class RunPlan:
 
 
 def _probes(
-    request: SimulationRequest, step: float, writes: bool
+    request: SimulationRequest, step: float, total: int, writes: bool
 ) -> tuple[list[Probe], int, list[tuple[int, str | None]]]:
     """Return the probes of a run, the steps between two of its samples, and for each probe how many samples
     lie between two of its own, and its condition.
@@ -220,6 +220,8 @@ def _probes(
     _require_alone(recorded, request, writes)
     every = [request.every if probe.every is None else probe.every for probe in recorded]
     steps = gaps(every or [request.every], step)
+    for interval, n in zip(every, steps, strict=False):
+        require_sampled(interval, n, total, step)
     gap = math.gcd(*steps)
     return recorded, gap, [(n // gap, probe.when) for n, probe in zip(steps, recorded, strict=False)]
 

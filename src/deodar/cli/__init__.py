@@ -20,7 +20,7 @@ from types import ModuleType
 from typing import Any
 
 from deodar import __version__
-from deodar.cli._answer import CommandAnswer
+from deodar.cli._answer import INTERRUPTED, CommandAnswer
 from deodar.cli._options import CommandParser
 from deodar.errors import DeodarError, RunWarning, UnknownName, first_line
 from deodar.extensions import Extensions, requires
@@ -87,6 +87,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"deodar {args.command}: {error.at('shell')}", file=sys.stderr)
     except KeyboardInterrupt:
         print(f"deodar {args.command}: stopped", file=sys.stderr)
+        return INTERRUPTED
     except BrokenPipeError:
         sys.stderr.close()
     except OSError as error:

@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from deodar.errors import Problem
 
 
+INTERRUPTED = 130
+"""The exit status after Ctrl-C, as shells have it: 128 and the number of SIGINT."""
+
+
 @dataclass(frozen=True)
 class CommandAnswer:
     """The answer of a command, which `main` prints.

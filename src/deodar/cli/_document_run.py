@@ -12,7 +12,7 @@ from deodar.batch import points_file
 from deodar.batch.run_file import Output
 from deodar.batch.simulate import simulate
 from deodar.cli import _long, _machines, _options, _run_report
-from deodar.cli._answer import CommandAnswer
+from deodar.cli._answer import INTERRUPTED, CommandAnswer
 from deodar.cli._run_output import GrownRecord, RunFolder
 from deodar.cli._run_report import EndedRun
 from deodar.compiler import hosts
@@ -83,11 +83,13 @@ def run(args: argparse.Namespace) -> CommandAnswer | int:
                 _long.confirm_run(args, args.duration or 0.0, step, simulated)
             record = simulated(args.duration or 0.0, progress, Output(out, args.force, args.snapshots))
     except Interrupted as error:
-        record, stopped = error.data, error.at("shell")
+        record, stopped = error.data, str(error)
     if folder is None:  # the first host writes and reports
-        return 1 if stopped else 0
+        return INTERRUPTED if stopped else 0
     return _run_report.finish(
-        args, GrownRecord(out, folder.format), EndedRun(model.document, record, stopped)
+        args,
+        GrownRecord(out, folder.format),
+        EndedRun(model.document, record, stopped, resumes=folder.format == "zarr"),
     )
 
 

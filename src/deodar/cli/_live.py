@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
+from deodar.cli._answer import INTERRUPTED
 from deodar.session.interrupt import interrupted_by_sigterm
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
         print(codec.text(answer))
     if stopped:
         print(f"deodar run: {_options.paragraph([stopped])}", file=sys.stderr)
-    return 1 if stopped else 0
+    return INTERRUPTED if stopped else 0
 
 
 def _refuse(args: argparse.Namespace) -> None:

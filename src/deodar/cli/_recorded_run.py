@@ -86,8 +86,8 @@ def continued(args: argparse.Namespace) -> CommandAnswer | int:
                 Resources(cluster=_machines.cluster(args), progress=_options.progress(args)),
             )
     except Interrupted as error:
-        record, stopped = error.data, error.at("shell")
-    return _run_report.finish(args, GrownRecord(args.file), EndedRun(doc, record, stopped))
+        record, stopped = error.data, str(error)
+    return _run_report.finish(args, GrownRecord(args.file), EndedRun(doc, record, stopped, resumes=True))
 
 
 def repeated(args: argparse.Namespace) -> CommandAnswer | int:
@@ -112,7 +112,7 @@ def repeated(args: argparse.Namespace) -> CommandAnswer | int:
             on = Resources(args.device, progress=_options.progress(args))
             repetition = repeat(old, simulated, _options.world(args.world), args.trust, on)
     except Interrupted as error:
-        repetition, stopped = compare(old, error.data), error.at("shell")
+        repetition, stopped = compare(old, error.data), str(error)
     doc = provenance.document(about(old))
     return _run_report.finish(args, folder, EndedRun(doc, repetition.data, stopped, repetition))
 

@@ -11,7 +11,7 @@ from collections.abc import Generator
 from typing import TYPE_CHECKING
 
 from deodar.cli import _options
-from deodar.cli._answer import CommandAnswer
+from deodar.cli._answer import INTERRUPTED, CommandAnswer
 from deodar.cli._run_output import GrownRecord, RunFolder, WrittenRun
 from deodar.codec import Json
 from deodar.errors import RunWarning
@@ -45,22 +45,24 @@ class EndedRun:
         data: its record; None if it was stopped before the first time.
         stopped: why it was stopped; "": it is complete.
         repetition: the comparison with the record that was run again.
+        resumes: whether its record can be continued.
     """
 
     document: Document
     data: xarray.Dataset | None
     stopped: str = ""
     repetition: Repetition | None = None
+    resumes: bool = False
 
 
 def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: EndedRun) -> CommandAnswer | int:
-    """Write a run and return where; status 1 if it was stopped, written elsewhere, or differs without a
-    reason.
+    """Write a run and return where; status 130 if it was stopped, 1 if it was written elsewhere, or
+    differs without a reason.
     """
     values, stopped, repetition = run.data, run.stopped, run.repetition
     if stopped and (values is None or not _times(values)):
         _say(_options.paragraph([stopped, "Nothing had been recorded, so nothing was written"]))
-        return 1
+        return INTERRUPTED
     assert values is not None
     written = output.write(values, run.document, not args.json)
     out, record, failure = written
@@ -75,8 +77,9 @@ def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: Ended
         else f"Look at it with: deodar plot {_options.shown(out)}"
     )
     if stopped:
-        _say(_options.paragraph([stopped, f"{wrote}, marked as incomplete", look]))
-        return CommandAnswer(fields, status=1)
+        resume = [f"Continue it with: deodar run {_options.shown(out)} --resume"] if run.resumes else []
+        _say(_options.paragraph([stopped, f"{wrote}, marked as incomplete", *resume, look]))
+        return CommandAnswer(fields, status=INTERRUPTED)
     if failure:
         instead = (
             f"{wrote} as {record.name} instead" if isinstance(output, GrownRecord) else f"{wrote} instead"

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar import codec
 from deodar.cli import _long, _machines, _options, _package, _work_plan
-from deodar.cli._answer import CommandAnswer
+from deodar.cli._answer import INTERRUPTED, CommandAnswer
 from deodar.credentials import masked
 from deodar.errors import OutputError, WorkerError
 from deodar.recording import places
@@ -125,8 +125,9 @@ def _run(args: argparse.Namespace) -> CommandAnswer | int:
     except (KeyboardInterrupt, OutputError, WorkerError) as stop:
         if not (out / ROWS).is_file():
             raise
-        _tell_stop(args, out, part, "stopped" if isinstance(stop, KeyboardInterrupt) else f"{stop}")
-        return 1
+        interrupted = isinstance(stop, KeyboardInterrupt)
+        _tell_stop(args, out, part, "stopped" if interrupted else f"{stop}")
+        return INTERRUPTED if interrupted else 1
     return _answer(args, out, results, None if before is None else compare_results(before, out))
 
 

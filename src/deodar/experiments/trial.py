@@ -16,7 +16,7 @@ from deodar.experiments.observable import Observable
 from deodar.experiments.observations import TIME as TIME
 from deodar.experiments.running_trial import Kept
 from deodar.parameters import Part, Recompile, show
-from deodar.session.run import whole
+from deodar.session.run import require_sampled, whole
 from deodar.summary import Summarised, Summary, counted
 
 Value = float | list[float] | None
@@ -61,11 +61,12 @@ class TrialPlan(Part):
         """Return the number of steps between two samples.
 
         Raises:
-            TimeError: the sampling interval is 0, or no multiple of the step.
+            TimeError: the sampling interval is 0, no multiple of the step, or longer than the trial.
         """
         gap = 1 if self.every is None else whole(self.every, dt, "every")
         if gap == 0:
             raise TimeError("every is 0; expected at least one step")
+        require_sampled(self.every, gap, round(self.limit / dt), dt)
         return gap
 
     @property

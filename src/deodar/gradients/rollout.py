@@ -16,7 +16,7 @@ from deodar.compiler.arguments import ProgramState
 from deodar.compiler.dynamics import ByPath, Dynamics, PreparedStep, TrialKey
 from deodar.errors import ParameterError, TimeError, instance_of
 from deodar.model import find
-from deodar.session.run import whole
+from deodar.session.run import require_sampled, whole
 
 RolloutCarry = tuple[Array, ProgramState]
 """Tick and state."""
@@ -81,6 +81,7 @@ def rollout(
     gap = 1 if every is None else whole(every, dynamics.dt, "every")
     if n < 0 or gap < 1:
         raise TimeError(f"{n} steps, a sample after each {gap}: expected at least 0 steps, and 1")
+    require_sampled(every, gap, n, dynamics.dt)
     if start is not None:
         instance_of(RolloutStart, start, "start")
     prepared = dynamics.prepare(parameters)

@@ -26,7 +26,7 @@ from deodar.compiler.leaf_layout import require_range
 from deodar.compiler.program import BEGUN, Port
 from deodar.declarations import LIMITING
 from deodar.element import Arrays
-from deodar.errors import NotFinite, TimeError
+from deodar.errors import NotFinite, TimeError, option
 from deodar.model.document import Document
 from deodar.model.resolve import Node
 from deodar.model.unit import unit_seconds
@@ -684,6 +684,8 @@ def whole(duration: float, dt: float, what: str) -> int:
             f"{what} of {duration:g} is not a multiple of dt = {dt:g}",
             fix=f"Use {neighbours[0]:g} or {neighbours[1]:g}",
         )
+    if duration > 0 and round(n) == 0:
+        raise TimeError(f"{what} of {duration:g} is shorter than a step of dt = {dt:g}", fix=f"Use {dt:g}")
     return round(n)
 
 
@@ -693,6 +695,15 @@ def gaps(every: Sequence[float | None], dt: float) -> list[int]:
     if 0 in counts:
         raise TimeError("every is 0; expected at least one step")
     return counts
+
+
+def require_sampled(every: float | None, gap: int, steps: int, dt: float) -> None:
+    """Raise TimeError for a stated interval between samples that is longer than the whole run."""
+    if every is not None and gap > steps > 0:
+        raise TimeError(
+            f"every is {every:g}, and the run lasts {steps * dt:g}, so only its start would be recorded",
+            fix=option("Take at most", "every", f"{steps * dt:g}"),
+        )
 
 
 def host(tree: PyTree) -> PyTree:

@@ -45,5 +45,5 @@ def test_a_live_run_in_the_background_of_a_script_ends_with_sigterm_and_says_so(
     finally:
         process.terminate()
         _, complaint = process.communicate(timeout=600)
-    assert process.returncode == 1
+    assert process.returncode == 130
     assert re.search(r"stopped at [0-9.]+ of 600000 ms", complaint.replace("\n", " ")), complaint

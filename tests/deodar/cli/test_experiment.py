@@ -100,7 +100,7 @@ def test_the_same_call_resumes_an_interrupted_experiment(file, capsys, tmp_path,
         return real(job)
 
     monkeypatch.setattr(jobs.Job, "run", stops)
-    assert call("--out", "part", "--seed", "0") == 1
+    assert call("--out", "part", "--seed", "0") == 130
     assert capsys.readouterr().err.endswith("Resume with: deodar experiment when.json --out part --seed 0\n")
     assert load_results(tmp_path / "part").sizes["trial"] == 8
     monkeypatch.setattr(jobs.Job, "run", real)

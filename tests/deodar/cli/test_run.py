@@ -199,8 +199,10 @@ def test_ctrl_c_writes_the_record_so_far(
         "--out",
         "cut",
     ]
-    assert main(call) == 1 and len(calls) == 3
-    assert "incomplete" in capsys.readouterr().err
+    assert main(call) == 130 and len(calls) == 3
+    assert "incomplete. Continue it with: deodar run cut --resume." in capsys.readouterr().err.replace(
+        "\n", " "
+    )
     record = files.load_record(folder / "cut")
     assert (
         about(record)["complete"] is False
@@ -240,7 +242,7 @@ def test_ctrl_c_ends_a_live_run_with_its_meter(
         return due(self, session)
 
     monkeypatch.setattr(Pace, "due", pressed)
-    assert main(["run", "small.json", "--live", "--duration", "1000000", "--json"]) == 1
+    assert main(["run", "small.json", "--live", "--duration", "1000000", "--json"]) == 130
     printed = capsys.readouterr()
     meter = json.loads(printed.out)["meter"]
     assert meter["complete"] is False and 0 < meter["steps"] < 1000000 and "stopped at" in printed.err

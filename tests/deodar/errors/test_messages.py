@@ -79,7 +79,20 @@ def test_a_missing_extra_names_the_package_to_install() -> None:
 
 def test_an_interrupted_run_has_its_data() -> None:
     stranger = object()
-    assert Interrupted("stopped at 5 of 10 ms", stranger).data is stranger
+    error = Interrupted("stopped at 5 of 10 ms", stranger)
+    assert error.data is stranger and str(error) == "stopped at 5 of 10 ms"
+
+
+def test_an_interrupted_run_stops_a_loop_that_continues_after_errors() -> None:
+    begun = []
+    with pytest.raises(KeyboardInterrupt):
+        for k in range(3):
+            try:
+                begun.append(k)
+                raise Interrupted("stopped", None)
+            except Exception:
+                continue
+    assert begun == [0]
 
 
 def test_every_error_documents_when_it_is_raised() -> None:
@@ -88,7 +101,7 @@ def test_every_error_documents_when_it_is_raised() -> None:
 
 
 def test_errors_are_passed_between_processes() -> None:
-    for kind in {*KINDS} - {MissingExtra, Interrupted}:
+    for kind in {*KINDS} - {MissingExtra}:
         error = kind([Problem("u", "one"), Problem("v", "two")])
         copied = pickle.loads(pickle.dumps(error))
         assert type(copied) is kind and str(copied) == str(error)

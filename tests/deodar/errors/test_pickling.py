@@ -13,7 +13,6 @@ MADE = [
     errors.ModelError([errors.Problem("a", "one"), errors.Problem("b", "two", "Do this")]),
     errors.NotFinite("became infinite", ["u", "v"], fix="Take a smaller dt"),
     errors.MissingExtra("dask", "cluster", "running on many machines"),
-    errors.Interrupted("stopped", {"kept": 1}),
 ]
 
 
@@ -26,3 +25,8 @@ def test_a_pickled_error_keeps_its_type_text_and_problems(error: errors.DeodarEr
         and copied.problems == error.problems
         and vars(copied) == vars(error)
     )
+
+
+def test_an_interrupted_run_keeps_its_data() -> None:
+    copied = pickle.loads(pickle.dumps(errors.Interrupted("stopped", {"kept": 1})))
+    assert type(copied) is errors.Interrupted and str(copied) == "stopped" and copied.data == {"kept": 1}

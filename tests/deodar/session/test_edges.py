@@ -187,11 +187,6 @@ def test_numbers_that_the_precision_cannot_hold_are_refused() -> None:
         dd.simulate(two(resting_level=-1e39), 3)
 
 
-def test_an_interval_longer_than_any_run_records_the_start() -> None:
-    record = dd.simulate(two(), 10, record=["u.activation"], every=3e9)
-    assert record["time"].values.tolist() == [0.0]
-
-
 def test_handles_are_accepted_as_paths() -> None:
     model = two()
     s = dd.Session(model)
@@ -212,3 +207,28 @@ def test_a_chain_of_1500_couplings_runs_in_any_order_of_declaration(order: int) 
         model.document  # noqa: B018
         gains[k] >> gains[k + 1]
     assert not problems(model.document)
+
+
+@pytest.mark.parametrize("duration", [1e-9, 5e-7])
+def test_a_duration_that_is_shorter_than_a_step_is_refused(duration: float) -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", []))
+    s = dd.Session(model, dt=1)
+    for call in (lambda: s.run(duration), lambda: dd.simulate(model, duration)):
+        with pytest.raises(dd.errors.TimeError, match=r"is shorter than a step of dt = 1. Use 1"):
+            call()
+    s.run(0)
+    assert s.tick == 0 and dd.simulate(model, 0).sizes
+
+
+def test_an_interval_that_is_longer_than_the_run_is_refused() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", []))
+    message = r"every is 50, and the run lasts 20, so only its start would be recorded. Take at most every=20"
+    with pytest.raises(dd.errors.TimeError, match=message):
+        dd.simulate(model, 20, record=["u"], every=50)
+    with pytest.raises(dd.errors.TimeError, match=message):
+        dd.Trials(model, dd.TrialPlan(20, ["u"], every=50)).run()
+    with pytest.raises(dd.errors.TimeError, match=message):
+        dd.rollout(dd.dynamics(model), 20, record=["u"], every=50)
+    assert dd.simulate(model, 20, record=["u"], every=20).sizes["time"] == 2
