@@ -128,6 +128,9 @@ def simulate(
         )
         on = dc.replace(on, progress=True if on.progress is None else on.progress)
     agreement.warn(model.document, world, stacklevel=2)
+    used_step = real(model.document.step if dt is None else dt)
+    if used_step is not None and used_step > 0:  # else the run is refused
+        agreement.warn_of_rounding(model.document, used_step, precision, stacklevel=2)
     request = SimulationRequest(duration, dt, seed, record, every, trials, sweep, precision, on)
     with hosts.together(places.of_all_hosts(on.devices, on.device)):
         across = hosts.count() > 1 and hosts.span(places.several(on.devices, on.device))

@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from deodar.element import Element
 from deodar.errors import Fix, Problem, RunWarning, option
+from deodar.model.checks.rounding import motionless
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
 from deodar.model.resolve import Node
@@ -46,6 +47,12 @@ def warn(doc: Document, world: World | None, stacklevel: int) -> None:
     for p in judge(doc, world):
         if p.severity == "warning":
             warnings.warn(str(p), RunWarning, stacklevel=stacklevel + 1)
+
+
+def warn_of_rounding(doc: Document, step: float, precision: str, stacklevel: int) -> None:
+    """Issue a `RunWarning` for each element that does not move at a step in single precision."""
+    for p in motionless(doc, step) if precision == "float32" else ():
+        warnings.warn(str(p), RunWarning, stacklevel=stacklevel + 1)
 
 
 def _axes(path: str, sensor: Element, world: World) -> Iterator[Problem]:

@@ -104,6 +104,7 @@ class Session(Summarised):
         dynamics = Dynamics(model, Build(doc, numbers, accuracy, distribution or self.device))
         self._run = Run(dynamics, Batch(), float(step), require_seed(seed), [require_seed(trial)], world)
         agreement.warn(doc, world, stacklevel=2)
+        agreement.warn_of_rounding(doc, float(step), numbers, stacklevel=2)
 
     # ------------------------------------------------------------------------------------------------ running
 

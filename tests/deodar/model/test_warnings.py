@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -107,3 +108,46 @@ def test_a_window_without_duration_is_a_warning() -> None:
     )
     (problem,) = model.check()
     assert problem.severity == "warning" and "is never on" in problem.what
+
+
+def slow(tau: float, **parameters: float) -> dd.Model:
+    model = dd.Model("slow", dt=1)
+    model.add(Boost("b", amplitude=1.0)) >> model.add(dd.Field("f", [], tau=tau, **parameters))
+    return model
+
+
+def test_a_state_that_stands_still_in_single_precision_is_named_by_check_and_run() -> None:
+    message = (
+        r"f.*: does not move in single precision: a step changes it by at most 1e-07, and numbers near -5"
+    )
+    model = slow(1e7)
+    (problem,) = [p for p in model.check() if "does not move" in p.what]
+    assert problem.severity == "warning" and "precision=" in str(problem)
+    for run in (lambda: dd.Session(model), lambda: dd.simulate(model, 2)):
+        with pytest.warns(dd.errors.RunWarning, match=message):
+            run()
+    ends = []
+    for precision in ("float32", "float64"):
+        with warnings.catch_warnings(record=True) as issued:
+            warnings.simplefilter("always")
+            s = dd.Session(model, precision=precision)
+        assert bool(issued) == (precision == "float32")
+        s.step(1000)
+        ends.append(float(s.read("f")) + 5)
+    assert ends[0] == 0 and ends[1] == pytest.approx(1e-4, rel=1e-3)
+    for moves in (slow(1e4), slow(1e7, resting_level=0.0), slow(1e7, noise=1e3)):
+        assert not [p for p in moves.check() if "does not move" in p.what]
+
+
+def test_a_resting_level_whose_sign_slipped_is_a_warning() -> None:
+    def finding(level: float, amplitude: float = 6.0) -> list[dd.errors.Problem]:
+        model = dd.Model("m")
+        kernel = [dd.Gaussian(10, 1)]
+        u = model.add(dd.Field("u", [X], resting_level=level, kernel=kernel, global_inhibition=2))
+        model.add(dd.GaussianStimulus("s", [X], center=5, sigma=1, amplitude=amplitude)) >> u
+        return [p for p in model.check() if "without any input" in p.what]
+
+    (problem,) = finding(3.0)
+    assert problem.severity == "warning" and problem.fix == "Change the sign: resting_level=-3"
+    assert not finding(-3.0), "what the fix writes"
+    assert not finding(3.0, -6.0), "an input may keep it silent"

@@ -108,6 +108,14 @@ def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) ->
         )
         fix = f"Use a resting_level below {at.threshold - at.low:g}; resting levels are usually negative (-5)"
         yield warning(n, sentence, fix)
+    elif at.rest > at.threshold + CLEAR and at.rest + at.low > at.threshold + CLEAR and n.reads["input"]:
+        sentence = (
+            f"is on without any input: its resting level {at.rest:g} lies above its threshold"
+            f" {at.threshold:g}, and only its own inhibition can silence it"
+        )
+        slipped = f"Change the sign: resting_level={-at.rest:g}"
+        lower = f"Use a resting_level below {at.threshold:g}"
+        yield warning(n, sentence, slipped if -at.rest < at.threshold else lower)
 
 
 def _flat(n: Node, sigmoid: Logistic, at: InputLevels) -> Iterator[Problem]:
