@@ -23,16 +23,18 @@ from deodar.errors import DeodarError, Fix, Problem
 if TYPE_CHECKING:
     import numpy as np
 
-Scalar: TypeAlias = "bool | int | float | str | bytes | None"
+PlainScalar: TypeAlias = "bool | int | float | str | bytes | None"
 
-Plain: TypeAlias = (
-    "Scalar | np.ndarray | Sequence[Plain] | Mapping[str, Plain] | Callable[..., Plain]"  # of the parent
+PlainData: TypeAlias = (
+    "PlainScalar | np.ndarray | Sequence[PlainData] | Mapping[str, PlainData] | Callable[..., PlainData]"
 )
-"""What passes: tuples arrive as lists, and the child may call functions of the parent."""
+"""What passes: tuples arrive as lists, and numbers of NumPy as those of Python; the child may call functions
+of the parent.
+"""
 
-ParentFunction: TypeAlias = "Callable[..., Plain]"
+ParentFunction: TypeAlias = "Callable[..., PlainData]"
 
-Message: TypeAlias = "tuple[str, Plain]"
+ChildMessage: TypeAlias = "tuple[str, PlainData]"
 """A word, and plain data that depend on it."""
 
 
@@ -55,7 +57,7 @@ class Channel:
         self.longest = math.inf
         self.functions = functions
 
-    def send(self, word: str, content: Plain = None) -> None:
+    def send(self, word: str, content: PlainData = None) -> None:
         """Send a message.
 
         Raises:
@@ -64,11 +66,13 @@ class Channel:
         """
         blocks: list[memoryview] = []
 
-        def marked(special: Any) -> dict[str, Plain]:
+        def marked(special: Any) -> PlainData:
             if isinstance(special, (bytes, bytearray, memoryview)):
                 blocks.append(memoryview(special).cast("B"))
                 return {self._mark: ["bytes", len(blocks) - 1]}
             if hasattr(special, "dtype") and special.dtype.kind in "biufcSU":
+                if not special.shape:
+                    return special.item()
                 blocks.append(memoryview(special.tobytes()))
                 return {self._mark: ["array", len(blocks) - 1, special.dtype.str, special.shape]}
             if callable(special) and self.functions is not None:
@@ -85,7 +89,7 @@ class Channel:
         except (OSError, ValueError):  # the latter if this side has closed it
             raise BrokenChannel from None
 
-    def receive(self) -> Message:
+    def receive(self) -> ChildMessage:
         """Return the next message.
 
         Raises:
@@ -99,7 +103,7 @@ class Channel:
             raise BrokenChannel
         text, blocks = self._read(length), [self._read(size) for size in sizes]
 
-        def unmarked(keyed: dict[str, Any]) -> Plain:
+        def unmarked(keyed: dict[str, Any]) -> PlainData:
             if len(keyed) != 1 or self._mark not in keyed:
                 return keyed
             form, number, *shape = keyed[self._mark]
@@ -116,7 +120,7 @@ class Channel:
     def _asking(self, number: int) -> ParentFunction:
         """Return a function of the child that calls the parent's function of a number."""
 
-        def ask(*values: Plain) -> Plain:
+        def ask(*values: PlainData) -> PlainData:
             self.send("ask", [number, values])
             word, content = self.receive()
             if word == "error":
@@ -150,14 +154,14 @@ def _array(block: bytearray, dtype: str, shape: Sequence[int]) -> np.ndarray:
     return np.frombuffer(block, dtype).reshape(shape)
 
 
-def error_data(error: DeodarError) -> Plain:
+def error_data(error: DeodarError) -> PlainData:
     """Return an error as plain data; a class of another module is named by its base in `deodar.errors`."""
     kind = next(c.__name__ for c in type(error).__mro__ if getattr(errors, c.__name__, None) is c)
     problems = [(p.where, p.what, [p.fix_at(m) for m in errors.MEDIA], p.severity) for p in error.problems]
     return [kind, problems]
 
 
-def error_of(plain: Plain) -> DeodarError:
+def error_of(plain: PlainData) -> DeodarError:
     """Return the error that plain data describe."""
     name, problems = cast("tuple[str, list[Any]]", plain)
     kind = getattr(errors, name)

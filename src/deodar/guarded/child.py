@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, cast
 
 from deodar import regular_file
 from deodar.errors import DeodarError, first_line
-from deodar.guarded.channel import BrokenChannel, Channel, Plain, error_data
+from deodar.guarded.channel import BrokenChannel, Channel, PlainData, error_data
 
 AHEAD = 2
 """Number of items of a generator that are sent before the parent has taken one."""
@@ -25,7 +25,7 @@ GRACE = 5
 """Seconds that the child may take more than the limit, at which its parent ends it; it may have none."""
 
 
-class Request(NamedTuple):
+class ChildRequest(NamedTuple):
     """What a parent asks for.
 
     Attributes:
@@ -36,7 +36,7 @@ class Request(NamedTuple):
     """
 
     function: str
-    values: tuple[Plain, ...]
+    values: tuple[PlainData, ...]
     memory: int
     seconds: float
 
@@ -60,10 +60,10 @@ def main() -> None:
         while True:
             word, content = channel.receive()
             if word == "call":
-                _answer(channel, Request(*cast("Any", content)))
+                _answer(channel, ChildRequest(*cast("Any", content)))
 
 
-def _answer(channel: Channel, request: Request) -> None:
+def _answer(channel: Channel, request: ChildRequest) -> None:
     try:
         function = pkgutil.resolve_name(request.function)
         with limited(request):
@@ -82,7 +82,7 @@ def _answer(channel: Channel, request: Request) -> None:
         channel.send("failed", f"{type(error).__name__}: {first_line(error)}"[:300])
 
 
-def _send_items(channel: Channel, items: Iterator[Plain], request: Request) -> None:
+def _send_items(channel: Channel, items: Iterator[PlainData], request: ChildRequest) -> None:
     for number in range(sys.maxsize):
         with limited(request):
             try:
@@ -97,7 +97,7 @@ def _send_items(channel: Channel, items: Iterator[Plain], request: Request) -> N
 
 
 @contextlib.contextmanager
-def limited(request: Request) -> Generator[None]:
+def limited(request: ChildRequest) -> Generator[None]:
     """Limit the time of a call, and the memory that it may take besides what the process has.
 
     The memory is limited on Linux; elsewhere the system has no such limit, or does not keep it. The alarm

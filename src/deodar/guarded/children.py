@@ -15,8 +15,8 @@ from collections.abc import Generator
 from typing import BinaryIO, cast
 
 from deodar.errors import DeodarError
-from deodar.guarded.channel import BrokenChannel, Channel, Message, ParentFunction, Plain, error_data
-from deodar.guarded.child import Request
+from deodar.guarded.channel import BrokenChannel, Channel, ChildMessage, ParentFunction, PlainData, error_data
+from deodar.guarded.child import ChildRequest
 
 MOST_IDLE = 2
 """Most children that are kept without work."""
@@ -65,7 +65,7 @@ class Child:
         self._channel = Channel(source, sink, mark, self._lent)
         self.end = weakref.finalize(self, _end, self._process, os.getpid())
 
-    def request(self, request: Request) -> None:
+    def request(self, request: ChildRequest) -> None:
         """Ask the child to call a function."""
         self.yields = self.useful = False
         self.functions.add(request.function)
@@ -73,12 +73,12 @@ class Child:
         self._channel.longest, self._seconds = request.memory, request.seconds
         self.say("call", request)
 
-    def say(self, word: str, content: Plain = None) -> None:
+    def say(self, word: str, content: PlainData = None) -> None:
         """Send a message; that a child has ended is found when its answer is read."""
         with contextlib.suppress(BrokenChannel):
             self._channel.send(word, content)
 
-    def answer(self) -> Message:
+    def answer(self) -> ChildMessage:
         """Return the next item, or what the function returned or raised.
 
         Raises:
@@ -91,7 +91,7 @@ class Child:
         try:
             word, content = self._channel.receive()
             while word == "ask":
-                self._reply(*cast("tuple[int, list[Plain]]", content))
+                self._reply(*cast("tuple[int, list[PlainData]]", content))
                 word, content = self._channel.receive()
         except BrokenChannel:
             self._process.kill()
@@ -113,7 +113,7 @@ class Child:
         late.set()
         self._process.kill()
 
-    def _reply(self, number: int, values: list[Plain]) -> None:
+    def _reply(self, number: int, values: list[PlainData]) -> None:
         try:
             self.say("value", self._lent[number](*values))
         except DeodarError as error:

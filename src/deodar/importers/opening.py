@@ -9,6 +9,7 @@ from deodar import regular_file
 from deodar.errors import DocumentError, reading
 from deodar.importers import examples
 from deodar.importers._beside import in_folder
+from deodar.importers.conversion import convert
 from deodar.importers.imported import Imported
 from deodar.importers.tools import IMPORTERS
 from deodar.model import model as models
@@ -92,7 +93,7 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; at most {MOST_BYTES // 2**20} are read")
-        return tool.read(regular_file.read_bytes(path), path.name, bugs, in_folder(path.parent))
+        return convert(tool, regular_file.read_bytes(path), path.name, bugs, in_folder(path.parent))
 
 
 def load(path: str | Path, trust: bool = False, bugs: bool = False) -> Model:

@@ -16,7 +16,7 @@ import numpy as np
 
 from deodar import regular_file
 from deodar.errors import MissingExtra, WorldError, did_you_mean, first_line
-from deodar.guarded.guard import Guard
+from deodar.guarded.guarded_file import GuardedFile
 
 FOLDER = Path(__file__).parent
 SCENES, ROBOTS = FOLDER / "scenes", FOLDER / "robots"
@@ -72,7 +72,7 @@ class SceneFile:
         if (
             robot is None
             and file.parent == SCENES
-            and Guard(WorldError, str(file)).call(has_mount, str(file))
+            and GuardedFile(WorldError, str(file)).call(has_mount, str(file))
         ):
             robot = "lwr4"
         return cls(file, None if robot is None else _path(robot, ROBOTS, "robot"))
@@ -86,7 +86,7 @@ class SceneFile:
         """
         robot = None if self.robot is None else str(self.robot)
         where = str(self.scene) if robot is None else f"{self.scene} with {self.robot}"
-        compiled = Guard(WorldError, where).call(compile_files, str(self.scene), robot, list(bodies))
+        compiled = GuardedFile(WorldError, where).call(compile_files, str(self.scene), robot, list(bodies))
         name = "compiled.mjb"
         return simulator().MjModel.from_binary_path(name, {name: compiled["model"]}), compiled["home"]
 

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from deodar.errors import DeodarError, DocumentError, did_you_mean, reading
-from deodar.importers import examples, opening, stored_report
+from deodar.importers import conversion, examples, opening, stored_report
 from deodar.importers.imported import Imported
 from deodar.model import document_files, package
 from deodar.model.document import Document
@@ -92,7 +92,7 @@ def _document(content: bytes, title: str, beside: Callable[[str], bytes | None])
     tool = opening.tool_for(content)
     if tool is None:
         return document_files.loads(content, beside)
-    return _kept(tool.read(content, title, False, beside))
+    return _kept(conversion.convert(tool, content, title, False, beside))
 
 
 def _kept(done: Imported) -> Document:

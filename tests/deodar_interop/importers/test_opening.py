@@ -8,8 +8,11 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError
+from deodar.importers import conversion
+from deodar.importers._beside import in_folder
 from deodar.importers.opening import read, tool_of
 from deodar.importers.tools import IMPORTERS
+from deodar.model import document_files
 from tests.deodar_interop.importers.cosivina.files import SAMPLES
 
 
@@ -39,3 +42,19 @@ def test_a_path_without_a_file_is_an_error(path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(DocumentError):
         dd.load(path)
+
+
+@pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.name)
+def test_a_child_converts_a_file_as_this_process_does(sample: Path):
+    """Document, texts and trust pass, and the report as a whole."""
+    direct = IMPORTERS["cosivina"].read(sample.read_bytes(), sample.name, False, in_folder(sample.parent))
+    imported = read(sample)
+    assert imported.model.document == direct.model.document and imported.report == direct.report
+    assert document_files.dumps(imported.model.document) == document_files.dumps(direct.model.document)
+    assert imported.model.trusted
+
+
+def test_a_file_that_keeps_its_importer_is_an_error_that_names_it(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(conversion, "SECONDS", 0.0)
+    with pytest.raises(DocumentError, match=f"{SAMPLES[0].name}: cannot be read: it takes longer than 0 s"):
+        dd.load(SAMPLES[0])

@@ -6,6 +6,9 @@ import json
 from pathlib import Path
 from typing import Any
 
+from deodar.importers.imported import Imported
+from deodar_interop.importers import dnf_composer
+
 HERE = Path(__file__).parent
 SAMPLES = sorted(HERE.glob("*.dnf"))
 
@@ -55,6 +58,11 @@ def written(folder: Path, elements: list[dict[str, Any]], dt: float = 1.0, name:
     path = folder / name
     path.write_text(text(elements, dt))
     return path
+
+
+def imported(path: Path) -> Imported:
+    """Convert a file in this process, whose limits a test may change."""
+    return dnf_composer.read(path.read_bytes(), path.name)
 
 
 def without_noise(data: Any) -> Any:

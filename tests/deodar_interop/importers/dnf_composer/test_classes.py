@@ -8,11 +8,18 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.importers.opening import read
 from deodar.model.check import problems
 from deodar_interop.importers.dnf_composer.classes import CLASSES
 from deodar_interop.importers.dnf_composer.sample_values import METHODS, matrix
-from tests.deodar_interop.importers.dnf_composer.files import BELL, FIELD, KERNEL, element, plane, written
+from tests.deodar_interop.importers.dnf_composer.files import (
+    BELL,
+    FIELD,
+    KERNEL,
+    element,
+    imported,
+    plane,
+    written,
+)
 from tests.deodar_interop.importers.dnf_composer.oracle import Simulation
 
 STEPS = 12
@@ -208,7 +215,7 @@ def shown(label):
 
 def compared(parts, folder, dt=1.0, weights=None, steps=STEPS):
     """The largest difference of any activation, output of a field or trace, at any step."""
-    done = read(written(folder, parts, dt))
+    done = imported(written(folder, parts, dt))
     assert problems(done.model.document) == [], done.report.text()
     ports = {
         (e["uniqueName"], c): f"{dd.quote(e['uniqueName'])}.{c}" for e in parts for c in shown(e["label"][1])
@@ -293,7 +300,7 @@ def test_components_of_an_element_are_read_by_others(tmp_path):
         field("b", [("u", "resting level")]),
         field("c", [("k", "kernel")]),
     ]
-    done = read(written(tmp_path, parts))
+    done = imported(written(tmp_path, parts))
     assert done.report.faithful and problems(done.model.document) == []
     record = dd.simulate(done.model, 40, every=40, precision="float64")
     u = record["u.activation"].values[-1]

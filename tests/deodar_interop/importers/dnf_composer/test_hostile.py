@@ -26,6 +26,7 @@ from tests.deodar_interop.importers.dnf_composer.files import (
     KERNEL,
     SAMPLES,
     element,
+    imported,
     text,
     written,
 )
@@ -161,7 +162,7 @@ def test_an_element_without_a_valid_size_becomes_a_placeholder(x, tmp_path):
 def test_weights_of_implausible_size_are_not_made(tmp_path, monkeypatch):
     monkeypatch.setattr(elements, "MOST_VALUES", 1000)
     parts = [element(n, "field coupling", COUPLING) for n in ("a", "b", "c")]
-    done = read(written(tmp_path, parts))
+    done = imported(written(tmp_path, parts))
     assert [type(done.model[n].element).__name__ for n in "abc"] == ["Weights", "Weights", "Placeholder"]
 
 
@@ -170,7 +171,7 @@ def test_too_many_elements_or_connections_are_refused(limit, tmp_path, monkeypat
     monkeypatch.setattr(file, limit, 2)
     parts = [element(n, "neural field", FIELD, ["a"]) for n in "abc"]
     with pytest.raises(DocumentError, match=r"at most 2|more than 2"):
-        read(written(tmp_path, parts))
+        imported(written(tmp_path, parts))
 
 
 def test_names_with_special_characters_are_names(tmp_path):

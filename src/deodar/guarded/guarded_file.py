@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from typing import ParamSpec, TypeVar, cast
 
 from deodar.errors import DeodarError
-from deodar.guarded.channel import Plain, error_of
-from deodar.guarded.child import Request
+from deodar.guarded.channel import PlainData, error_of
+from deodar.guarded.child import ChildRequest
 from deodar.guarded.children import Child, EndedChild, children
 
 P = ParamSpec("P")
@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class Guard:
+class GuardedFile:
     """The limits within which a child reads one file, and the error if they do not suffice.
 
     Attributes:
@@ -75,7 +75,7 @@ class Guard:
     @contextlib.contextmanager
     def _busy_child(self, function: Callable[P, T], values: tuple[object, ...]) -> Generator[Child]:
         name = f"{function.__module__}:{function.__name__}"
-        request = Request(name, cast("tuple[Plain, ...]", values), self.memory, self.seconds)
+        request = ChildRequest(name, cast("tuple[PlainData, ...]", values), self.memory, self.seconds)
         with children().child(name) as child:
             child.request(request)
             try:
@@ -83,7 +83,7 @@ class Guard:
             except EndedChild as error:
                 raise self._error(str(error)) from None
 
-    def _content(self, word: str, content: Plain) -> Plain:
+    def _content(self, word: str, content: PlainData) -> PlainData:
         if word == "error":
             raise error_of(content)
         if word == "memory":

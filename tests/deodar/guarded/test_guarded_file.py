@@ -17,11 +17,11 @@ import pytest
 
 from deodar.errors import MEDIA, DocumentError, MissingExtra, WorldError
 from deodar.guarded.children import MOST_IDLE, children
-from deodar.guarded.guard import Guard
+from deodar.guarded.guarded_file import GuardedFile
 from tests.deodar.guarded import foreign
 
-GUARD = Guard(WorldError, "file.xml")
-SMALL = Guard(DocumentError, "file.xml", memory=2**28, seconds=0.5)
+GUARD = GuardedFile(WorldError, "file.xml")
+SMALL = GuardedFile(DocumentError, "file.xml", memory=2**28, seconds=0.5)
 LINUX = sys.platform == "linux"
 
 
@@ -32,13 +32,14 @@ def test_plain_data_pass_as_they_are() -> None:
     assert GUARD.call(foreign.same, (1, (2,))) == [1, [2]]
     for array in (
         np.arange(6, dtype=">i2").reshape(2, 3).T,
-        np.array("text"),
+        np.array(["text"]),
         np.zeros((0, 2)),
-        np.float32(3),
+        np.zeros(2, bool),
     ):
         passed = GUARD.call(foreign.same, array)
         assert passed.dtype == array.dtype and passed.shape == array.shape and np.array_equal(passed, array)
     GUARD.call(foreign.same, np.zeros(2))[0] = 1
+    assert GUARD.call(foreign.same, {"number": np.int64(2**60)}) == {"number": 2**60}
 
 
 def test_what_a_library_prints_is_no_message() -> None:
@@ -137,9 +138,9 @@ def test_a_child_is_kept_and_one_thread_uses_it_at_a_time() -> None:
 ENDS = """
 import os, sys
 from deodar.errors import WorldError
-from deodar.guarded.guard import Guard
+from deodar.guarded.guarded_file import GuardedFile
 from tests.deodar.guarded import foreign
-guard = Guard(WorldError, "file")
+guard = GuardedFile(WorldError, "file")
 own = guard.call(foreign.process)
 if not os.fork():
     other = guard.call(foreign.process)
