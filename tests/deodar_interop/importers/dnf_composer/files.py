@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from deodar.importers._beside import in_folder
 from deodar.importers.imported import Imported
 from deodar_interop.importers import dnf_composer
 
@@ -62,7 +63,7 @@ def written(folder: Path, elements: list[dict[str, Any]], dt: float = 1.0, name:
 
 def imported(path: Path) -> Imported:
     """Convert a file in this process, whose limits a test may change."""
-    return dnf_composer.read(path.read_bytes(), path.name)
+    return dnf_composer.read(path.read_bytes(), path.name, beside=in_folder(path.parent))
 
 
 def without_noise(data: Any) -> Any:
