@@ -89,6 +89,9 @@ EDGES = (
 GROWN = 2**21
 """Largest number of bytes that a mutation adds by repeating."""
 
+MOST_CHANGED = 300_000
+"""Largest number of bytes of which more is changed."""
+
 DEPTHS = (10, 70, 1000, 10_000, 100_000)
 COUNTS = (2, 10, 1000, 30_000, 300_000)
 
@@ -270,9 +273,9 @@ def _json(draw: Draw, content: bytes, others: Sequence[bytes]) -> bytes:
     nested = None
     for _ in range(draw.choice((1, 1, 2, 3, 8))):
         below = [place for place in places(tree) if place]
-        if not below:
+        if not below or len(json.dumps(tree)) > MOST_CHANGED:
             break
-        nested = _json_values(draw, tree, draw.choice(below)) or nested
+        nested = _json_values(draw, tree, draw.choice(below))
         if nested is not None:
             break
     text = json.dumps(tree)
@@ -292,7 +295,10 @@ def _xml(draw: Draw, content: bytes, others: Sequence[bytes]) -> bytes:
         return _numbers(draw, content, others)
     parents = {child: parent for parent in root.iter() for child in parent}
     for _ in range(draw.choice((1, 1, 2, 4))):
-        node = draw.choice(list(root.iter()))
+        nodes = list(root.iter())
+        if len(ElementTree.tostring(root)) > MOST_CHANGED:
+            break
+        node = draw.choice(nodes)
         name = draw.choice(list(node.attrib) or ["name"])
         match draw.choice(XML_WAYS):
             case "attribute":
@@ -406,6 +412,8 @@ def damaged(draw: Draw, name: str, content: bytes, others: Sequence[bytes]) -> b
     text = ending in STRUCTURES
     structures = STRUCTURES.get(ending, ())
     for _ in range(draw.choice((1, 1, 1, 2, 3))):
+        if len(content) > MOST_CHANGED:
+            break
         kinds: Sequence[Mutation] = BYTES
         if text and draw.random() < 0.85:
             kinds = structures if structures and draw.random() < 0.6 else TEXT

@@ -144,6 +144,7 @@ def _answer(read: Callable[[Path], object], path: Path) -> tuple[str, str]:
             frames = [
                 f"{f.filename.rpartition('src/')[2]}:{f.lineno}"
                 for f in traceback.extract_tb(error.__traceback__)
+                if "/src/" in f.filename
             ]
             return "foreign", f"{type(error).__name__}: {str(error)[:200]} [{' '.join(frames[-4:])}]"
     return "read", ""

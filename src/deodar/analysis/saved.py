@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from deodar import codec, file_version
-from deodar.errors import RecordError
+from deodar import file_version
+from deodar.errors import DamagedFile, RecordError, first_line, reading
 
 if TYPE_CHECKING:
     import xarray
@@ -67,14 +66,17 @@ class SavedAnalysis(ABC):
         """
         # start-up time: these bring xarray
         from deodar.recording.files import load_record
-        from deodar.recording.provenance import KEY
+        from deodar.recording.record import about
 
         record = load_record(path)
-        provenance = codec.parse(record.attrs[KEY])
-        if cls.KIND not in provenance:
-            raise RecordError(f"is a record without {cls.PHRASE}", where=str(path))
-        try:
+        with reading(path, RecordError):
+            provenance = about(record)
+            if cls.KIND not in provenance:
+                raise RecordError(f"is a record without {cls.PHRASE}")
             with file_version.naming_later_writer(provenance):
-                return cls.of_record(record, provenance)
-        except RecordError as error:
-            raise RecordError([replace(p, where=str(path)) for p in error.problems]) from None
+                try:
+                    return cls.of_record(record, provenance)
+                except (LookupError, TypeError, ValueError, AttributeError, OverflowError) as error:
+                    raise DamagedFile(
+                        f"is damaged: {cls.PHRASE} cannot be read ({first_line(error)})"
+                    ) from None

@@ -95,7 +95,7 @@ def _from_2(document: Mapping[str, Json]) -> dict[str, Json]:
     for path, body in elements.items():
         kind = cast("dict[str, Any]", body).get("kind") if isinstance(body, dict) else None
         renamed = RENAMED_AFTER_2.get(kind, {}) if isinstance(kind, str) else {}
-        if not renamed.keys().isdisjoint(body):
+        if renamed and not renamed.keys().isdisjoint(body):
             elements[path] = {renamed.get(key, key): value for key, value in body.items()}
     return {**document, "elements": elements}
 

@@ -13,7 +13,7 @@ from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 from deodar import codec, registry, regular_file
-from deodar.errors import DocumentError, Fix
+from deodar.errors import DocumentError, Fix, RecordError, reading
 from deodar.experiments import results
 from deodar.experiments.design import Design
 from deodar.experiments.record_target import PLACE
@@ -92,28 +92,29 @@ def _record(place: Path) -> Work:
     inner, _ = files.locate(place)
     record = files.open_record(place)
     try:
-        origin: dict[str, Any] = origin_of(record)
-        if "document" not in origin:
-            return _table(place, record, origin)
+        with reading(place, RecordError):
+            origin: dict[str, Any] = origin_of(record)
+            if "document" not in origin:
+                return _table(place, record, origin)
+            doc, world = provenance.document(origin), origin.get("world")
         variables = [str(name) for name in record.data_vars]
     finally:
         record.close()
-    doc, world = provenance.document(origin), origin.get("world")
     content = _below(place, place.parent)
     content |= _beside(world, str(PurePosixPath(inner.relative_to(place.parent).as_posix()).parent))
     run = [
         f"{key} {origin[key]:g}" for key in ("duration", "dt", "seed", "trials") if _is_number(origin, key)
     ]
     lines = {"model": _named(doc), "run": ", ".join(run) or "a session"}
-    lines |= {"sweep": ", ".join(origin["sweep"])} if origin.get("sweep") else {}
-    lines |= {"world": str(world["world"])} if world else {}
+    lines |= {"sweep": _swept(origin["sweep"])} if origin.get("sweep") else {}
+    lines |= _of_described(world)
     lines |= {"holds": ", ".join(variables), "made by": _made_by(origin)}
     return Work("record", place.name, content, lines, _merged(of_document(doc), of_world(world)))
 
 
 def _table(place: Path, table: xarray.Dataset, origin: Mapping[str, Any]) -> Work:
-    lines = {"experiment": str(origin["name"]), "trials": str(table.sizes.get("trial", 0))}
-    lines |= {"world": str(origin["world"]["world"])} if origin.get("world") else {}
+    lines = {"experiment": str(origin.get("name", "")), "trials": str(table.sizes.get("trial", 0))}
+    lines |= _of_described(origin.get("world"))
     lines |= {"columns": _columns(table), "made by": _made_by(origin)}
     return Work("table", place.name, {place.name: place}, lines)
 
@@ -124,7 +125,7 @@ def _results_folder(place: Path) -> Work:
     world: Any = identity.get("world")
     lines = {"experiment": str(identity["name"]), "model": _named(doc)}
     lines |= {"trials": f"{len(rows)} of {len(_design(place / results.EXPERIMENT).cells)}"}
-    lines |= {"world": str(world["world"])} if world else {}
+    lines |= _of_described(world)
     lines |= {"columns": _columns(results.load_results(place))}
     if (place / PLACE).is_file():
         lines["records"] = "in a store elsewhere, which is not included"
@@ -260,15 +261,29 @@ def _named(doc: Document) -> str:
     return f"{doc.name} ({counted(len(doc.entries), 'element')})"
 
 
+def _of_described(world: Any) -> dict[str, str]:
+    """Return the line about a world that a record or its results describe."""
+    return {"world": str(world["world"])} if isinstance(world, dict) and "world" in world else {}
+
+
+def _swept(sweep: Any) -> str:
+    """Return the parameters of a sweep: of a grid, or of a list of points."""
+    if isinstance(sweep, dict):
+        return ", ".join(sweep)
+    paths = dict.fromkeys(path for point in sweep if isinstance(point, dict) for path in point)
+    return f"{', '.join(paths)} at {counted(len(sweep), 'point')}"
+
+
 def _columns(table: xarray.Dataset) -> str:
     return ", ".join(map(str, (*table.coords, *table.data_vars)))
 
 
 def _made_by(origin: Mapping[str, Any]) -> str:
-    makers: Mapping[str, str] = origin.get("made_by") or {}
+    stated: Any = origin.get("made_by")
+    makers: Mapping[str, Any] = stated if isinstance(stated, dict) else {}
     programs = ("deodar", "jax", "numpy", "python")
     versions = [f"{name} {makers[name]}" for name in programs if name in makers]
-    where = [makers[name] for name in ("device", "machine") if name in makers]
+    where = [str(makers[name]) for name in ("device", "machine") if name in makers]
     return ", ".join([*versions, *where]) or "not stated"
 
 

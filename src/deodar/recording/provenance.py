@@ -13,6 +13,7 @@ from deodar.codec import Json, JsonObject
 from deodar.compiler import hosts
 from deodar.compiler.device import cores
 from deodar.compiler.rounding import SEPARATELY, separate_rounding
+from deodar.errors import DamagedFile
 from deodar.model import document_files
 from deodar.model.document import Document
 from deodar.numerics import native
@@ -112,9 +113,21 @@ def _processor() -> str:
 
 
 def document(origin: Mapping[str, Any]) -> Document:
-    """Return the document of a record."""
+    """Return the document of a record.
+
+    Raises:
+        DamagedFile: it states none, or its arrays are no text in base 64.
+        DocumentError: what it states is no document, or one of a later version.
+    """
+    if "document" not in origin:
+        raise DamagedFile("is damaged: it does not state the document that made it")
     document_files.require_document(origin["document"])
-    packed = base64.b64decode(origin.get("arrays") or "")
+    try:
+        packed = base64.b64decode(str(origin.get("arrays") or ""))
+    except ValueError as error:
+        raise DamagedFile(
+            f"is damaged: the arrays of its document are no text in base 64 ({error})"
+        ) from None
     arrays = document_files.unpack(packed, "the record") if packed else {}
     with file_version.naming_later_writer(origin):
         return document_files.from_data(origin["document"], arrays)

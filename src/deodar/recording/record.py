@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import xarray
 
 from deodar import codec
 from deodar.codec import JsonObject
+from deodar.errors import DamagedFile, first_line, show
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, Axis
 from deodar.recording.probe import TIME, Series, is_time
 from deodar.recording.provenance import KEY
 from deodar.recording.shown_dataset import ShownDataset
+
+STATED: Mapping[str, type | tuple[type, ...]] = {
+    "document": dict,
+    "arrays": str,
+    "world": (dict, type(None)),
+    "made_by": (dict, type(None)),
+    "sweep": (dict, list, type(None)),
+    "record": (list, type(None)),
+}
+"""Types of what the provenance of a record states, by name."""
 
 Variable = tuple[Entry, str, Axes, np.ndarray]
 """Element, port, axes of the port, and the array: sweep points, trials, time, axes."""
@@ -94,9 +105,25 @@ def with_times(record: xarray.Dataset, series: Sequence[Series]) -> xarray.Datas
 
 
 def about(record: xarray.Dataset) -> JsonObject:
-    """Return the provenance of a record, as plain data; empty for a Dataset of other origin."""
+    """Return the provenance of a record, as plain data; empty for a Dataset of other origin.
+
+    Raises:
+        DamagedFile: it is not what a record states.
+    """
     text = record.attrs.get(KEY)
-    return codec.parse(text) if isinstance(text, str) else {}
+    if not isinstance(text, str):
+        return {}
+    try:
+        origin = codec.parse(text)
+    except ValueError as error:
+        raise DamagedFile(f"is damaged: what made it is not JSON ({first_line(error)})") from None
+    if not isinstance(origin, dict):
+        raise DamagedFile(f"is damaged: what made it is {show(origin)}, not an object")
+    stated = cast("JsonObject", origin)
+    for name, kinds in STATED.items():
+        if name in stated and not isinstance(stated[name], kinds):
+            raise DamagedFile(f"is damaged: it states {show(stated[name])} as its {name}")
+    return stated
 
 
 def time_dimension(variable: xarray.DataArray) -> str | None:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from deodar.errors import DeodarError, RecordError, UnknownName, option
+from deodar.errors import DeodarError, RecordError, UnknownName, option, reading
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
@@ -77,16 +77,8 @@ class RecordReader:
         self._stamp = writer_lock.stamp(place)
         self._written = writer_lock.is_written(place) is True
         record = files.opened(path)
-        try:
-            origin = about(record)
-            if not isinstance(origin.get("document"), dict):
-                raise RecordError("does not state the document that made it", where=str(path))
-            self.document: Document = provenance.document(origin)
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            text = f"{type(error).__name__}: {error}"
-            raise RecordError(
-                f"is damaged: its provenance cannot be read ({text})", where=str(path)
-            ) from None
+        with reading(path, RecordError):
+            self.document: Document = provenance.document(about(record))
         self._take(record)
         self._axes = {n.id: {**n.ins, **n.outs} for n in graph(self.document).nodes if n.declared}
         self._names: dict[PortPlace, str] = {}

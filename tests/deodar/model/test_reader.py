@@ -65,3 +65,10 @@ def test_a_use_with_other_content_is_refused(use: object) -> None:
 def test_a_document_parameter_with_other_content_is_refused(parameter: object) -> None:
     with pytest.raises(DocumentError, match=r"parameters.tempo: needs a value \(a number\) and links"):
         document_files.from_data({**USED, "parameters": {"tempo": parameter}}, {})
+
+
+@pytest.mark.parametrize("version", [1, 2, 3])
+@pytest.mark.parametrize("body", [5, None, [], "u"])
+def test_an_element_that_is_no_object_is_refused(version: int, body: object) -> None:
+    with pytest.raises(DocumentError, match=r"elements\.u|u: "):
+        document_files.from_data({"deodar": version, "elements": {"u": body}}, {})

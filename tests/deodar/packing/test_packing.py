@@ -94,6 +94,20 @@ def test_a_record_comes_back_with_what_made_it(folder: Path) -> None:
     assert inner == Path("apart", "node.zarr") and dd.load_record(inner).identical(record)
 
 
+@pytest.mark.parametrize(
+    ("sweep", "line"),
+    [
+        ({"u.tau": [10.0, 20.0]}, "u.tau"),
+        (dd.Points([{"u.tau": 10.0}, {"u.tau": 20.0}]), "u.tau at 2 points"),
+    ],
+)
+def test_a_swept_record_says_what_was_swept(folder: Path, sweep: dict[str, list[float]], line: str) -> None:
+    model = dd.Model("one")
+    model.add(dd.Field("u", []))
+    dd.save_record(dd.simulate(model, 5, sweep=sweep, record="u"), "record.nc")
+    assert dd.contents("record.nc").about["sweep"] == line
+
+
 def test_equal_contents_give_equal_packages(folder: Path) -> None:
     dd.save_record(dd.simulate(dd.load("example:node"), 5, record="u.activation"), "node.nc")
     assert dd.pack("node.nc", "a.deodar").read_bytes() == dd.pack("node.nc", "b.deodar").read_bytes()

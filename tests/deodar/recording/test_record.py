@@ -5,9 +5,13 @@ from __future__ import annotations
 import json
 
 import numpy as np
+import pytest
+import xarray
 
 import deodar as dd
 from deodar.couplings.weights import Weights
+from deodar.errors import DamagedFile
+from deodar.recording import provenance
 from deodar.recording.record import about
 from tests.deodar.recording.models import model, record, x
 
@@ -81,3 +85,24 @@ def test_a_record_contains_the_arrays_of_its_document() -> None:
     u = model.add(dd.Field("u", [x]))
     u >> model.add(Weights(np.arange(121.0).reshape(11, 11), [x], name="w")) >> u
     assert document(about(dd.simulate(model, 1))) == model.document
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{", "not JSON"),
+        ("[1]", "not an object"),
+        ('{"document": 3}', "states 3 as its document"),
+        ('{"world": "arena"}', "states 'arena' as its world"),
+        ('{"made_by": []}', "states \\[\\] as its made_by"),
+    ],
+)
+def test_a_provenance_of_another_form_is_damage(text: str, message: str) -> None:
+    with pytest.raises(DamagedFile, match=message):
+        about(xarray.Dataset(attrs={provenance.KEY: text}))
+
+
+@pytest.mark.parametrize("origin", [{}, {"document": {}, "arrays": "a"}])
+def test_a_provenance_without_a_document_is_damage(origin: dict[str, object]) -> None:
+    with pytest.raises(DamagedFile, match="is damaged: "):
+        provenance.document(origin)

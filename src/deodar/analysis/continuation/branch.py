@@ -151,7 +151,8 @@ class SteadyBranch(Summarised, SavedAnalysis):
         from deodar.analysis.continuation import line_file
 
         line, description = line_file.line_of(provenance), provenance[cls.KIND]
-        assert line is not None
+        if line is None:
+            raise ValueError("it states no line of parameters")
         states, places, modes = (
             _rows(line.right_hand_side, record, prefix) for prefix in ("", "bifurcation:", "mode:")
         )
