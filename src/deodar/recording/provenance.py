@@ -117,7 +117,7 @@ def document(origin: Mapping[str, Any]) -> Document:
 
     Raises:
         DamagedFile: it states none, or its arrays are no text in base 64.
-        DocumentError: what it states is no document, or one of a later version.
+        DocumentError: the document that it states has problems, or is of a later version.
     """
     if "document" not in origin:
         raise DamagedFile("is damaged: it does not state the document that made it")
