@@ -73,7 +73,7 @@ class Axis(Summarised):
     def __post_init__(self) -> None:
         where = f"axis {show(self.name)}"
         faults = {p.where: p.what for p in set_normal(self)}
-        problems = [Problem(where, f"{name} {what}") for name, what in faults.items()]
+        problems = [Problem(where, f"{name} {fault}") for name, fault in faults.items()]
         if self.name == "":
             problems.append(Problem("axis", "needs a name"))
         if not {"samples", "periodic"} & faults.keys() and self.samples < 2 and not self.periodic:
