@@ -24,13 +24,13 @@ RELEASE = re.compile(r"(?:deodar )?(\d{1,6}(?:\.\d{1,6}){0,3}(?:(?:a|b|rc)\d{1,4
 """A version of deodar. Any other text of a file is ignored, because messages propose to type it."""
 
 
-def writer(data: object) -> str:
+def writer(plain: object) -> str:
     """Return the version of the deodar that wrote plain data; "": they state none.
 
     >>> writer({"written_by": "deodar 0.9.0"}), writer({"made_by": {"deodar": "0.9.0"}}), writer({})
     ('0.9.0', '0.9.0', '')
     """
-    stated = cast("Mapping[str, Any]", data) if isinstance(data, Mapping) else {}
+    stated = cast("Mapping[str, Any]", plain) if isinstance(plain, Mapping) else {}
     made_by = stated.get("made_by")
     text = stated.get(KEY) or (made_by.get("deodar") if isinstance(made_by, Mapping) else None)
     release = RELEASE.fullmatch(text) if isinstance(text, str) else None
@@ -38,7 +38,7 @@ def writer(data: object) -> str:
 
 
 def require_readable(
-    noun: str, version: object, latest: int, data: object, error: type[DeodarError] = DocumentError
+    noun: str, version: object, latest: int, plain: object, error: type[DeodarError] = DocumentError
 ) -> None:
     """Refuse a file of a form that this deodar does not read.
 
@@ -46,13 +46,13 @@ def require_readable(
         noun: what the file is, with its article.
         version: the version of its form, as it states it.
         latest: the latest version that is read; the first one is 1.
-        data: plain data that state which deodar wrote it.
+        plain: plain data that state which deodar wrote it.
         error: class of the error.
     """
     number = version if isinstance(version, int) and not isinstance(version, bool) else 0
     if 1 <= number <= latest:
         return
-    by = writer(data)
+    by = writer(plain)
     raise error(
         f"is {noun} of version {show(version)}{f', written by deodar {by}' if by else ''}; this deodar,"
         f" {__version__}, reads {f'versions 1 to {latest}' if latest > 1 else 'version 1'}",
@@ -61,12 +61,12 @@ def require_readable(
 
 
 @contextlib.contextmanager
-def naming_later_writer(data: object) -> Generator[None]:
+def naming_later_writer(plain: object) -> Generator[None]:
     """State in the errors of a block that a later deodar wrote the plain data it reads, if one did."""
     try:
         yield
     except DeodarError as error:
-        by = writer(data)
+        by = writer(plain)
         if _is_later(by):
             error.advise(f"It was written by deodar {by}, and this is deodar {__version__}. {_install(by)}")
         raise
@@ -74,8 +74,8 @@ def naming_later_writer(data: object) -> Generator[None]:
 
 def _install(by: str) -> str:
     """Return what to type so that files of a version are read; "": it is not known."""
-    what = f"'deodar>={by}'" if _is_later(by) else "deodar"
-    return f"Type: pip install --upgrade {what}"
+    requirement = f"'deodar>={by}'" if _is_later(by) else "deodar"
+    return f"Type: pip install --upgrade {requirement}"
 
 
 def _is_later(version: str) -> bool:

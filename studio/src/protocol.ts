@@ -74,7 +74,8 @@ export type Announced = {
 // `carried` is the number of values that changed and `unmatched` lists the values that could not be applied.
 // `imported` is a sentence on the import of a file of another tool. `version` is the first version of the
 // document with the change, if the request made one. `made` lists the ids of new elements, `group` the names
-// of a new group; `text` is what the request asked for: a document for the clipboard, or a script.
+// of a new group; `text` is what the request asked for: a document for the clipboard, a script, or a report.
+// `fault` is true if deodar itself failed: the page offers a report.
 export type Answer = {
   type: "answer";
   request: number;
@@ -90,6 +91,7 @@ export type Answer = {
   made?: string[];
   group?: string[];
   text?: string;
+  fault?: boolean;
 };
 
 // Apply a preset that the document keeps in its layout, as one step of undo.
@@ -547,6 +549,12 @@ export type ExperimentView = {
 // Return a Python script that makes the document, the `text` of the answer.
 export type ExportScript = {
   type: "export_script";
+  request?: number;
+};
+
+// Return the text of `deodar doctor --report` as the `text` of the answer.
+export type FaultReport = {
+  type: "fault_report";
   request?: number;
 };
 
@@ -1612,6 +1620,7 @@ export type ToServer =
   | EditExperiment
   | EndComparison
   | ExportScript
+  | FaultReport
   | FindFits
   | Forget
   | InsertElement

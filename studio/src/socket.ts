@@ -2,9 +2,10 @@
 
 import { addressed } from "./addressed";
 import { decode } from "./frames";
+import { saveFile } from "./plots/export/save";
 import type { Answer, Fits, Folder, ToPage, ToServer } from "./protocol";
 import { isRefused } from "./refused";
-import { useStudio } from "./store";
+import { type Offer, useStudio } from "./store";
 import { live } from "./world/live";
 import { Streams } from "./streams";
 
@@ -139,7 +140,17 @@ export const socket = new Socket();
 export async function request(message: ToServer): Promise<Answer> {
   const { answer } = await socket.ask(message);
   for (const problem of answer.problems ?? []) {
-    useStudio.getState().notify(problem);
+    useStudio.getState().notify(problem, "error", answer.fault ? REPORT : undefined);
   }
   return answer;
 }
+
+// The text that `deodar doctor --report` writes, to the folder of downloads.
+async function saveReport(): Promise<void> {
+  const { text = "" } = await request({ type: "fault_report" });
+  if (text !== "") {
+    saveFile(new Blob([text], { type: "text/plain" }), "fault-report", "txt");
+  }
+}
+
+const REPORT: Offer = { label: "Save a fault report", run: saveReport };

@@ -27,7 +27,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "elements couplings worlds",
         "diagrams",
         "model",
-        "kinds",
+        "kinds last_error",
         "compiler",
         "cores cluster precision progress sweep",
         "resources",

@@ -101,6 +101,13 @@ def main(argv: Sequence[str] | None = None) -> int:
             f"deodar {args.command}: there is not enough memory for this. Use fewer samples or fewer trials",
             file=sys.stderr,
         )
+    except Exception as error:
+        # start-up time
+        from deodar import last_error
+
+        last_error.note(error, f"deodar {args.command}", words[1:])
+        error.add_note("This is an error of deodar itself. For a fault report type: deodar doctor --report")
+        raise
     return 1
 
 

@@ -16,6 +16,7 @@ from deodar import __version__, codec, regular_file
 from deodar.cli import _options
 from deodar.cli._answer import CommandAnswer
 from deodar.errors import DocumentError
+from deodar.model import output, partial
 
 if TYPE_CHECKING:
     from deodar.compiler.plans import Measured
@@ -32,6 +33,14 @@ def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
     parser.option("files", "FILE", "documents and experiments whose packages are looked for", nargs="*")
     _options.add_json(parser)
+    parser.option(
+        "--report",
+        "REPORT",
+        "one text for a fault report, with the last error, without paths of yours (default: print it)",
+        nargs="?",
+        const="",
+    )
+    _options.add_force(parser)
     parser.flag(
         "--plans",
         "measure every convolution strategy and compare it with its estimated cost (about a minute)",
@@ -48,8 +57,46 @@ def run(args: argparse.Namespace) -> CommandAnswer:
         return _plans()
     if args.sizes:
         return _measure_sizes()
+    if args.report is not None:
+        return _reported(args.report, args.force)
     state = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
+    state["left"] = [str(path) for path in _left_over({Path(), *(Path(file).parent for file in args.files)})]
     return CommandAnswer(state, [_page(state)], 1 if state["missing"] else 0)
+
+
+def report() -> str:
+    """Return one text for a fault report: versions, devices, caches and the last error of deodar itself.
+
+    It has no path or name of a file of the user.
+    """
+    # start-up time
+    from deodar import last_error
+
+    state = examine()
+    state["compiled_programs"]["folder"] = "their folder"
+    variables = sorted(name for name in os.environ if name.startswith(("DEODAR_", "JAX_", "XLA_")))
+    lines = [last_error.without_names(_page(state)), f"set        {', '.join(variables) or 'no variable'}"]
+    return "\n".join([*lines, "", f"last error {last_error.stated() or 'none is kept'}"])
+
+
+def _reported(path: str, force: bool) -> CommandAnswer:
+    """Print the text for a fault report, or write it."""
+    text = report()
+    if not path:
+        return CommandAnswer({"report": text}, [text])
+    output.write(output.claim(path, force), f"{text}\n".encode())
+    return CommandAnswer({"report": text, "out": path}, [f"Wrote {path}. Read it before you pass it on"])
+
+
+def _left_over(folders: set[Path]) -> Iterator[Path]:
+    """Yield what processes that were killed left in folders: the next save of the same files removes it."""
+    # start-up time: this brings JAX
+    from deodar.model import document_files
+
+    for folder in sorted(folders):
+        if folder.is_dir():
+            yield from partial.abandoned(folder)
+            yield from document_files.left_arrays(folder)
 
 
 def _plans() -> CommandAnswer:
@@ -288,6 +335,12 @@ def _page(state: dict[str, Any]) -> str:
             f"document   {document['file']}: {line}"
             for line in ["PROBLEM: " + p for p in document["problems"]] or [verdict]
         ]
+    for path in state.get("left", ()):
+        old = Path(path) / partial.OLD
+        lines.append(
+            f"left over  {path}, of a process that was killed. "
+            + (f"It holds what was replaced: {old}" if old.exists() else "It may be removed")
+        )
     for extra, installed in state["extras"].items():
         lines.append(
             f"extra      {extra}: "

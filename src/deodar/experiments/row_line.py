@@ -64,7 +64,7 @@ def read_first(line: bytes, name: str, path: Path) -> tuple[Any, bool]:
     if not isinstance(data, dict) or list(data) != [name] or not isinstance(data[name], dict):
         raise ValueError(f"its first line is not that of {name!r}")
     if isinstance(data[name].get("experiment"), int):  # rows of other jobs have a name there, or nothing
-        # start-up time: commands import this module
+        # start-up time: this brings JAX
         from deodar.experiments.experiment_migrations import require_readable
 
         with reading(path, RecordError):

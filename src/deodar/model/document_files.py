@@ -169,8 +169,8 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
         if not (place.is_file() and regular_file.read_bytes(place) == packed):
             output.write(output.claim(place, force), packed)
     output.write(path, text.encode())
-    left = left_arrays(path.parent, path.stem, new)
-    for place in [*left, path.with_name(old)] if old and old != new else left:
+    leftovers = left_arrays(path.parent, path.stem, new)
+    for place in [*leftovers, path.with_name(old)] if old and old != new else leftovers:
         place.unlink(missing_ok=True)
 
 
@@ -187,12 +187,12 @@ def left_arrays(folder: Path, stem: str = "", named: str = "") -> list[Path]:
     """
     form = re.compile((re.escape(stem) or ".+") + ARRAY_ENDING)
     try:
-        found = [path for path in folder.iterdir() if form.fullmatch(path.name) and path.name != named]
-        found = [path for path in found if time.time() - path.lstat().st_mtime > LEFT_SECONDS]
-        texts = [regular_file.read_bytes(path) for path in folder.glob("*.json") if found and path.is_file()]
+        arrays = [path for path in folder.iterdir() if form.fullmatch(path.name) and path.name != named]
+        arrays = [path for path in arrays if time.time() - path.lstat().st_mtime > LEFT_SECONDS]
+        texts = [regular_file.read_bytes(path) for path in folder.glob("*.json") if arrays and path.is_file()]
     except OSError:
         return []
-    return [path for path in found if not any(path.name[-ENDING_LENGTH:].encode() in text for text in texts)]
+    return [path for path in arrays if not any(path.name[-ENDING_LENGTH:].encode() in text for text in texts)]
 
 
 def array_file(content: bytes | str) -> str:

@@ -1,10 +1,10 @@
 """Files and folders beside their final ones, while they are written.
 
-The name follows from the final one, and the process that writes holds a lock, which the system releases when
-it ends, however it ends. So a process that is killed leaves at most one, which the next process that
-writes the same file takes over, and processes that write it at once get names of their own. Windows, and file
-systems without locks, have no such lock; there each name is a new one, and what a killed process leaves
-stays. `deodar doctor` names all that is left.
+The name follows from the final one, and its writer holds a lock, which the system releases when the process
+ends, however it ends. So a process that is killed leaves at most one, which the next process that writes the
+same file takes over, and processes that write it at once get names of their own. Windows, and file systems
+without locks, have no such lock; there each name is a new one, and what a killed process leaves stays.
+`deodar doctor` names what is left, where there are locks.
 """
 
 from __future__ import annotations
@@ -122,11 +122,11 @@ def drop(name: str, handle: int, folder: str = "", descriptor: int | None = None
     os.close(handle)
 
 
-def left(folder: Path) -> Iterator[Path]:
+def abandoned(folder: Path) -> Iterator[Path]:
     """Yield the partial files and folders in a folder that no process writes."""
     for path in sorted(folder.iterdir()):
         if FORM.fullmatch(path.name):
-            handle, _ = _held(path)
+            handle, _ = _lock_existing(path)
             if handle is not None:
                 os.close(handle)
                 yield path
@@ -138,7 +138,7 @@ def _taken_folder(path: Path) -> tuple[Path, int | None]:
         beside = path.with_name(_name(path.name, number))
         with contextlib.suppress(FileExistsError):
             beside.mkdir(mode=0o700)
-        handle, taken = _held(beside)
+        handle, taken = _lock_existing(beside)
         if handle is not None:
             return beside, handle
         if not taken:  # no locks, or the folder of another user
@@ -158,7 +158,7 @@ def _name(name: str, number: int) -> str:
     return f"{_stem(name)}{f'-{number}' if number else ''}{Path(name).suffix}"
 
 
-def _held(place: Path) -> tuple[int | None, bool]:
+def _lock_existing(place: Path) -> tuple[int | None, bool]:
     """Return the locked handle of an existing file or folder, and whether another process holds it."""
     if os.name != "posix":
         return None, False

@@ -37,13 +37,17 @@ def script() -> str:
     return "" if installed else f"script {path}"
 
 
-def listed(name: str) -> tuple[Path, dict[str, str]]:
-    """Return the file of the list of a script, and the state of each path in it."""
+def states() -> Path:
+    """Return the folder of the states of the user."""
     # start-up time
     import platformdirs
 
-    folder = Path(os.environ.get(STATES) or platformdirs.user_state_dir("deodar")) / "written"
-    file = folder / f"{hashlib.sha256(name.encode()).hexdigest()[:32]}.json"
+    return Path(os.environ.get(STATES) or platformdirs.user_state_dir("deodar"))
+
+
+def listed(name: str) -> tuple[Path, dict[str, str]]:
+    """Return the file of the list of a script, and the state of each path in it."""
+    file = states() / "written" / f"{hashlib.sha256(name.encode()).hexdigest()[:32]}.json"
     try:
         stored = codec.parse(regular_file.read_bytes(file).decode())
         return file, dict(stored["files"]) if stored["script"] == name else {}

@@ -953,7 +953,8 @@ class Answer(Message, frozen=True, tag="answer"):
     `carried` is the number of values that changed and `unmatched` lists the values that could not be applied.
     `imported` is a sentence on the import of a file of another tool. `version` is the first version of the
     document with the change, if the request made one. `made` lists the ids of new elements, `group` the names
-    of a new group; `text` is what the request asked for: a document for the clipboard, or a script.
+    of a new group; `text` is what the request asked for: a document for the clipboard, a script, or a report.
+    `fault` is true if deodar itself failed: the page offers a report.
     """
 
     request: int
@@ -969,3 +970,4 @@ class Answer(Message, frozen=True, tag="answer"):
     made: list[Id] = []
     group: list[str] = []
     text: str = ""
+    fault: bool = False

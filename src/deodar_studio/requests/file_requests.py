@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import Literal
 
+from deodar.cli import doctor
 from deodar.model import document_files
 from deodar.model.document import Document
 from deodar_studio.catalogue import gallery
@@ -99,6 +101,12 @@ async def save(hub: Hub, page: Page, *, path: Text = "", replace: bool = False) 
 async def list_folder(hub: Hub, page: Page, *, path: Text = "") -> Folder:
     """List the documents and folders in a folder below the root; a `folder` message follows."""
     return await in_file_thread(lambda: hub.workspace.listed(path), path)
+
+
+@asks()
+async def fault_report(hub: Hub, page: Page) -> Answer:
+    """Return the text of `deodar doctor --report` as the `text` of the answer."""
+    return answer(text=await asyncio.to_thread(doctor.report))
 
 
 @asks()

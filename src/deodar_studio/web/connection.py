@@ -18,7 +18,7 @@ from typing import Any
 import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from deodar import codec
+from deodar import codec, last_error
 from deodar.errors import DeodarError
 from deodar.model.unit import unit_seconds
 from deodar.session.port_reader import PortKey
@@ -125,13 +125,19 @@ class PageConnection:
             answers = [_refused(message.request, what)]
         except Exception as error:
             logging.getLogger("deodar.studio").exception("a request of the page failed")
+            await asyncio.to_thread(last_error.note, error, "studio", self._names())
             what = (
                 f"This is an error of deodar itself ({type(error).__name__}: {error}). The terminal of the"
                 " studio shows the details."
             )
-            answers = [_refused(message.request, what)]
+            answers = [msgspec.structs.replace(_refused(message.request, what), fault=True)]
         self._answers.extend(a for a in answers if message.request)
         self.page.wake()
+
+    def _names(self) -> list[object]:
+        """Return what a fault report leaves out: the names of the open document and its file."""
+        model, file = self._hub.project.history.model, self._hub.project.file.path
+        return [name for name in (None if model is None else model.document.name, file) if name is not None]
 
     # -------------------------------------------------------------------------------------------- to the page
 

@@ -49,11 +49,11 @@ def names(folder: Path) -> list[str]:
 
 def test_the_file_of_a_killed_process_is_taken_over(tmp_path: Path) -> None:
     process = half(tmp_path / "doc.json")
-    assert not list(partial.left(tmp_path)), "its process writes it"
+    assert not list(partial.abandoned(tmp_path)), "its process writes it"
     process.kill()
     process.communicate(timeout=30)
-    (left,) = partial.left(tmp_path)
-    assert left.read_bytes() == b"half" and names(tmp_path) == [left.name]
+    (leftover,) = partial.abandoned(tmp_path)
+    assert leftover.read_bytes() == b"half" and names(tmp_path) == [leftover.name]
     output.write(tmp_path / "doc.json", b"whole")
     assert names(tmp_path) == ["doc.json"] and (tmp_path / "doc.json").read_bytes() == b"whole"
     assert (tmp_path / "doc.json").stat().st_mode & 0o777 == 0o666 & ~output._umask()
@@ -111,10 +111,10 @@ def killed(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], 
 
 def model(seed: int = 0) -> dd.Model:
     """Return a model with an array file."""
-    made = dd.Model("m")
+    small = dd.Model("m")
     values = np.random.default_rng(seed).random(3)
-    made.add(dd.Pattern("w", [dd.Axis("x", 0, 2, samples=3)], values=values))
-    return made
+    small.add(dd.Pattern("w", [dd.Axis("x", 0, 2, samples=3)], values=values))
+    return small
 
 
 SAVES: dict[str, Callable[[Path], object]] = {
@@ -143,14 +143,14 @@ def test_each_save_takes_over_what_a_killed_one_left(
     SAVES[kind](tmp_path / "never")
     (tmp_path / "killed").mkdir()
     killed(lambda: SAVES[kind](tmp_path / "killed"))
-    assert list(partial.left(tmp_path / "killed"))
+    assert list(partial.abandoned(tmp_path / "killed"))
     SAVES[kind](tmp_path / "killed")
     assert names(tmp_path / "killed") == names(tmp_path / "never")
 
 
 def test_the_record_that_a_killed_process_was_replacing_gets_its_name_again(tmp_path: Path) -> None:
-    path, kept = tmp_path / "r.zarr", record()
-    files.save_record(kept, path)
+    path, before = tmp_path / "r.zarr", record()
+    files.save_record(before, path)
     with partial.folder(path) as beside:
         name = beside.name
     shutil.copytree(path, tmp_path / name / partial.OLD)
@@ -158,7 +158,7 @@ def test_the_record_that_a_killed_process_was_replacing_gets_its_name_again(tmp_
     shutil.rmtree(path)
     with pytest.raises(OutputExists, match="created meanwhile"):
         places.write_folder(path, lambda folder: None)
-    assert names(tmp_path) == ["r.zarr"] and files.load_record(path).identical(kept)
+    assert names(tmp_path) == ["r.zarr"] and files.load_record(path).identical(before)
 
 
 def test_without_locks_each_name_is_a_new_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -193,9 +193,9 @@ def test_array_files_without_a_document_are_taken_away_by_its_next_save(tmp_path
     for name in (names_of[0], names_of[1], names_of[3]):
         os.utime(tmp_path / name, (0, 0))
     dd.save(model(), tmp_path / "m.json")
-    (own,) = set(names(tmp_path)) - {*names_of, "copy.json", "m.json"}
-    os.utime(tmp_path / own, (0, 0))
-    assert names(tmp_path) == sorted([own, "copy.json", "m.json", *names_of[1:]])
+    (array_file,) = set(names(tmp_path)) - {*names_of, "copy.json", "m.json"}
+    os.utime(tmp_path / array_file, (0, 0))
+    assert names(tmp_path) == sorted([array_file, "copy.json", "m.json", *names_of[1:]])
     assert document_files.left_arrays(tmp_path) == [tmp_path / names_of[3]]
     dd.save(model(1), tmp_path / "m.json", force=True)
-    assert own not in names(tmp_path) and dd.load(tmp_path / "m.json").document == model(1).document
+    assert array_file not in names(tmp_path) and dd.load(tmp_path / "m.json").document == model(1).document

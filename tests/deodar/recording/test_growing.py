@@ -209,9 +209,9 @@ def test_a_full_disk_keeps_the_samples_that_fit(
         put(writer, whole, 0, committed)
         writer.commit()
     shutil.copytree(path, tmp_path / "all.zarr")
-    rest = GrowingRecord.resumed(tmp_path / "all.zarr", {"time": committed})
-    put(rest, whole, committed, 21)
-    rest.close(False)
+    undisturbed = GrowingRecord.resumed(tmp_path / "all.zarr", {"time": committed})
+    put(undisturbed, whole, committed, 21)
+    undisturbed.close(False)
     free = (size(tmp_path / "all.zarr") - size(path)) * 2 // 3  # of the bytes that the rest needs
     limit = size(path) + free
 
@@ -226,12 +226,12 @@ def test_a_full_disk_keeps_the_samples_that_fit(
         with pytest.raises(OutputError, match="No space left"):
             writer.commit()
         writer.abandon()
-    kept = files.load_record(path)
-    assert committed < kept.sizes["time"] < 21
-    assert kept.drop_attrs().identical(whole.isel(time=slice(kept.sizes["time"])).drop_attrs())
-    again = GrowingRecord.resumed(path, {"time": kept.sizes["time"]})
-    put(again, whole, kept.sizes["time"], 21)
-    again.close(True)
+    partly = files.load_record(path)
+    assert committed < partly.sizes["time"] < 21
+    assert partly.drop_attrs().identical(whole.isel(time=slice(partly.sizes["time"])).drop_attrs())
+    continued = GrowingRecord.resumed(path, {"time": partly.sizes["time"]})
+    put(continued, whole, partly.sizes["time"], 21)
+    continued.close(True)
     assert files.load_record(path).identical(whole)
 
 

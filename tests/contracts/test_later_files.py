@@ -145,9 +145,11 @@ OPENED: dict[str, tuple[str, Callable[[Path], object]]] = {
 
 def contents(folder: Path) -> dict[str, bytes]:
     """Return the content of each file that a later deodar wrote."""
-    own = ("mine", "new results")
+    later_ones = ("mine", "new results")
     files = [
-        path for path in folder.rglob("*") if path.is_file() and path.relative_to(folder).parts[0] not in own
+        path
+        for path in folder.rglob("*")
+        if path.is_file() and path.relative_to(folder).parts[0] not in later_ones
     ]
     return {str(path.relative_to(folder)): path.read_bytes() for path in files}
 
@@ -176,8 +178,8 @@ def test_a_command_refuses_a_later_file(
 ) -> None:
     name, file, *options = command
     assert main([name, str(later / file), *options]) == 1
-    said = " ".join(capsys.readouterr().err.split())
-    assert "written by deodar 0.9.0" in said and "pip install --upgrade 'deodar>=0.9.0'" in said
+    message = " ".join(capsys.readouterr().err.split())
+    assert "written by deodar 0.9.0" in message and "pip install --upgrade 'deodar>=0.9.0'" in message
 
 
 @pytest.mark.parametrize(
@@ -192,8 +194,8 @@ def test_an_unknown_part_of_a_later_document_is_refused_with_its_writer(
     change: dict[str, Any], says: str, tmp_path: Path
 ) -> None:
     # the form is one that is read, so that the problem itself is stated, too
-    data = json.loads(field().to_json()) | {"written_by": "deodar 0.9.0"} | change
-    (tmp_path / "model.json").write_text(json.dumps(data))
+    document = json.loads(field().to_json()) | {"written_by": "deodar 0.9.0"} | change
+    (tmp_path / "model.json").write_text(json.dumps(document))
     with pytest.raises(DocumentError) as refused:
         dd.load(tmp_path / "model.json")
     text = refused.value.at("shell")
@@ -211,7 +213,7 @@ def test_a_version_that_is_none_is_not_something_to_type(stated: object, tmp_pat
 
 def test_files_state_the_deodar_that_wrote_them(tmp_path: Path) -> None:
     write_files(tmp_path)
-    here = f"deodar {dd.__version__}"
+    version = f"deodar {dd.__version__}"
     for name in (
         "model.json",
         "experiment.json",
@@ -219,10 +221,10 @@ def test_files_state_the_deodar_that_wrote_them(tmp_path: Path) -> None:
         "results/model.json",
         "copied.txt",
     ):
-        assert json.loads((tmp_path / name).read_text())["written_by"] == here, name
-    assert stored.header(tmp_path / "moment.npz")["written_by"] == here
+        assert json.loads((tmp_path / name).read_text())["written_by"] == version, name
+    assert stored.header(tmp_path / "moment.npz")["written_by"] == version
     with zipfile.ZipFile(tmp_path / "packed.deodar") as archive:
-        assert json.loads(archive.read("contents.json"))["written_by"] == here
+        assert json.loads(archive.read("contents.json"))["written_by"] == version
     origin = json.loads(dd.load_record(tmp_path / "record.nc").attrs["deodar"])
     assert origin["made_by"]["deodar"] == dd.__version__
     assert "written_by" not in origin["document"], "records have the bytes that they had"
