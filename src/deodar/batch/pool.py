@@ -137,10 +137,7 @@ class Pool:
             try:
                 good, message = pickle.loads(pipe.recv_bytes())
             except (EOFError, OSError):
-                raise WorkerError(
-                    "a worker process ended unexpectedly; the system may have stopped it for lack of memory",
-                    fix="Use fewer workers, or a smaller batch",
-                ) from None
+                raise self._ended(worker) from None
             if good is None:
                 assert heard is not None
                 heard(key, message)
@@ -152,6 +149,20 @@ class Pool:
             self._idle.append(worker)
             out.append((key, message))
         return out
+
+    def _ended(self, worker: _Worker) -> WorkerError:
+        """Return why a worker may have ended."""
+        if self._main and not worker.worked:
+            return WorkerError(
+                "a worker process ended before its first task: it imports the script, which defines what the"
+                " task uses, and so must not run it again",
+                fix='Write the calls of the script below if __name__ == "__main__":, or move its classes and'
+                " functions into a module",
+            )
+        return WorkerError(
+            "a worker process ended unexpectedly; the system may have stopped it for lack of memory",
+            fix="Use fewer workers, or a smaller batch",
+        )
 
 
 def _started(talks: bool) -> _Worker:

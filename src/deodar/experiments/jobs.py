@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -60,8 +61,8 @@ def run_jobs(
         jobs: all of the experiment.
         rows: the store of rows; a job all of whose rows exist is not run again.
         on: workers, else this process runs one job after another; its `progress` counts trials, and is called
-            after each job. A script that calls this with workers must do so below `if __name__ ==
-            "__main__":`.
+            after each job. Only a script that defines what the jobs use, such as a world, has to call this
+            below `if __name__ == "__main__":`, because workers import it.
         pool: the workers of a cluster that run the jobs, in place of those of `on`: an entered
             `dd.ClusterPool`.
         watch: function that is called several times a second while workers run, with the numbers of present
@@ -109,7 +110,9 @@ def _anywhere(
     elif cluster is not None:
         yield from _in_workers(jobs, cluster, ends)
     else:
-        with Pool(min(workers or 1, len(jobs)), main=True) as pool:
+        # what a script defines is pickled by the name of its module
+        main = b"__main__" in pickle.dumps(jobs[0])
+        with Pool(min(workers or 1, len(jobs)), main) as pool:
             yield from _in_workers(jobs, pool, ends)
 
 

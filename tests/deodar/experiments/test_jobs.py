@@ -89,3 +89,33 @@ def test_ctrl_c_keeps_the_rows_of_the_jobs_that_run(tmp_path, rows):
     assert len(kept.found) > pressed[0], "the other worker's job was ended, and its rows were kept"
     run_jobs(jobs(), kept)
     assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows
+
+
+def ran(folder, text):
+    (folder / "script.py").write_text(text)
+    return subprocess.run(
+        [sys.executable, "script.py"], cwd=folder, capture_output=True, text=True, timeout=600, check=False
+    )
+
+
+def test_an_experiment_in_a_script_runs_once_with_workers_and_needs_no_guard(tmp_path):
+    script = ran(
+        tmp_path,
+        "import deodar as dd\nprint('begins')\nmodel = dd.Model('n')\n"
+        "model.add(dd.Field('f', [], noise=1.0))\n"
+        "plan = dd.Experiment('e', model, dd.TrialPlan(20), trials=4)\n"
+        "print(plan.run(on=dd.Resources(workers=2)).sizes['trial'])\n",
+    )
+    assert script.stdout.split() == ["begins", "4"], script.stderr
+
+
+def test_a_script_that_defines_what_jobs_use_and_has_no_guard_is_told_so(tmp_path):
+    script = ran(
+        tmp_path,
+        "from pathlib import Path\nfrom deodar.experiments.jobs import Job, run_jobs\nfrom"
+        " deodar.experiments.rows import Rows\nfrom deodar.resources import Resources\n"
+        "def one(key):\n    return [{'key': key}]\n"
+        "run_jobs([Job(('a',), one, {'key': 'a'})], Rows(Path('rows'), {}), Resources(workers=1))\n",
+    )
+    assert script.returncode and "below if __name__ == " in script.stderr.splitlines()[-1]
+    assert "lack of memory" not in script.stderr
