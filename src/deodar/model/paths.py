@@ -1,13 +1,15 @@
 """Names and paths: `group.element.port`, `group.element.parameter`.
 
 Names may be any text. In a path a name may be written without quotation marks where that is unambiguous;
-`quote` gives a form that always is.
+`quote` gives a form that always is. Texts that Unicode counts as equal are one name: an accent may be a
+character of its own (NFD, as file names of macOS have it) or part of its letter (NFC).
 """
 
 from __future__ import annotations
 
 import dataclasses as dc
 import hashlib
+import unicodedata
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from deodar import codec
@@ -53,13 +55,26 @@ def split(path: str) -> PathNames:
     return tuple(names)
 
 
+def composed(text: str) -> str:
+    """Return a text with accents as parts of their letters."""
+    return text if text.isascii() else unicodedata.normalize("NFC", text)
+
+
+def known(names: PathNames, taken: Collection[PathNames]) -> PathNames | None:
+    """Return names as `taken` has them, which may write accents in another way; None: it lacks them."""
+    if names in taken or all(map(str.isascii, names)):
+        return names if names in taken else None
+    forms = (tuple(unicodedata.normalize(form, n) for n in names) for form in ("NFC", "NFD"))
+    return next((form for form in forms if form in taken), None)
+
+
 @dc.dataclass(frozen=True)
 class Index:
     """Names that paths may begin with, indexed for many look-ups.
 
     Attributes:
         names: all of them.
-        texts: each name joined by dots without quotation marks, with its position in `names`.
+        texts: each name joined by dots without quotation marks and composed, with its position in `names`.
         depth: largest number of parts of a name.
         longest: largest number of characters of a text.
     """
@@ -74,21 +89,22 @@ class Index:
         """Return the index of names."""
         texts: dict[str, list[tuple[int, PathNames]]] = {}
         for k, parts in enumerate(names):
-            texts.setdefault(".".join(parts), []).append((k, parts))
+            texts.setdefault(composed(".".join(parts)), []).append((k, parts))
         return cls(names, texts, max(map(len, names), default=0), max(map(len, texts), default=0))
 
 
 def readings(path: str, index: Index) -> list[tuple[PathNames, str]]:
     """Return every way to read `path` as a known name followed by a rest, the quoted reading first."""
     matches: list[tuple[PathNames, str]] = []
+    path = composed(path)
     parts = split(path)
     for k in range(min(len(parts), index.depth), 0, -1):
-        if parts[:k] in index.names:
-            matches.append((parts[:k], ".".join(quote(p) if not p.isdigit() else p for p in parts[k:])))
+        if (names := known(parts[:k], index.names)) is not None:
+            matches.append((names, ".".join(quote(p) if not p.isdigit() else p for p in parts[k:])))
     ends = [k for k, c in enumerate(path[: index.longest + 1]) if c == "."]
     for _, names in sorted(hit for end in [*ends, len(path)] for hit in index.texts.get(path[:end], ())):
         if not any(names == f[0] for f in matches):
-            matches.append((names, path[len(".".join(names)) + 1 :]))
+            matches.append((names, path[len(composed(".".join(names))) + 1 :]))
     return matches
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
+import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Self
 
@@ -76,6 +77,8 @@ class Axis(Summarised):
         problems = [Problem(where, f"{name} {fault}") for name, fault in faults.items()]
         if self.name == "":
             problems.append(Problem("axis", "needs a name"))
+        elif "name" not in faults:  # axes are matched by name
+            object.__setattr__(self, "name", unicodedata.normalize("NFC", self.name))
         if not {"samples", "periodic"} & faults.keys() and self.samples < 2 and not self.periodic:
             problems.append(Problem(where, f"samples is 1; expected 2 to {MOST_SAMPLES}"))
         if not {"lower", "upper"} & faults.keys():

@@ -132,3 +132,19 @@ def test_ids_come_from_the_path_and_never_collide() -> None:
         taken.append(stored_id("u", taken))
     assert len(set(taken)) == 5
     assert all(len(i) == 8 and int(i, 16) >= 0 for i in taken)
+
+
+def test_accents_of_both_forms_of_unicode_are_one_name() -> None:
+    for first, second in (("caf\u00e9", "cafe\u0301"), ("cafe\u0301", "caf\u00e9")):
+        model = dd.Model("m")
+        place = dd.Axis(f"{first} axis", 0, 10, samples=11)
+        u = model.add(dd.Field(f"{first} u", [place]))
+        assert model[f"{second} u"].id == u.id
+        model.set(f"{second} u.tau", 30)
+        assert u.element.tau == 30
+        with pytest.raises(dd.errors.ModelError, match=r"there is already an element"):
+            model.add(dd.Field(f"{second} u", []))
+        v = model.add(dd.Field(f"{second}.v", [dd.Axis(f"{second} axis", 0, 10, samples=11)]))
+        u >> v
+        assert model[f"{first}.v.activation"] is not None and not model.check()
+        assert display(model.document.entries[0].names) == f"{first} u", "files keep what was written"

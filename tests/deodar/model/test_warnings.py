@@ -137,6 +137,9 @@ def test_a_state_that_stands_still_in_single_precision_is_named_by_check_and_run
     assert ends[0] == 0 and ends[1] == pytest.approx(1e-4, rel=1e-3)
     for moves in (slow(1e4), slow(1e7, resting_level=0.0), slow(1e7, noise=1e3)):
         assert not [p for p in moves.check() if "does not move" in p.what]
+    quiet = dd.Model("quiet")
+    quiet.add(dd.Field("u", [X])) >> quiet.add(dd.Field("v", [X]))
+    assert not quiet.check(), "an input of almost 0 changes nothing in any precision"
 
 
 def test_a_resting_level_whose_sign_slipped_is_a_warning() -> None:

@@ -19,6 +19,9 @@ from deodar.model.wiring import Wiring
 LEAST = 2.0
 """Units in the last place that a step has to change a state by, else it is rounded by more than a quarter."""
 
+SMALL = 1e-3
+"""Sum of inputs, as a share of the value at the start, from which it matters that they move it (a guess)."""
+
 SMALLEST = 0.1
 """Sum of inputs that a run looks for: if none of this size leaves an element where it is, it skips the bounds
 of all signals, which cost time (a guess).
@@ -42,7 +45,8 @@ def _motionless(wiring: Wiring, step: float) -> Iterator[Problem]:
     for n in wiring.declared:
         drive = max(map(abs, wiring.arriving(n)))
         change, spacing = _share(n, step) * drive, _spacing(n)
-        if drive < math.inf and 0 < change < LEAST * spacing and not _shaken(n, step, spacing):
+        matters = SMALL * abs(_begin(n)) < drive < math.inf
+        if matters and 0 < change < LEAST * spacing and not _shaken(n, step, spacing):
             sentence = (
                 f"does not move in single precision: a step changes it by at most {change:.2g}, and numbers"
                 f" near {_begin(n):g} lie {spacing:.2g} apart"
