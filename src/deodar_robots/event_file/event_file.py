@@ -21,7 +21,7 @@ from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._settings import number, parse_argument
-from deodar_robots.event_file import aedat2, aedat4
+from deodar_robots.event_file import aedat2, aedat4, event_text
 from deodar_robots.event_file.events import RecordedEvents, require_size
 from deodar_robots.event_file.filmed import FilmedEvents
 from deodar_robots.eye.event_camera import EventCamera, shares
@@ -37,9 +37,10 @@ PREVIEWED = 20
 class EventFile(World):
     r"""A recording of an event camera, or a video that an event camera sees.
 
-    It reads AEDAT2 files of a DVS128 or eDVS (.aedat), AEDAT4 files (.aedat4; extra `events`) and videos
-    (extra `vision`), and plays in the time of the model from the first event on. After the end there are no
-    events, or the recording starts again.
+    It reads AEDAT2 files of a DVS128 or eDVS (.aedat), AEDAT4 files (.aedat4; extra `events`), text with a
+    line `t x y p` for each event (seconds, column, row, and 1 for brighter or 0; a time without a decimal
+    point is in microseconds) and videos (extra `vision`), and plays in the time of the model from the first
+    event on. After the end there are no events, or the recording starts again.
 
     Events of a file are sorted if time goes back by 0.1 s or less; a file where it goes back further is
     refused, because the time of the camera was reset there. AEDAT2 counts time modulo 2^32 microseconds,
@@ -58,8 +59,9 @@ class EventFile(World):
         file: path of the recording or video.
         period: ms between two readings; a whole number of steps of the model.
         loop: whether the recording starts again after its end.
-        size: columns and rows of the sensor; None: those that the file states, 128 x 128 for AEDAT2 and
-            videos. A video keeps its aspect ratio; the rest of the sensor is black.
+        size: columns and rows of the sensor; None: those that the file states, for text without them those
+            that its events need, 128 x 128 for AEDAT2 and videos. A video keeps its aspect ratio; the rest of
+            the sensor is black.
         stream: position among the streams of events of an AEDAT4 file, 0 for the first.
         jaer: whether the addresses of AEDAT2 are those of a DVS128 in jAER: column 127 - x, row 127 - y, and
             bit 0 for brighter. Otherwise the column is x, the row y, and the bit 1.
@@ -113,7 +115,9 @@ class EventFile(World):
             self._film = FilmedEvents(path, shape, self.camera, self._step, self.loop)
             self.size = shape
             return
-        if self.format == "AEDAT2":
+        if self.format == "text":
+            self._events = event_text.read(path, sides)
+        elif self.format == "AEDAT2":
             self._events = aedat2.read(path, sides, self.jaer)
         else:
             self._events = aedat4.read(path, sides, self.stream)
@@ -224,12 +228,12 @@ class EventFile(World):
 
 def _format(path: Path) -> str:
     """Return what a file is, by its beginning, or raise WorldError if its ending says otherwise."""
-    fix = "Name a recording (.aedat, .aedat4) or a video"
+    fix = "Name a recording (.aedat, .aedat4, or text with a line `t x y p` for each event) or a video"
     if not path.is_file():  # reading a pipe would wait
         raise WorldError("there is no such file", where=str(path), fix=fix)
     try:
         with regular_file.open_binary(path) as file:
-            head = file.read(16)
+            head = file.read(1024)
     except OSError as error:
         raise WorldError(f"cannot be read: {error.strerror}", where=str(path), fix=fix) from None
     if head.startswith(aedat2.VERSION):
@@ -246,7 +250,11 @@ def _format(path: Path) -> str:
     if path.suffix.lower() in (".aedat", ".aedat4"):
         what = "is empty" if not head else "is not a recording of events: it does not begin with '#!AER-DAT'"
         raise WorldError(what, where=str(path), fix="Name a recording in AEDAT2 or AEDAT4")
-    return "video"
+    if not event_text.is_text(head):
+        return "video"
+    if path.suffix.lower() in EventFile.opens:  # OpenCV shows text as a film of its letters
+        raise WorldError("cannot be read as a video", where=str(path), fix=fix)
+    return "text"
 
 
 def _sides(size: Any) -> tuple[int, int]:
