@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
@@ -24,11 +25,13 @@ class AttractorVelocity(Coupling):
 
     The body reports its position p, so that its own dynamics, a limit or a push do not matter: `Attractor`
     integrates the same equation where no body does. The integral N of the input f scales the velocity. With
-    `fastest` the vector is shortened and keeps its direction.
+    `fastest` the vector is shortened and keeps its direction. On a periodic axis of length L, such as a
+    heading, the body turns the shorter way.
 
     Equation:
         N = \int f(x)\, dx
         \tau v = -\int (p - x)\, f(x)\, dx = \int x f(x)\, dx - N p
+        \tau v = \frac{L}{2\pi} \int \sin\!\left( \frac{2\pi (x - p)}{L} \right) f(x)\, dx \text{ (periodic)}
 
     Parameters:
         axes: the dimensions of the position; other axes of the source are integrated out. By default those of
@@ -44,7 +47,8 @@ class AttractorVelocity(Coupling):
         output: v, with the axes of `position`.
 
     Reference:
-        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12-15.
+        Lomp, Richter, Zibner & Schöner (2016), Front. Neurorobot. 10:14, eqs. 12-15. The periodic form:
+        Schöner, Dose & Engels (1995), Robot. Auton. Syst. 16, 213-245.
     """
 
     axes: Sequence[Axis] = ()
@@ -64,12 +68,6 @@ class AttractorVelocity(Coupling):
         wanted = len(axes)
         if wanted == 0:
             yield "its input has no axes, so it has no position", "Connect a field, or state axes"
-        for axis in axes:
-            if axis.periodic:
-                yield (
-                    f"the axis {axis.name!r} is periodic, and has no mean position",
-                    "Use Attractor, or an axis that is not periodic",
-                )
         if wanted and arriving != (wanted,) and not (wanted == 1 and arriving == ()):
             takes = "one number" if wanted == 1 else f"one axis with {wanted} samples"
             yield (
@@ -85,7 +83,11 @@ class AttractorVelocity(Coupling):
         for d, axis in enumerate(axes):
             along = jnp.sum(f, axis=tuple(k for k in range(len(axes)) if k != d))
             # the distances are summed, not the positions, so that no digits are lost far from 0
-            rates.append(jnp.sum((at.points(axis) - p[d]) * along))
+            distances = at.points(axis) - p[d]
+            if axis.periodic:
+                turn = 2 * math.pi / axis.range
+                distances = jnp.sin(turn * distances) / turn
+            rates.append(jnp.sum(distances * along))
         v = jnp.stack(rates) / self.tau
         if not is_neutral(self.fastest):
             length = jnp.sqrt(jnp.sum(v**2))

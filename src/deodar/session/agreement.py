@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from deodar.element import Element
 from deodar.errors import Fix, Problem, RunWarning, option
-from deodar.model.checks.rounding import motionless
+from deodar.model.checks.motionless import motionless
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
 from deodar.model.resolve import Node

@@ -252,7 +252,7 @@ def _format(path: Path) -> str:
         raise WorldError(what, where=str(path), fix="Name a recording in AEDAT2 or AEDAT4")
     if not event_text.is_text(head):
         return "video"
-    if path.suffix.lower() in EventFile.opens:  # OpenCV shows text as a film of its letters
+    if path.suffix.lower() in EventFile.opens:  # OpenCV shows text as a video of its letters
         raise WorldError("cannot be read as a video", where=str(path), fix=fix)
     return "text"
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.elements.variables import Integrator
 from deodar.errors import DeodarError
 
 X, Y, HUE = dd.Axis("x", 0, 20, 21), dd.Axis("y", 0, 8, 17), dd.Axis("hue", 0, 360, 12, periodic=True)
@@ -46,10 +47,37 @@ def test_the_limit_shortens_the_vector_and_keeps_its_direction():
 @pytest.mark.parametrize(
     ("axes", "position", "says"),
     [
-        ([X, Y, HUE], [0.0, 0.0], "the axis 'hue' is periodic, and has no mean position"),
+        ([X, Y, HUE], [0.0, 0.0], "takes one axis with 3 samples at its port `position`"),
         ([X], [0.0, 0.0], "takes one number at its port `position`"),
     ],
 )
 def test_axes_that_have_no_position_are_refused(axes, position, says):
     with pytest.raises(DeodarError, match=says):
         velocity(axes, position)
+
+
+@pytest.mark.parametrize(
+    ("heading", "goal", "end"), [(20.0, 350.0, -10.0), (350.0, 20.0, 380.0), (90, 60, 60)]
+)
+def test_a_heading_field_turns_a_heading_the_shorter_way(heading, goal, end):
+    ring = dd.Axis("heading", 0, 360, 36, periodic=True, unit="deg")
+    model = dd.Model("turning")
+    model.add(dd.GaussianStimulus("goal", [ring], center=goal, sigma=20, amplitude=10)) >> model.add(
+        dd.Field("u", [ring])
+    )
+    turn = model.add(dd.AttractorVelocity(tau=2000.0, name="turn"))
+    body = model.add(Integrator("body", rate=1.0, initial=heading))
+    model["u"] >> turn >> body
+    body >> turn["position"]
+    assert not model.check()
+    s = dd.Session(model, precision="float64")
+    s.step(2000)
+    assert float(s.read("body")) == pytest.approx(end, abs=1e-3)
+
+
+def test_on_a_periodic_axis_it_is_the_sum_of_sines():
+    v, f = velocity([X, HUE], [3.0, 300.0], tau=50.0)
+    hue = 360 / (2 * np.pi) * np.sin(2 * np.pi * (HUE.points - 300.0) / 360)
+    f = f * X.step * HUE.step
+    np.testing.assert_allclose(v[1], (hue[None] * f).sum() / 50.0, rtol=1e-10)
+    np.testing.assert_allclose(v[0], ((X.points[:, None] - 3.0) * f).sum() / 50.0, rtol=1e-10)
