@@ -288,10 +288,15 @@ BOMB = "".join(f'<!ENTITY e{k} "{f"&e{k - 1};" * 10}">' for k in range(1, 12))
 DOCTYPE = f'<!DOCTYPE x [<!ENTITY e0 "0 0 0 0 0 ">{BOMB}<!ENTITY file SYSTEM "file:///etc/passwd">]>'
 
 
+NESTED = "nested"
+"""Tag of the element in whose place others lie inside each other."""
+
+
 def _xml(draw: Draw, content: bytes, others: Sequence[bytes]) -> bytes:
     try:
         root = ElementTree.fromstring(content)
-    except ElementTree.ParseError:
+        ElementTree.tostring(root)
+    except (ElementTree.ParseError, RecursionError):
         return _numbers(draw, content, others)
     parents = {child: parent for parent in root.iter() for child in parent}
     for _ in range(draw.choice((1, 1, 2, 4))):
@@ -318,10 +323,11 @@ def _xml(draw: Draw, content: bytes, others: Sequence[bytes]) -> bytes:
             case "grow":
                 node.extend([copy.deepcopy(draw.choice(list(parents) or [root])) for _ in range(200)])
             case _:
-                inner = node
-                for _ in range(draw.choice((10, 100, 600))):
-                    inner = ElementTree.SubElement(inner, draw.choice(("body", node.tag)))
+                node.append(ElementTree.Element(NESTED))
+                break
+    tag, depth = draw.choice(("body", root.tag)), draw.choice(DEPTHS)
     text = ElementTree.tostring(root, encoding="unicode")
+    text = text.replace(f"<{NESTED} />", f"<{tag}>" * depth + f"</{tag}>" * depth)
     if draw.random() < 0.1:
         text = DOCTYPE + text.replace("&amp;", "&")
     return text.encode("utf-8", "surrogatepass")

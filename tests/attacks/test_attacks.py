@@ -58,6 +58,15 @@ def test_no_reader_waits_for_a_named_pipe_in_place_of_a_file(tmp_path: Path) -> 
     assert outcome.by_kind.keys() == bits.KINDS.keys() and outcome.refused > 20
 
 
+def test_mutated_files_of_all_formats_are_read_or_refused(tmp_path: Path) -> None:
+    part = formats.Part(tmp_path / "rows.jsonl")
+    outcome = formats.attack(tmp_path / "first", 500, seed=6, part=part)
+    assert outcome.errors == []
+    assert outcome.by_format.keys() == formats.formats().keys() and outcome.count() == 500
+    assert outcome.count("read") > 100 and outcome.count("refused") > 100
+    assert formats.attack(tmp_path / "second", 500, seed=6, part=part) == outcome, "nothing is left to read"
+
+
 def test_the_same_number_gives_the_same_mutation(tmp_path: Path) -> None:
     seeds = {kind: file_format.seeds() for kind, file_format in formats.formats().items()}
     for number in range(2 * len(seeds)):

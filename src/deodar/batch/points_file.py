@@ -9,6 +9,9 @@ from typing import Any
 from deodar import codec, regular_file
 from deodar.errors import DocumentError, reading
 
+MOST_NUMBERS = 10**6
+"""Largest number of values in a table (a guess, a hundred times the largest known sweep)."""
+
 
 def read(path: str | Path) -> list[dict[str, float]]:
     """Read a list of points.
@@ -39,7 +42,13 @@ def _listed(text: str) -> list[dict[str, float]]:
 
 
 def _table(text: str) -> list[dict[str, float]]:
-    rows = [row for row in csv.reader(text.splitlines()) if row]
+    values = text.count(",") + text.count("\n")
+    if values > MOST_NUMBERS:
+        raise DocumentError(f"holds about {values:,} values; at most {MOST_NUMBERS:,} are read")
+    try:
+        rows = [row for row in csv.reader(text.splitlines()) if row]
+    except csv.Error as error:
+        raise DocumentError(f"is not a table in CSV: {error}") from None
     if not rows:
         raise DocumentError("is empty; the first line has the parameter paths", fix="For example u.tau,n.tau")
     paths = [cell.strip() for cell in rows[0]]

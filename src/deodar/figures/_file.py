@@ -39,6 +39,7 @@ LEGENDS = (
 """Places of a legend."""
 
 MOST_PANELS = 26
+LARGEST_FILE = 2**20
 SMALLEST_TYPE, LARGEST_TYPE = 3.0, 40.0
 SMALLEST_VIDEO, LARGEST_VIDEO = 64, 8192
 Shares = Annotated[PerAxis | None, Recompile(lower=1e-3, upper=1e3)]
@@ -213,6 +214,8 @@ class FigureFile(Summarised, Part):
         """
         path = Path(path)
         try:
+            if path.stat().st_size > LARGEST_FILE:
+                raise FigureError(f"is larger than {LARGEST_FILE // 2**20} MiB", where=str(path))
             text = regular_file.read_text(path)
         except UnicodeDecodeError:
             raise FigureError("is not a text file in UTF-8", where=str(path)) from None
@@ -230,6 +233,8 @@ class FigureFile(Summarised, Part):
             data = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
             raise FigureError(f"is not TOML: {error}") from None
+        except RecursionError:
+            raise FigureError("is nested too deeply") from None
         problems: list[Problem] = []
         tables: Any = data.pop("panel", [])
         if not isinstance(tables, list):

@@ -121,6 +121,7 @@ def test_every_key_of_a_file_is_read_and_written_again(tmp_path: Path) -> None:
         ("[[panel]]\nvariable = 'u'\nplaces = [[3, 'b']]", "panel 1.places: is [[3, 'b']]; expected such as"),
         ("panel = 3", "panel: expected tables, each under a line"),
         ("width = ", "is not TOML"),
+        ("width = " + "[" * 5000 + "]" * 5000, "is nested too deeply"),
     ],
 )
 def test_a_wrong_entry_is_named_with_its_panel_and_key(text: str, says: str | None) -> None:
@@ -143,6 +144,9 @@ def test_all_problems_of_a_file_are_listed_with_its_path(tmp_path: Path) -> None
             FigureFile.read(missing)
     path.write_bytes(b"\xff\xfe")
     with pytest.raises(FigureError, match="UTF-8"):
+        FigureFile.read(path)
+    path.write_bytes(b"#" * (2**20 + 1))
+    with pytest.raises(FigureError, match="is larger than 1 MiB"):
         FigureFile.read(path)
 
 
