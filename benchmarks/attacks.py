@@ -58,7 +58,10 @@ def _messages(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
 
 def _kills(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
     found = kills.attack(folder, size, seed)
-    return f"{found.kills} kills, {found.saves} saves", found.errors
+    return (
+        f"{found.kills} kills, {found.saves} saves, {found.abandoned} files left for the next save",
+        found.errors,
+    )
 
 
 def _records(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:

@@ -14,6 +14,8 @@ import sys
 from pathlib import Path
 
 import deodar as dd
+from deodar.model import partial
+from deodar_studio.files.state_store import StateStore
 from tests.attacks.edits import small
 from tests.deodar_studio.page import page
 
@@ -24,6 +26,7 @@ class Outcome:
 
     kills: int = 0
     saves: int = 0
+    abandoned: int = 0
     errors: list[str] = dc.field(default_factory=list[str])
 
 
@@ -86,4 +89,9 @@ def attack(folder: Path, count: int, seed: int = 0) -> Outcome:
                 outcome.errors.append(f"{k}: {saved} was answered as saved, and the file holds {loaded}")
         except dd.errors.DeodarError as error:
             outcome.errors.append(f"{k}: {error}")
+        outcome.abandoned += len(list(partial.abandoned(folder)))
+    dd.save(small(), folder / "m.json", force=True)
+    StateStore(folder / "state").store_edits("0" * 16, small().document, "")
+    for place in (folder, folder / "state" / "unsaved"):
+        outcome.errors += [f"{path.name} is left" for path in partial.abandoned(place)]
     return outcome

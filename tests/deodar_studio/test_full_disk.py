@@ -7,6 +7,7 @@ import os
 import stat
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -14,9 +15,10 @@ import pytest
 import deodar as dd
 from deodar.errors import OutputError
 from deodar.experiments.rows import Rows
-from deodar.model import output
+from deodar.model import output, partial
 from deodar.recording import files
 from deodar_studio.files.open_folder import OpenFolder
+from deodar_studio.files.state_store import StateStore
 from tests.deodar.recording.models import model, record
 
 SMALL = """
@@ -214,3 +216,20 @@ def test_a_file_that_is_not_durable_is_not_flushed_to_disk(
     assert (tmp_path / "a").read_bytes() == b"1"
     if os.name == "posix":
         assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o600
+
+
+def test_what_a_killed_studio_left_of_unsaved_edits_is_removed(tmp_path: Path) -> None:
+    store, unsaved = StateStore(tmp_path), tmp_path / "unsaved"
+    unsaved.mkdir()
+    with partial.file(unsaved / "0123456789abcdef.json") as beside:
+        pass
+    beside.write_bytes(b"half")
+    for age, name in ((0, "0123456789abcdef.00000001.npz"), (10**9, "0123456789abcdef.00000002.npz")):
+        (unsaved / name).write_bytes(b"")
+        os.utime(unsaved / name, (time.time() - age,) * 2)
+    store.store_edits("fedcba9876543210", model().document, "")
+    assert sorted(path.name for path in unsaved.iterdir()) == [
+        "0123456789abcdef.00000001.npz",  # its document may follow
+        "fedcba9876543210.json",
+        "fedcba9876543210.note",
+    ]

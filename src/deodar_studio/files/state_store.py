@@ -18,7 +18,7 @@ import psutil
 from deodar import codec, regular_file
 from deodar.codec import JsonObject
 from deodar.errors import DeodarError, OutputError, UnknownName
-from deodar.model import document_files, output
+from deodar.model import document_files, output, partial
 from deodar.model.document import Document
 from deodar_studio.messages.to_page import Recovery
 
@@ -63,6 +63,9 @@ class StateStore:
         """Store the edited document of a file, or an edited experiment with its model."""
         with contextlib.suppress(OSError, DeodarError):
             self._unsaved.mkdir(parents=True, exist_ok=True)
+            # each studio has new names, so that no later save takes these over
+            for path in [*partial.abandoned(self._unsaved), *document_files.left_arrays(self._unsaved)]:
+                path.unlink()
             document_files.save(document, self._document(name), force=True)
             now = datetime.datetime.now().astimezone().isoformat(timespec="seconds")
             note: dict[str, Any] = {

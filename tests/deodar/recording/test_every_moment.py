@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 import deodar as dd
+from deodar.model import partial
 from deodar.recording import files, growing
 from deodar.session import run
 
@@ -53,5 +54,8 @@ def test_a_kill_at_any_moment_leaves_a_beginning_of_the_record(
     assert all(part.equals(whole.isel(time=slice(size))) for part, size in zip(parts, sizes, strict=True))
     assert len(begun) > 30 and sizes == sorted(sizes)
     middle = next(place for place, size in zip(begun, sizes, strict=True) if 5 < size < len(whole))
+    killed_names = {path.name for place in begun for path in place.rglob(".*.partial*")}
+    assert any(partial.FORM.fullmatch(name) for name in killed_names)
     dd.resume(middle)
+    assert not list(middle.rglob(".*.partial*")), "what the kill left is taken over"
     assert files.load_record(middle)["u.activation"].equals(whole)
