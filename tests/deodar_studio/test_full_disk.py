@@ -19,6 +19,7 @@ from deodar.model import output, partial
 from deodar.recording import files
 from deodar_studio.files.open_folder import OpenFolder
 from deodar_studio.files.state_store import StateStore
+from deodar_studio.files.workspace import Workspace
 from tests.deodar.recording.models import model, record
 
 SMALL = """
@@ -216,6 +217,26 @@ def test_a_file_that_is_not_durable_is_not_flushed_to_disk(
     assert (tmp_path / "a").read_bytes() == b"1"
     if os.name == "posix":
         assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o600
+
+
+def test_a_studio_whose_save_fails_leaves_no_array_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    document, space = dd.load("example:color_search").document, Workspace(tmp_path)
+    space.save(document, space.target("m.json"))
+    before, write = sorted(tmp_path.iterdir()), OpenFolder.write
+
+    def full(self: OpenFolder, name: str, content: bytes) -> None:
+        if name.endswith(".json"):
+            raise output.failed(Path(name), OSError(28, "No space left on device"))
+        write(self, name, content)
+
+    monkeypatch.setattr(OpenFolder, "write", full)
+    for name in ("m.json", "other.json"):
+        with pytest.raises(OutputError, match="No space left"):
+            space.save(document, space.target(name))
+        assert sorted(tmp_path.iterdir()) == before
+    assert dd.load(tmp_path / "m.json").document == document
 
 
 def test_what_a_killed_studio_left_of_unsaved_edits_is_removed(tmp_path: Path) -> None:

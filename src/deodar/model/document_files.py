@@ -7,6 +7,7 @@ until the user trusts the document.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import io
 import re
@@ -163,12 +164,15 @@ def save(doc: Document, path: str | Path, force: bool = False) -> None:
         output.write(path, package.pack({f"{path.stem}.json": text.encode(), **beside}))
         return
     old, new = own_array_file(regular_file.read_bytes(path) if path.is_file() else b"", path.stem), ""
-    if packed is not None:
-        new = array_file(text)
-        place = path.with_name(new)
-        if not (place.is_file() and regular_file.read_bytes(place) == packed):
-            output.write(output.claim(place, force), packed)
-    output.write(path, text.encode())
+    with contextlib.ExitStack() as undo:
+        if packed is not None:
+            new = array_file(text)
+            place = path.with_name(new)
+            if not (place.is_file() and regular_file.read_bytes(place) == packed):
+                output.write(output.claim(place, force), packed)
+                undo.callback(place.unlink, missing_ok=True)
+        output.write(path, text.encode())
+        undo.pop_all()
     leftovers = left_arrays(path.parent, path.stem, new)
     for place in [*leftovers, path.with_name(old)] if old and old != new else leftovers:
         place.unlink(missing_ok=True)

@@ -8,6 +8,7 @@ the check protects; the same holds on all systems for the files of worlds, which
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import itertools
 import os
@@ -126,8 +127,12 @@ class Workspace:
             made = {path.name: regular_file.read_bytes(path) for path in Path(private).iterdir()}
             old = _array_file(folder, place)
             # the document last, because it refers to the other files
-            for name in sorted(made, key=lambda name: name == place.name):
-                folder.write(name, made[name])
+            with contextlib.ExitStack() as undo:
+                for name in sorted(made, key=lambda name: name == place.name):
+                    folder.write(name, made[name])
+                    if name not in (place.name, old):
+                        undo.callback(folder.remove, name)
+                undo.pop_all()
             arrays = next((name for name in made if name != place.name), "")
             left = document_files.left_arrays(place.parent, place.stem, arrays)
             for name in {old, *(path.name for path in left)} - {"", *made}:

@@ -8,12 +8,13 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import OutputExists
+from deodar.errors import OutputError, OutputExists
 from deodar.model import document_files, output, partial
 from deodar.recording import files, places
 from tests.deodar.recording.models import record
@@ -183,6 +184,24 @@ def test_a_file_that_others_placed_is_not_written(tmp_path: Path, kind: str) -> 
     output.write(tmp_path / "doc.json", b"whole")
     assert (tmp_path / "mine").read_bytes() == b"precious"
     assert (tmp_path / "doc.json").read_bytes() == b"whole" and not (tmp_path / "doc.json").is_symlink()
+
+
+def test_a_save_that_fails_leaves_no_array_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    dd.save(model(), tmp_path / "m.json")
+    before, write = names(tmp_path), output.write
+
+    def full(path: Path, *content: Any, **options: Any) -> None:
+        if path.suffix == ".json":
+            raise output.failed(path, OSError(28, "No space left on device"))
+        write(path, *content, **options)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(output, "write", full)
+        for seed in (0, 1):
+            with pytest.raises(OutputError, match="No space left"):
+                dd.save(model(seed), tmp_path / "m.json", force=True)
+            assert names(tmp_path) == before
+    assert dd.load(tmp_path / "m.json").document == model().document
 
 
 def test_array_files_without_a_document_are_taken_away_by_its_next_save(tmp_path: Path) -> None:
