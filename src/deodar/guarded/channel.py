@@ -13,8 +13,12 @@ from __future__ import annotations
 
 import json
 import math
+import select
 import struct
+import sys
+import time
 from collections.abc import Callable, Mapping, Sequence
+from io import FileIO
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias, cast
 
 from deodar import errors
@@ -42,19 +46,24 @@ class BrokenChannel(Exception):
     """Raised if the other side has ended, or sends what is no message."""
 
 
+class LateChannel(BrokenChannel):
+    """Raised if the other side does not answer in time."""
+
+
 class Channel:
     """One end of the pipes between parent and child.
 
     Attributes:
         longest: largest number of bytes of a message that is received.
+        deadline: time of `time.monotonic` until which a message is awaited; Windows has no limit.
         functions: functions that were sent; the child has their numbers. None: this side is the child.
     """
 
     def __init__(
-        self, source: BinaryIO, sink: BinaryIO, mark: str, functions: list[ParentFunction] | None = None
+        self, source: FileIO, sink: BinaryIO, mark: str, functions: list[ParentFunction] | None = None
     ) -> None:
         self._source, self._sink, self._mark = source, sink, mark
-        self.longest = math.inf
+        self.longest = self.deadline = math.inf
         self.functions = functions
 
     def send(self, word: str, content: PlainData = None) -> None:
@@ -93,7 +102,8 @@ class Channel:
         """Return the next message.
 
         Raises:
-            BrokenChannel: the other side has ended, or sends what is no message, or one that is too long.
+            BrokenChannel: the other side has ended, is late, or sends what is no message, or one that is too
+                long.
         """
         length, count = self._numbers(2)
         if 8 * count > self.longest:
@@ -129,6 +139,14 @@ class Channel:
 
         return ask
 
+    def _await(self) -> None:
+        """Wait for bytes until the deadline."""
+        if self.deadline < math.inf and sys.platform != "win32":
+            waiting = select.poll()
+            waiting.register(self._source, select.POLLIN)
+            if not waiting.poll(1000 * max(0.0, self.deadline - time.monotonic())):
+                raise LateChannel
+
     def _numbers(self, count: int) -> tuple[int, ...]:
         return struct.unpack(f"<{count}Q", self._read(8 * count))
 
@@ -137,8 +155,9 @@ class Channel:
         view, done = memoryview(block), 0
         while done < size:
             try:
+                self._await()
                 # it reads the bytes that have arrived, not all
-                count = self._source.readinto(view[done:])  # pyright: ignore[reportAttributeAccessIssue]
+                count = self._source.readinto(view[done:])
             except (OSError, ValueError):
                 raise BrokenChannel from None
             if not count:

@@ -12,14 +12,18 @@ import pkgutil
 import signal
 import sys
 from collections.abc import Generator, Iterator
+from io import FileIO
 from typing import Any, NamedTuple, cast
 
 from deodar import regular_file
 from deodar.errors import DeodarError, first_line
 from deodar.guarded.channel import BrokenChannel, Channel, PlainData, error_data
 
-AHEAD = 2
+AHEAD = 8
 """Number of items of a generator that are sent before the parent has taken one."""
+
+TAKEN = 4
+"""Number of items after which the parent says that it took them: so both processes are resumed less often."""
 
 GRACE = 5
 """Seconds that the child may take more than the limit, at which its parent ends it; it may have none."""
@@ -33,17 +37,19 @@ class ChildRequest(NamedTuple):
         values: its arguments.
         memory: bytes that a call may take; the answer has at most as many, too.
         seconds: longest time of a call, and of each item of a generator.
+        folder: working folder of the parent, which may have changed.
     """
 
     function: str
     values: tuple[PlainData, ...]
     memory: int
     seconds: float
+    folder: str
 
 
 def main() -> None:
     """Answer requests until the input ends."""
-    source, sink = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    source, sink = FileIO(os.dup(0)), os.fdopen(os.dup(1), "wb")
     # what libraries write must not be taken for a message
     os.dup2(os.open(os.devnull, os.O_RDWR), 0)
     os.dup2(0, 1)
@@ -65,6 +71,7 @@ def main() -> None:
 
 def _answer(channel: Channel, request: ChildRequest) -> None:
     try:
+        os.chdir(request.folder)
         function = pkgutil.resolve_name(request.function)
         with limited(request):
             answer = function(*request.values)
@@ -90,7 +97,7 @@ def _send_items(channel: Channel, items: Iterator[PlainData], request: ChildRequ
             except StopIteration:
                 return
         channel.send("item", sample)
-        if number >= AHEAD - 1 and channel.receive()[0] == "stop":
+        if number >= AHEAD - 1 and number % TAKEN == TAKEN - 1 and channel.receive()[0] == "stop":
             if isinstance(items, Generator):
                 items.close()
             return

@@ -10,12 +10,22 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import weakref
 from collections.abc import Generator
+from io import BufferedReader, FileIO
 from typing import BinaryIO, cast
 
 from deodar.errors import DeodarError
-from deodar.guarded.channel import BrokenChannel, Channel, ChildMessage, ParentFunction, PlainData, error_data
+from deodar.guarded.channel import (
+    BrokenChannel,
+    Channel,
+    ChildMessage,
+    LateChannel,
+    ParentFunction,
+    PlainData,
+    error_data,
+)
 from deodar.guarded.child import ChildRequest
 
 MOST_IDLE = 2
@@ -58,7 +68,8 @@ class Child:
                 "RUST_BACKTRACE": "0",
             },
         )
-        source, sink = cast(BinaryIO, self._process.stdout), cast(BinaryIO, self._process.stdin)
+        source = cast(FileIO, cast(BufferedReader, self._process.stdout).raw)
+        sink = cast(BinaryIO, self._process.stdin)
         for pipe in (source, sink):
             _enlarge(pipe.fileno())
         self._lent: list[ParentFunction] = []
@@ -84,21 +95,18 @@ class Child:
         Raises:
             EndedChild: the child ended, or was ended after the longest time.
         """
-        late = threading.Event()
-        timer = threading.Timer(self._seconds, self._expire, [late])
-        timer.start()
         self.yields = False
+        self._channel.deadline = time.monotonic() + self._seconds
         try:
             word, content = self._channel.receive()
             while word == "ask":
                 self._reply(*cast("tuple[int, list[PlainData]]", content))
                 word, content = self._channel.receive()
-        except BrokenChannel:
+        except BrokenChannel as broken:
             self._process.kill()
             status = self._process.wait()
-            raise EndedChild(_ended_by(status, self._seconds if late.is_set() else None)) from None
-        finally:
-            timer.cancel()
+            late = isinstance(broken, LateChannel)
+            raise EndedChild(_ended_by(status, self._seconds if late else None)) from None
         self.yields, self.useful = word == "item", word in ("value", "error")
         return word, content
 
@@ -108,10 +116,6 @@ class Child:
         with contextlib.suppress(EndedChild):
             while self.yields:
                 self.answer()
-
-    def _expire(self, late: threading.Event) -> None:
-        late.set()
-        self._process.kill()
 
     def _reply(self, number: int, values: list[PlainData]) -> None:
         try:

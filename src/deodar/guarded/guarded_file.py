@@ -9,13 +9,14 @@ takes control of a parser.
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass
 from typing import ParamSpec, TypeVar, cast
 
 from deodar.errors import DeodarError
 from deodar.guarded.channel import PlainData, error_of
-from deodar.guarded.child import ChildRequest
+from deodar.guarded.child import TAKEN, ChildRequest
 from deodar.guarded.children import Child, EndedChild, children
 
 P = ParamSpec("P")
@@ -30,7 +31,7 @@ class GuardedFile:
         kind: class of the error.
         where: the file.
         memory: bytes that a call may take besides what the child has; Linux alone can limit them.
-        seconds: longest time of a call, and of each item of `items`.
+        seconds: longest time of a call, and of each item of `items`; Windows has no limit.
     """
 
     kind: type[DeodarError]
@@ -58,15 +59,18 @@ class GuardedFile:
     def items(
         self, function: Callable[P, Iterator[T]], *values: P.args, **named: P.kwargs
     ) -> Generator[T, None, None]:
-        """Yield the items of a generator that a child runs, at most two ahead; see `call`.
+        """Yield the items of a generator that a child runs, some of them ahead; see `call`.
 
         The child is used again when the last item was taken, or this generator is closed.
         """
         with self._busy_child(function, values) as child:
             try:
+                taken = 0
                 while (answer := child.answer())[0] == "item":
                     yield cast("T", answer[1])
-                    child.say("next")
+                    taken += 1
+                    if taken % TAKEN == 0:
+                        child.say("taken")
                 self._content(*answer)
             finally:
                 if child.yields:
@@ -75,7 +79,8 @@ class GuardedFile:
     @contextlib.contextmanager
     def _busy_child(self, function: Callable[P, T], values: tuple[object, ...]) -> Generator[Child]:
         name = f"{function.__module__}:{function.__name__}"
-        request = ChildRequest(name, cast("tuple[PlainData, ...]", values), self.memory, self.seconds)
+        plain = cast("tuple[PlainData, ...]", values)
+        request = ChildRequest(name, plain, self.memory, self.seconds, os.getcwd())
         with children().child(name) as child:
             child.request(request)
             try:

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from deodar.errors import MissingExtra, WorldError
+from deodar.guarded.guarded_file import GuardedFile
 from deodar.numerics.axes import Axes, Axis
 
 RATE = 5
@@ -64,6 +65,16 @@ def capture(file: str, purpose: str) -> Any:
         return cv2.VideoCapture(file, reader)
 
 
+def pictures_of(file: str) -> Generator[np.ndarray]:
+    """Yield pictures per second (0: no video), and each picture (height, width, 3); in a child process."""
+    opened = capture(file, "reading a video")
+    yield np.array([opened.get(RATE) if opened.isOpened() else 0.0])
+    cv2 = opencv("reading a video")
+    while (read := opened.read())[0]:
+        yield cv2.cvtColor(read[1], cv2.COLOR_BGR2RGB)
+    opened.release()
+
+
 class VideoReader:
     """Reader that returns the pictures of a video file by time.
 
@@ -82,16 +93,15 @@ class VideoReader:
                 fix="Name a file that OpenCV can read, such as an .mp4 or .avi",
             )
         self.path = path
-        self._opened: Any = None
+        self._pictures = self._read()
         self.rewind()
         self.size = (int(self._shown.shape[1]), int(self._shown.shape[0]))
 
     def rewind(self) -> None:
         """Return to the first picture."""
-        if self._opened is not None:
-            self._opened.release()
-        self._opened = capture(str(self.path), "reading a video")
-        self.rate = float(self._opened.get(RATE)) if self._opened.isOpened() else 0.0
+        self._pictures.close()
+        self._pictures = self._read()
+        self.rate = next(self._pictures, np.zeros(())).item()
         first = self._next()
         if first is None or not self.rate > 0:
             raise WorldError("cannot be read as a video", where=str(self.path))
@@ -116,8 +126,10 @@ class VideoReader:
         return self._shown
 
     def _next(self) -> np.ndarray | None:
-        has_picture, picture = self._opened.read()
-        return np.ascontiguousarray(picture[:, :, ::-1]) if has_picture else None
+        return next(self._pictures, None)
+
+    def _read(self) -> Generator[np.ndarray]:
+        return GuardedFile(WorldError, str(self.path)).items(pictures_of, str(self.path))
 
     def __getstate__(self) -> dict[str, Any]:
         return {"path": self.path}

@@ -13,6 +13,7 @@ import numpy as np
 
 from deodar.codec import Json
 from deodar.errors import WorldError
+from deodar.guarded.guarded_file import GuardedFile
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import show
 from deodar.registry import register
@@ -96,15 +97,24 @@ def _array(pixels: np.ndarray) -> np.ndarray:
 
 
 def _read(path: Path) -> np.ndarray:
-    # start-up time
-    from PIL import Image, UnidentifiedImageError
-
     if not os.path.isfile(path):
         raise WorldError(
             "there is no such picture",
             where=str(path),
             fix="Name a file that Pillow can read, such as a .jpg or .png",
         )
+    return _array(GuardedFile(WorldError, str(path)).call(pixels_of, str(path)))
+
+
+def pixels_of(path: str) -> np.ndarray:
+    """Return the pixels of a file, height x width x 3, 0 to 255; in a child process.
+
+    Raises:
+        WorldError: it is no picture, or has more than MOST_PIXELS pixels.
+    """
+    # start-up time
+    from PIL import Image, UnidentifiedImageError
+
     try:
         with warnings.catch_warnings():
             # MOST_PIXELS replaces Pillow's limit
@@ -114,12 +124,12 @@ def _read(path: Path) -> np.ndarray:
             if picture.width * picture.height > MOST_PIXELS:
                 raise WorldError(
                     f"has {picture.width} x {picture.height} pixels; at most {MOST_PIXELS} are read",
-                    where=str(path),
+                    where=path,
                 )
-            return _array(np.asarray(picture.convert("RGB")))
+            return np.asarray(picture.convert("RGB"))
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, struct.error, EOFError) as error:
         raise WorldError(
-            f"cannot be read as a picture ({type(error).__name__}: {error})", where=str(path)
+            f"cannot be read as a picture ({type(error).__name__}: {error})", where=path
         ) from None
     except Image.DecompressionBombError:
-        raise WorldError("has too many pixels", where=str(path)) from None
+        raise WorldError("has too many pixels", where=path) from None

@@ -26,6 +26,10 @@ def process() -> int:
     return os.getpid()
 
 
+def folder() -> str:
+    return os.getcwd()
+
+
 def busy(seconds: float) -> int:
     time.sleep(seconds)
     return os.getpid()

@@ -42,6 +42,12 @@ def test_plain_data_pass_as_they_are() -> None:
     assert GUARD.call(foreign.same, {"number": np.int64(2**60)}) == {"number": 2**60}
 
 
+def test_a_relative_path_is_that_of_the_parent(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for place in (Path.cwd(), tmp_path):
+        monkeypatch.chdir(place)
+        assert GUARD.call(foreign.folder) == str(place)
+
+
 def test_what_a_library_prints_is_no_message() -> None:
     assert GUARD.call(foreign.printed) == 1
     with pytest.raises(WorldError, match=r"file\.xml: cannot be read: TypeError: object is no plain data"):
@@ -150,6 +156,22 @@ os.wait()
 assert guard.call(foreign.process) == own
 os.kill(os.getpid(), 9)
 """
+
+
+OPEN = """
+from deodar.errors import WorldError
+from deodar.guarded.guarded_file import GuardedFile
+from tests.deodar.guarded import foreign
+items = GuardedFile(WorldError, "file").items(foreign.count, 9)
+assert next(items) == 0
+"""
+
+
+def test_a_process_ends_inside_a_generator() -> None:
+    root = Path(__file__).parents[3]
+    command = [sys.executable, "-c", OPEN]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=root, timeout=120)
+    assert done.returncode == 0 and not done.stderr
 
 
 @pytest.mark.skipif(not LINUX, reason="forks")
