@@ -23,7 +23,6 @@ OTHERS = {
     "deodar_studio.world.embodiment": "a file in a temporary folder",
     "deodar_spikes.norse": "the file for norse, in a temporary folder",
     "deodar_robots.event_file.event_file": "an example in a temporary folder",
-    "deodar_robots.event_file.aedat4_process": "its output, a pipe",
     "deodar_robots.robot.schema": "the generated schema, in the package",
     "batch.workers": "the board that processes map, in a temporary folder",
 }

@@ -1,88 +1,31 @@
-"""AEDAT4, the files of DV: read by the package `aedat` (extra `events`), in a process of its own."""
+"""AEDAT4, the files of DV: read by the package `aedat` (extra `events`), in a child process."""
 
 from __future__ import annotations
 
-import contextlib
 import importlib.util
-import os
-import subprocess
-import sys
-import threading
 import warnings
-from collections.abc import Generator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import IO
+from typing import Any
 
 import numpy as np
 
 from deodar.errors import MissingExtra, RunWarning, WorldError
+from deodar.guarded.guarded_file import GuardedFile
 from deodar_robots.event_file.events import MOST_EVENTS, RecordedEvents, ordered, require_size
 
 VERSION = b"#!AER-DAT4"
 """Beginning of a file of this version."""
 
-FIELDS = (np.dtype(np.int64), np.dtype(np.uint16), np.dtype(np.uint16), np.dtype(bool))
-"""Types of time, column, row and polarity."""
+MOST_BYTES = 2**33
+"""Most memory of the child: a small file may state a huge array."""
 
 PATIENCE = 20.0
-"""Seconds within which the process answers, and another one for each MB of the file."""
-
-ENDED = "the reader ended"
-
-
-class Aedat4Process:
-    """The process that reads files; it is started when the first one is read, and again if it ended."""
-
-    def __init__(self) -> None:
-        self._process: subprocess.Popen[bytes] | None = None
-
-    def read(self, path: Path, stream: int) -> _Answer:
-        """Return what the process says about a file."""
-        if self._process is None or self._process.poll() is not None:
-            self.close()
-            self._process = self._start()
-        process, answer = self._process, _Answer()
-        timer = threading.Timer(PATIENCE + path.stat().st_size / 1e6, process.kill)
-        timer.start()
-        try:
-            assert process.stdin is not None and process.stdout is not None
-            process.stdin.write(f"{os.fsencode(path.resolve()).hex()} {stream}\n".encode())
-            process.stdin.flush()
-            answer.take(process.stdout)
-        except BrokenPipeError:
-            answer.problem = ENDED
-        except WorldError:
-            self.close()
-            raise
-        finally:
-            timer.cancel()
-            if answer.problem == ENDED:
-                self.close()
-        return answer
-
-    def close(self) -> None:
-        """End the process."""
-        if self._process is not None:
-            process, self._process = self._process, None
-            process.kill()
-            process.communicate()
-
-    def _start(self) -> subprocess.Popen[bytes]:
-        if importlib.util.find_spec("aedat") is None:
-            raise MissingExtra("aedat", "events", "reading an AEDAT4 file")
-        env = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "RUST_BACKTRACE": "0"}
-        program = Path(__file__).with_name("aedat4_process.py")
-        return subprocess.Popen(
-            [sys.executable, "-P", str(program)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            env={**env, "OPENBLAS_NUM_THREADS": "1"},
-        )
+"""Seconds within which the child opens the file, and reads each packet of events."""
 
 
 class _Answer:
-    """What the process said about a file.
+    """What the child said about a file.
 
     Attributes:
         streams: types and sizes of all streams; "" if the file has no readable header.
@@ -91,48 +34,61 @@ class _Answer:
         problem: why the file was not read to its end; "" if it was.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, path: Path, stream: int) -> None:
         self.streams, self.problem = "", ""
         self.size: tuple[int, int] | None = None
         self.parts: list[list[np.ndarray]] = []
-
-    def take(self, output: IO[bytes]) -> None:
-        """Read messages until the last one about this file."""
+        guard = GuardedFile(WorldError, str(path), MOST_BYTES, PATIENCE)
+        messages = guard.items(packets_of, str(path), stream)
         count = 0
-        while True:
-            word, _, rest = output.readline().decode(errors="replace").rstrip("\n").partition(" ")
-            if word == "end":
-                return
-            if word == "error":
-                self.problem = rest
-                return
-            if word == "streams":
-                self.streams = rest
-            elif word == "size":
-                columns, rows = rest.split()
-                self.size = int(columns), int(rows)
-            elif word == "events":
-                count += int(rest)
+        try:
+            for message in messages:
+                if isinstance(message[0], str):
+                    self.streams, *size = message
+                    self.size = (size[0], size[1]) if size else None
+                    continue
+                self.parts.append(message)
+                count += len(self.parts[-1][0])
                 if count > MOST_EVENTS:
-                    raise WorldError(f"holds more than {MOST_EVENTS} events, the most that are read")
-                part = [np.frombuffer(output.read(int(rest) * t.itemsize), t) for t in FIELDS]
-                if len(part[-1]) < int(rest):
-                    self.problem = ENDED
-                    return
-                self.parts.append(part)
-            else:
-                self.problem = ENDED
-                return
+                    break
+        except WorldError as error:
+            self.problem = error.problems[0].what.removeprefix("cannot be read: ")
+        finally:
+            messages.close()
+        if count > MOST_EVENTS:
+            raise WorldError(f"holds more than {MOST_EVENTS} events, the most that are read", where=str(path))
 
 
-@contextlib.contextmanager
-def process() -> Generator[Aedat4Process]:
-    """Return a process that reads files inside this context."""
-    reader = Aedat4Process()
+def packets_of(path: str, stream: int) -> Iterator[list[Any]]:
+    """Yield the types and sizes of all streams as a text, with columns and rows of the chosen one; then time,
+    column, row and polarity of the events of each of its packets; in a child process.
+
+    Args:
+        path: the file.
+        stream: position of the stream among those with events.
+
+    Raises:
+        WorldError: the file is damaged.
+    """
+    # an extra
+    import aedat
+
     try:
-        yield reader
-    finally:
-        reader.close()
+        decoder = aedat.Decoder(path)
+        streams = sorted(decoder.id_to_stream().items())
+        shapes = {k: (s["width"], s["height"]) for k, s in streams if s["type"] == "events"}
+        others = [s["type"] for k, s in streams if k not in shapes]
+        chosen = [k for number, k in enumerate(shapes) if number == stream]
+        texts = ", ".join([*(f"events {w} x {h}" for w, h in shapes.values()), *others])
+        yield [texts, *(shapes[chosen[0]] if chosen else ())]
+        for packet in decoder if chosen else ():
+            if packet["stream_id"] == chosen[0] and "events" in packet:
+                e = packet["events"]
+                yield [e["t"].astype(np.int64), e["x"], e["y"], e["on"]]
+    except (GeneratorExit, MemoryError):
+        raise
+    except BaseException as error:  # a panic of Rust is no Exception; the package can read on after it
+        raise WorldError(f"{type(error).__name__}: {error}"[:300]) from None
 
 
 def read(path: Path, size: tuple[int, int] | None, stream: int) -> RecordedEvents:
@@ -150,11 +106,9 @@ def read(path: Path, size: tuple[int, int] | None, stream: int) -> RecordedEvent
         WorldError: the file cannot be read, or has no such stream or no events; and the errors of `ordered`.
     """
     where = str(path)
-    with process() as reader:
-        try:
-            answer = reader.read(path, stream)
-        except WorldError as error:
-            raise WorldError(error.problems[0].what, where=where) from None
+    if importlib.util.find_spec("aedat") is None:
+        raise MissingExtra("aedat", "events", "reading an AEDAT4 file")
+    answer = _Answer(path, stream)
     if answer.size is None:
         if answer.problem:
             raise WorldError(

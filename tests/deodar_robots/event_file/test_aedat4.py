@@ -1,4 +1,4 @@
-"""AEDAT4: streams, sizes and times, damaged files, and the process that reads them.
+"""AEDAT4: streams, sizes and times, damaged files, and what ends the child that reads them.
 
 The files were written by `written_by_dv.py`.
 """
@@ -13,6 +13,8 @@ import pytest
 
 import deodar as dd
 from deodar.errors import MissingExtra, RunWarning, WorldError
+from deodar.guarded import guarded_file
+from deodar.guarded.children import Children
 from deodar_robots.event_file import aedat4
 
 HERE = Path(__file__).parent
@@ -92,7 +94,10 @@ def test_a_file_that_ends_the_process_is_an_error(tmp_path: Path, monkeypatch: p
     killer = tmp_path / "aedat.py"
     killer.write_text("import os\n\n\ndef Decoder(path):\n    os.abort()\n")
     monkeypatch.syspath_prepend(str(tmp_path))
-    with pytest.raises(WorldError, match=r"one\.aedat4: cannot be read as AEDAT4 \(the reader ended\)"):
+    monkeypatch.setattr(guarded_file, "children", Children)
+    with pytest.raises(
+        WorldError, match=r"one\.aedat4: cannot be read as AEDAT4 \(its reader ended by SIGABRT\)"
+    ):
         dd.EventFile(HERE / "one.aedat4")
 
 
@@ -102,21 +107,10 @@ def test_a_file_that_is_never_read_to_its_end_is_an_error(
     endless = tmp_path / "aedat.py"
     endless.write_text("def Decoder(path):\n    while True:\n        pass\n")
     monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(guarded_file, "children", Children)
     monkeypatch.setattr(aedat4, "PATIENCE", 0.5)
-    with pytest.raises(WorldError, match="the reader ended"):
+    with pytest.raises(WorldError, match=r"AEDAT4 \(it takes longer than 0\.5 s\)"):
         dd.EventFile(HERE / "one.aedat4")
-
-
-def test_the_process_reads_on_after_it_ended() -> None:
-    with aedat4.process() as reader:
-        assert len(reader.read(HERE / "one.aedat4", 0).parts) == 2
-        first = reader._process
-        assert first is not None
-        first.kill()
-        first.wait()
-        assert len(reader.read(HERE / "two.aedat4", 1).parts) == 1
-        assert reader._process is not first
-    assert reader._process is None
 
 
 def test_without_the_package_the_error_names_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

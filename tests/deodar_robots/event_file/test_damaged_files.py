@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import random
 import warnings
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +12,7 @@ import pytest
 import deodar as dd
 from deodar.errors import RunWarning, WorldError
 from deodar.worlds import _capture
-from deodar_robots.event_file import aedat2, aedat4
+from deodar_robots.event_file import aedat2
 
 HERE = Path(__file__).parent
 NUMBERS = (b"\xff\xff\xff\xff", bytes(4), b"\xff\xff\xff\x7f", b"\x00\x00\x00\x80", b"\x00\x00\x00\x40")
@@ -40,20 +38,6 @@ def damaged(content: bytes, random: random.Random) -> bytes:
     return bytes(data)
 
 
-@pytest.fixture
-def shared(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Read all files in one process, as long as none of them ends it."""
-    reader = aedat4.Aedat4Process()
-
-    @contextlib.contextmanager
-    def process() -> Iterator[aedat4.Aedat4Process]:
-        yield reader
-
-    monkeypatch.setattr(aedat4, "process", process)
-    yield
-    reader.close()
-
-
 def content_of(name: str) -> bytes:
     if name == "aedat":
         k = np.arange(400)
@@ -63,7 +47,6 @@ def content_of(name: str) -> bytes:
     return (HERE / f"{name.removesuffix('.aedat4')}.aedat4").read_bytes()
 
 
-@pytest.mark.usefixtures("shared")
 @pytest.mark.parametrize("name", ["aedat", "one.aedat4", "two.aedat4", "plain.aedat4", "avi"])
 def test_200_damaged_files_are_worlds_or_one_error(name: str, tmp_path: Path) -> None:
     content, axes = content_of(name), dd.EventFile.example_axes("events")
