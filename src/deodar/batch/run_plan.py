@@ -190,7 +190,7 @@ class RunPlan:
         recorded = cells * samples * self.copies.size * (2 if cut.count > 1 else 1)
         beside = min(self.request.on.workers or 0, cut.count) if cut.count > 1 else 0
         swept = min(self.points.size, cut.batch)
-        memory.require(nodes, precision, cut.batch, recorded, rebuilt, swept, beside)
+        memory.require(nodes, self.arithmetic.name, cut.batch, recorded, rebuilt, swept, beside)
         return cut
 
     def _cut(self, bytes_a_copy: int) -> pieces.Pieces:

@@ -8,9 +8,11 @@ from collections.abc import Collection, Sequence
 import numpy as np
 import psutil
 
+from deodar.compiler.strategies import acted_axes
 from deodar.errors import TooLarge
 from deodar.leaves import is_neutral, leaves
 from deodar.model.resolve import Node
+from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.choice import Shards
 
@@ -41,7 +43,7 @@ def require(
 
     Args:
         nodes: the nodes of the model.
-        precision: float32 or float64.
+        precision: float32, float64, or float32-exact.
         copies: number of copies of the model that run at once, in each process.
         recorded: number of values that are recorded.
         rebuilt: the elements (by id) whose constants differ between the points of a sweep.
@@ -49,11 +51,13 @@ def require(
         workers: number of worker processes; they keep their records until this process has received them.
     """
     constants = sum(_constants(n) * (points - 1) for n in nodes if n.id in rebuilt)
-    bytes_of_run = run_bytes(nodes, precision, copies) + _size(precision) * constants
+    bytes_of_run = run_bytes(nodes, precision, copies, rebuilt) + _size(precision) * constants
     need = max(1, workers) * bytes_of_run + _size(precision) * recorded + workers * PROCESS
     free = psutil.virtual_memory().available
     if need > SHARE * free:
-        largest = max(nodes, key=lambda n: _cells(n) * copies + _constants(n))
+        largest = max(
+            nodes, key=lambda n: _cells(n) * copies + _constants(n, _by_matrices(n, precision, rebuilt))
+        )
         axes = ", ".join(f"{a.name}: {a.samples}" for a in _axes(largest))
         raise TooLarge(
             f"this run needs about {need / 2**30:,.1f} GiB and {free / 2**30:,.1f} GiB are free; most of it"
@@ -64,10 +68,14 @@ def require(
         )
 
 
-def run_bytes(nodes: Sequence[Node], precision: str, copies: int) -> int:
-    """Return about how many bytes the states and the constants of copies of a model need that run at once."""
+def run_bytes(nodes: Sequence[Node], precision: str, copies: int, rebuilt: Collection[str] = ()) -> int:
+    """Return about how many bytes the states and the constants of copies of a model need that run at once.
+
+    Kernels count as the planner applies them; those of elements in `rebuilt` as matrices.
+    """
     cells = copies * COPIES * sum(_cells(n) for n in nodes)
-    return _size(precision) * (cells + sum(_constants(n) for n in nodes))
+    constants = sum(_constants(n, _by_matrices(n, precision, rebuilt)) for n in nodes)
+    return _size(precision) * (cells + constants)
 
 
 def copy_bytes(nodes: Sequence[Node], precision: str, rebuilt: Collection[str] = (), trials: int = 1) -> int:
@@ -106,16 +114,42 @@ def _cells(n: Node) -> int:
     return sum(math.prod(shape(axes)) for axes in [*n.outs.values(), *n.ins.values()])
 
 
-def _constants(n: Node) -> int:
+def _by_matrices(n: Node, precision: str, rebuilt: Collection[str]) -> bool:
+    return precision != "float32" or n.id in rebuilt
+
+
+def _kernel_values(n: Node) -> int:
+    """Return the number of values of the kernels of a node, as the planner applies them to one copy."""
+    axes, kernels = acted_axes(n), n.element.kernels()
+    chosen = interaction.choices(kernels, axes)
+    # the kernels of one kind of boundaries share modes, and the sum of their gains
+    waves = [choice.waves for choice in chosen.values() if choice.method == "waves"]
+    values = sum(w.samples * w.count for several in waves for w in several)
+    values += sum(math.prod(w.count for w in several) // 2 for several in waves)
+    for kernel in kernels if axes else ():
+        choice = chosen.get(interaction.boundaries(kernel, axes)) if kernel.widths() else None
+        if choice is None:
+            values += sum(a.samples**2 for a in axes)
+        elif choice.method == "taps":
+            values += sum(choice.reaches)
+        elif choice.method == "waves":
+            values += sum(w.count for w in choice.waves)
+        else:
+            values += math.prod(w.length for w in choice.waves)
+    return values
+
+
+def _constants(n: Node, by_matrices: bool = True) -> int:
     """Return the number of values in the constants of a node.
 
-    Constants are the matrices of kernels, of correlated noise, of shifts and of resampling (one for each
-    axis), and arrays given as parameters.
+    Constants are those of kernels, the matrices of correlated noise, of shifts and of resampling (one for
+    each axis), and arrays given as parameters.
     """
     e = n.element
-    square = len(getattr(e, "kernel", ()) or ()) + sum(
-        not is_neutral(getattr(e, name, 0.0)) for name in ("noise_length", "length", "amount")
-    )
+    square = sum(not is_neutral(getattr(e, name, 0.0)) for name in ("noise_length", "length", "amount"))
+    if by_matrices:
+        square += len(getattr(e, "kernel", ()) or ())
+    kernels = 0 if by_matrices else _kernel_values(n)
     arrays = sum(int(np.size(value)) for _, value, _ in leaves(e) if np.ndim(value))
     samples_of = {a.name: a.samples for axes in n.ins.values() for a in axes}
     between = sum(
@@ -124,4 +158,4 @@ def _constants(n: Node) -> int:
         for a in axes
         if samples_of.get(a.name, a.samples) != a.samples
     )
-    return 2 * (square * sum(a.samples**2 for a in _axes(n)) + between) + arrays
+    return 2 * (square * sum(a.samples**2 for a in _axes(n)) + kernels + between) + arrays

@@ -98,7 +98,7 @@ class Session(Summarised):
             hosts.require_equal("the model", stored(doc))
             hosts.require_equal("the arguments of the session", arguments)
         model.require()
-        memory.require(graph(doc).nodes, numbers, 1, 0)
+        memory.require(graph(doc).nodes, precision, 1, 0)
         step = doc.step if dt is None else dt
         require_step(doc, step)
         dynamics = Dynamics(model, Build(doc, numbers, accuracy, distribution or self.device))

@@ -340,7 +340,7 @@ LARGE: dict[str, Callable[[], Any]] = {
     "four axes of 1000": lambda: dd.simulate(_fields(1000, 1000, 1000, 1000), 5),
     "four axes of 1000, live": lambda: dd.Session(_fields(1000, 1000, 1000, 1000)),
     "four axes of a million": lambda: dd.simulate(_fields(10**6, 10**6, 10**6, 10**6), 5),
-    "a kernel over a million samples": lambda: dd.simulate(_large_weights(), 5),
+    "a kernel over a million samples": lambda: dd.simulate(_large_weights(), 5, precision="float64"),
     "10**9 trials": lambda: dd.simulate(_fields(11), 5, trials=10**9),
     "a record of every step": lambda: dd.simulate(_fields(1000, 1000), 10**6, record="u.activation"),
     "a sweep of 10**12 points": lambda: dd.simulate(
@@ -359,16 +359,16 @@ LARGE: dict[str, Callable[[], Any]] = {
 
 LARGE |= {
     "a shift of a million samples": lambda: _through(Shift(5.0)),
-    "a convolution of a million samples": lambda: _through(Convolve([dd.Gaussian()])),
+    "a convolution of a million samples": lambda: _through(Convolve([dd.Gaussian()]), precision="float64"),
     "resampling a million samples": lambda: _through(Resample([dd.Axis("a", 0, 10, samples=900_000)])),
     "a projection of a million samples": lambda: _through(dd.Project([dd.Axis("a", 0, 10, samples=900_000)])),
 }
 
 
-def _through(coupling: Any) -> Any:
+def _through(coupling: Any, **settings: Any) -> Any:
     model = _fields(10**6)
     model["u"] >> coupling
-    return dd.simulate(model, 5)
+    return dd.simulate(model, 5, **settings)
 
 
 @pytest.mark.parametrize("name", LARGE)
