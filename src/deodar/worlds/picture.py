@@ -8,6 +8,7 @@ import struct
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +21,12 @@ from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._image import CHANNELS, PICTURE, frame, sampled
 
+if TYPE_CHECKING:
+    from PIL.Image import Image as OpenedPicture
+
+DEEPEST = 65535.0
+"""Largest value of a picture of 16 bits."""
+
 MOST_PIXELS = 100_000_000
 
 
@@ -27,7 +34,7 @@ MOST_PIXELS = 100_000_000
 class Picture(World):
     r"""A constant picture: one sensor, `picture`, over two dimensions and the channels red, green and blue.
 
-    Values are 0 to 1, and 0 outside the picture. The picture keeps its aspect ratio: it fills the axes' area
+    Values are 0 to 1, and 0 outside the picture. A picture of a phone is turned as its file states (EXIF). The picture keeps its aspect ratio: it fills the axes' area
     along one dimension and is centred along the other.
 
     Equation:
@@ -107,7 +114,7 @@ def _read(path: Path) -> np.ndarray:
 
 
 def pixels_of(path: str) -> np.ndarray:
-    """Return the pixels of a file, height x width x 3, 0 to 255; in a child process.
+    """Return the pixels of a file, height x width x 3, as `_channels` does; in a child process.
 
     Raises:
         WorldError: it is no picture, or has more than MOST_PIXELS pixels.
@@ -126,10 +133,24 @@ def pixels_of(path: str) -> np.ndarray:
                     f"has {picture.width} x {picture.height} pixels; at most {MOST_PIXELS} are read",
                     where=path,
                 )
-            return np.asarray(picture.convert("RGB"))
+            return _channels(picture)
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, struct.error, EOFError) as error:
         raise WorldError(
             f"cannot be read as a picture ({type(error).__name__}: {error})", where=path
         ) from None
     except Image.DecompressionBombError:
         raise WorldError("has too many pixels", where=path) from None
+
+
+def _channels(picture: OpenedPicture) -> np.ndarray:
+    """Return the pixels, height x width x 3, the way up that the file states.
+
+    They are bytes, or 0 to 1 of a picture of 16 bits or of floating-point numbers.
+    """
+    from PIL import ImageOps  # start-up time
+
+    upright = ImageOps.exif_transpose(picture)
+    if upright.mode[0] not in "IF":
+        return np.asarray(upright.convert("RGB"))
+    grey = np.asarray(upright, np.float64) / (1.0 if upright.mode == "F" else DEEPEST)
+    return np.repeat(grey[:, :, None], CHANNELS, axis=2)

@@ -11,12 +11,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import deodar as dd
 from deodar.elements.world_ports import Sensor
 from deodar.errors import MissingExtra, WorldError
 from deodar.worlds import _capture
 from deodar.worlds.camera import Camera
+from deodar.worlds.picture import Picture
 from deodar.worlds.video import Video
 
 AXES = Video.example_axes("picture")
@@ -141,3 +143,36 @@ def test_worlds_are_opened_from_the_command_line(film: Path) -> None:
 
     opened: Any = world(f"video:{film}")
     assert isinstance(opened, Video) and isinstance(world("camera:2"), Camera)
+
+
+@pytest.mark.parametrize("ending", ["png", "tif"])
+def test_a_picture_of_sixteen_bits_keeps_its_shades(tmp_path: Path, ending: str) -> None:
+    ramp = np.linspace(0, 65535, 81).astype(np.uint16)[None, :].repeat(60, axis=0)
+    Image.fromarray(ramp).save(tmp_path / f"ramp.{ending}")
+    pixels = Picture(tmp_path / f"ramp.{ending}").pixels
+    assert pixels.shape == (60, 81, 3)
+    assert np.allclose(pixels[30, [0, 20, 40, 80], 0], [0, 0.25, 0.5, 1], atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("orientation", "size", "white"), [(1, (80, 60), 0), (3, (80, 60), 79), (6, (60, 80), 0)]
+)
+def test_a_picture_is_turned_as_its_file_states(
+    tmp_path: Path, orientation: int, size: tuple[int, int], white: int
+) -> None:
+    half = np.zeros((60, 80, 3), np.uint8)
+    half[:, :40] = 255
+    image = Image.fromarray(half)
+    exif = image.getexif()
+    exif[0x0112] = orientation
+    image.save(tmp_path / "phone.jpg", exif=exif)
+    picture = Picture(tmp_path / "phone.jpg")
+    assert picture.size == size
+    along = np.mean(picture.pixels[:, :, 0], axis=0 if size == (80, 60) else 1).tolist()
+    assert along[white] > 0.9 and along[len(along) - 1 - white] < 0.1
+
+
+def test_a_picture_with_numbers_beyond_its_range_is_refused(tmp_path: Path) -> None:
+    Image.fromarray(np.full((4, 4), 70_000, np.int32)).save(tmp_path / "deep.tif")
+    with pytest.raises(WorldError, match=r"0 to 255 .* or 0 to 1"):
+        Picture(tmp_path / "deep.tif")
