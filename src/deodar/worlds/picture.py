@@ -34,8 +34,8 @@ MOST_PIXELS = 100_000_000
 class Picture(World):
     r"""A constant picture: one sensor, `picture`, over two dimensions and the channels red, green and blue.
 
-    Values are 0 to 1, and 0 outside the picture. A picture of a phone is turned as its file states (EXIF). The
-    picture keeps its aspect ratio: it fills the axes' area along one dimension and is centred along the
+    Values are 0 to 1, and 0 outside the picture. A picture of a phone is turned as its file states (EXIF).
+    The picture keeps its aspect ratio: it fills the axes' area along one dimension and is centred along the
     other.
 
     Equation:
