@@ -9,8 +9,10 @@ are written as numbers and lists, tuples as lists. Keys keep their order.
 from __future__ import annotations
 
 import dataclasses as dc
+import itertools
 import json
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias, cast
 
@@ -29,6 +31,15 @@ architecture).
 
 DEEPEST = 64
 """Largest depth of nesting (a guess, several times that of the deepest known document)."""
+
+MOST_REPEATED = 100
+"""Number of repeated keys that are listed."""
+
+MOST_AMBIGUOUS = 10_000
+"""Largest number of objects with repeated keys in a file of another tool (a guess)."""
+
+HALF_CHARACTER = re.compile(rb"\\u[dD][89a-fA-F]|\xed[\xa0-\xbf]")
+"""A half of a character that has two, as JSON or UTF-8 writes it."""
 
 MOST_DIGITS = 300
 """Most digits of an integer; more exceed the range of a double."""
@@ -142,6 +153,7 @@ def read(content: bytes | str) -> Any:
     Raises:
         DocumentError: if it is not such JSON; the message states line and column, or all repeated keys.
     """
+    collected = _Collected(MOST_REPEATED)
 
     def refuse(constant: str) -> Any:
         raise DocumentError(f"holds the number {constant}, which is not finite")
@@ -157,10 +169,11 @@ def read(content: bytes | str) -> Any:
             raise DocumentError(f"holds the number {digits[:40]}, which is not finite")
         return value
 
-    _require_few(content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content)
+    written = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
+    _require_few(written)
     try:
         data = json.loads(
-            content, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collect
+            content, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collected
         )
     except json.JSONDecodeError as error:
         raise _not_json(error) from None
@@ -169,7 +182,7 @@ def read(content: bytes | str) -> Any:
     except RecursionError:
         raise _too_deep() from None
     _require_depth(data)
-    twice = repeated(data) if isinstance(data, (dict, list)) else []
+    twice = repeated(data) if collected.ambiguous else []
     if twice:
         raise DocumentError(
             [
@@ -177,10 +190,11 @@ def read(content: bytes | str) -> Any:
                 for r in twice
             ]
         )
-    try:
-        json.dumps(data, ensure_ascii=False).encode()
-    except UnicodeEncodeError:
-        raise DocumentError("holds half a character (a lone surrogate), which is not text") from None
+    if HALF_CHARACTER.search(written) or b"\0" in written:  # another encoding hides a half
+        try:
+            json.dumps(data, ensure_ascii=False).encode()
+        except UnicodeEncodeError:
+            raise DocumentError("holds half a character (a lone surrogate), which is not text") from None
     return data
 
 
@@ -205,7 +219,7 @@ def foreign(content: bytes, leading: bool = False) -> Any:
         except UnicodeDecodeError:
             # older versions of MATLAB wrote the system's encoding
             written = content.decode("latin-1")
-        decoder = json.JSONDecoder(strict=False, object_pairs_hook=collect)
+        decoder = json.JSONDecoder(strict=False, object_pairs_hook=_Collected(MOST_AMBIGUOUS))
         data = decoder.raw_decode(written.lstrip())[0] if leading else decoder.decode(written)
     except json.JSONDecodeError as error:
         raise _not_json(error) from None
@@ -300,25 +314,71 @@ def collect(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return marked
 
 
+class _Collected:
+    """`collect` for the objects of one text, of which few have repeated keys.
+
+    Attributes:
+        ambiguous: number of objects with repeated keys.
+    """
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self.ambiguous = 0
+
+    def __call__(self, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        """Return the object with these keys and values.
+
+        Raises:
+            DocumentError: too many objects have repeated keys.
+        """
+        collected = collect(pairs)
+        if len(collected) < len(pairs):
+            self.ambiguous += 1
+            if self.ambiguous > self._most:
+                raise DocumentError(f"has keys that occur twice in more than {self._most:,} objects")
+        return collected
+
+
+_Place = tuple["_Place", KeyStep, Any]
+"""An object or list inside others: the place of what holds it, the step there, and itself."""
+
+
 def repeated(data: Any) -> list[Repeated]:
-    """Return all keys that occur more than once, outermost objects first; `data` was read with `collect`."""
+    """Return the repeated keys, outermost objects first, MOST_REPEATED at most.
+
+    Args:
+        data: what was read with `collect`.
+    """
     found: list[Repeated] = []
-    level: list[tuple[tuple[KeyStep, ...], Any]] = [((), data)]
-    while level:
-        below: list[tuple[tuple[KeyStep, ...], Any]] = []
-        for path, item in level:
+    root: Any = (None, "", data)
+    level: list[_Place] = [root]
+    while level and len(found) < MOST_REPEATED:
+        below: list[_Place] = []
+        for place in level:
+            item = place[2]
             if isinstance(item, Ambiguous):
                 values: dict[str, list[Any]] = {}
                 for key, value in item.pairs:
                     values.setdefault(key, []).append(value)
+                several = ((key, tuple(listed)) for key, listed in values.items() if len(listed) > 1)
                 found += [
-                    Repeated(path, key, tuple(several)) for key, several in values.items() if len(several) > 1
+                    Repeated(_path(place), key, listed)
+                    for key, listed in itertools.islice(several, MOST_REPEATED)
                 ]
             inside = (
                 cast("dict[str, Any]", item).items()
                 if isinstance(item, dict)
                 else enumerate(cast("list[Any]", item))
             )
-            below += [((*path, step), value) for step, value in inside if isinstance(value, (dict, list))]
+            below += [(place, step, value) for step, value in inside if isinstance(value, (dict, list))]
         level = below
-    return found
+    return found[:MOST_REPEATED]
+
+
+def _path(place: Any) -> tuple[KeyStep, ...]:
+    """Return the steps from the root to a place."""
+    steps: list[KeyStep] = []
+    while place[0] is not None:
+        place, step, _ = place
+        steps.append(step)
+    return tuple(reversed(steps))

@@ -16,6 +16,8 @@ import numpy as np
 import xarray
 
 import deodar as dd
+from deodar import codec
+from deodar.recording import netcdf, portable
 from deodar_robots.ros_bag import bag_file
 from tests.attacks.seeds import CORPUS, MARK
 from tests.deodar_robots.ros2.fake import scan
@@ -85,6 +87,37 @@ def _analyses(folder: Path) -> None:
     line = _model()
     axes: dict[str, Any] = {"u.kernel.0.amplitude": [2.0, 8.0], "u.resting_level": [-5.0, -2.0]}
     dd.regime_map(line, axes, refine=False).save(folder / "map.nc")
+    for path in folder.glob("*.nc"):
+        _without_proof(path)
+
+
+def _without_proof(path: Path) -> None:
+    """Write a file as earlier versions did, without hashes, so that no mutation is refused for them alone."""
+    from scipy.io import netcdf_file
+
+    with netcdf_file(path, mmap=False) as proven:
+        attributes = {
+            key: text.decode() for key, text in vars(proven)["_attributes"].items() if key != netcdf.PROOF
+        }
+        variables = {
+            name: (variable.dimensions, variable[:].copy(), variable._attributes)
+            for name, variable in proven.variables.items()
+        }
+    layout = codec.parse(attributes[portable.KEY]) | {"version": 1}
+    for description in layout["variables"].values():
+        description.pop("sha256", None)
+    attributes[portable.KEY] = codec.line(layout, ascii=True)
+    with netcdf_file(path, "w", version=2) as plain:
+        for key, text in attributes.items():
+            setattr(plain, key, text)
+        for name, (dimensions, array, own) in variables.items():
+            for dimension, size in zip(dimensions, array.shape, strict=True):
+                if dimension not in plain.dimensions:
+                    plain.createDimension(dimension, size)
+            new = plain.createVariable(name, array.dtype, dimensions)
+            new[:] = array
+            for key in own.keys() - {netcdf.CHECKSUMS}:
+                setattr(new, key, own[key])
 
 
 def _matlab(folder: Path) -> None:

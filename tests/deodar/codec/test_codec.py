@@ -86,6 +86,36 @@ def test_all_duplicate_keys_are_reported() -> None:
     ]
 
 
+def test_a_hundred_repeated_keys_are_listed() -> None:
+    inside = ", ".join(f'"k{k}": 1, "k{k}": 2' for k in range(codec.MOST_REPEATED + 1))
+    with pytest.raises(DocumentError) as caught:
+        codec.read(f'{{"a": {{{inside}}}}}')
+    assert [p.what for p in caught.value.problems] == [
+        f"the key 'k{k}' occurs twice" for k in range(codec.MOST_REPEATED)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("reading", "most"), [(codec.read, codec.MOST_REPEATED), (codec.foreign, codec.MOST_AMBIGUOUS)]
+)
+def test_objects_with_repeated_keys_are_counted_while_they_are_read(
+    reading: Callable[[bytes], object], most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(codec, "repeated", None)
+    with pytest.raises(DocumentError, match=f"keys that occur twice in more than {most:,} objects"):
+        reading(b"[" + b'{"a":1,"a":2},' * most + b'{"a":1,"a":2}]')
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-32"])
+def test_half_a_character_is_refused_in_every_encoding(encoding: str) -> None:
+    assert codec.read('["\\ud83d\\ude00"]'.encode(encoding)) == ["\U0001f600"]
+    for text in ('["\\ud83d"]', '["\\uDE00"]'):
+        with pytest.raises(DocumentError, match="half a character"):
+            codec.read(text.encode(encoding))
+    with pytest.raises(DocumentError, match="half a character"):
+        codec.read('["\ud83d"]')
+
+
 def test_a_mistake_is_reported_with_line_and_column() -> None:
     with pytest.raises(DocumentError, match="in line 2, column 5"):
         codec.read('{"a": 1,\n    }')
