@@ -24,10 +24,13 @@ Json: TypeAlias = "bool | int | float | str | Sequence[Json] | Mapping[str, Json
 JsonObject: TypeAlias = dict[str, Json]
 """An object of JSON."""
 
-MOST_VALUES = 4_000_000
+MOST_VALUES = 2_000_000
 """Number of values of one text: each takes up to 200 bytes of memory (a guess, many times the largest known
 architecture).
 """
+
+FEW_VALUES = 200_000
+"""Number of values of a file that people write: an experiment, an arena, what is tuned (a guess)."""
 
 DEEPEST = 64
 """Largest depth of nesting (a guess, several times that of the deepest known document)."""
@@ -147,8 +150,12 @@ def leading(content: str, start: int = 0) -> tuple[Any, int]:
     return json.JSONDecoder().raw_decode(content, start)
 
 
-def read(content: bytes | str) -> Any:
-    """Read JSON with finite numbers, unique keys, bounded nesting and at most MOST_VALUES values.
+def read(content: bytes | str, most: int | None = None) -> Any:
+    """Read JSON with finite numbers, unique keys and bounded nesting.
+
+    Args:
+        content: the text.
+        most: largest number of values; None: MOST_VALUES.
 
     Raises:
         DocumentError: if it is not such JSON; the message states line and column, or all repeated keys.
@@ -170,7 +177,7 @@ def read(content: bytes | str) -> Any:
         return value
 
     written = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
-    _require_few(written)
+    _require_few(written, most)
     try:
         data = json.loads(
             content, parse_constant=refuse, parse_float=number, parse_int=whole, object_pairs_hook=collected
@@ -235,12 +242,12 @@ def _not_json(error: json.JSONDecodeError) -> DocumentError:
     return DocumentError(f"is not JSON: {error.msg} in line {error.lineno}, column {error.colno}")
 
 
-def _require_few(content: bytes) -> None:
+def _require_few(content: bytes, most: int | None = None) -> None:
     """Refuse a text of more values than are read, before memory is taken for one of them."""
-    values = sum(map(content.count, (b",", b"[", b"{")))
-    if values > MOST_VALUES:
+    values, most = sum(map(content.count, (b",", b"[", b"{"))), MOST_VALUES if most is None else most
+    if values > most:
         raise DocumentError(
-            f"holds about {values:,} values; at most {MOST_VALUES:,} are read",
+            f"holds about {values:,} values; at most {most:,} are read",
             fix="Store large tables of numbers as arrays, in a file of their own",
         )
 

@@ -115,7 +115,7 @@ def _record(path: Path) -> None:
 
 
 def _tuning(path: Path) -> None:
-    tuning_file(codec.read(path.read_bytes()), path.name)
+    tuning_file(codec.read(path.read_bytes(), codec.FEW_VALUES), path.name)
 
 
 def _matlab(path: Path) -> None:

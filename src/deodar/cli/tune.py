@@ -58,7 +58,7 @@ def run(args: argparse.Namespace) -> CommandAnswer:
         content = regular_file.read_bytes(args.requirements)
     except OSError as error:
         raise DocumentError(error.strerror or "cannot be read", where=str(args.requirements)) from None
-    tuning = tuning_file(codec.read(content), str(args.requirements))
+    tuning = tuning_file(codec.read(content, codec.FEW_VALUES), str(args.requirements))
     options: dict[str, Any] = dict(tuning.options)
     options |= {k: v for k in ("field", "seed", "budget") if (v := getattr(args, k)) is not None}
     if args.out is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import re
 from collections import Counter
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any, cast
 
 from deodar import file_version, plugins, registry
@@ -36,6 +36,20 @@ MOST_PROBLEMS = 100
 if both are many.
 """
 
+MOST_LISTED = 1000
+"""Largest number of problems of a document that are listed: each takes a kilobyte."""
+
+MOST_ENTRIES: Mapping[str, int] = {
+    "elements": 100_000,
+    "connections": 400_000,
+    "axes": 100_000,
+    "groups": 5000,
+    "parameters": 5000,
+    "uses": 5000,
+    "packages": 1000,
+}
+"""Largest numbers of entries by the keys of a document (guesses, a hundred times the largest known ones)."""
+
 
 def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:
     """Return the document that plain data describe; the error lists every problem."""
@@ -45,7 +59,7 @@ def from_data(data: Any, arrays: Mapping[str, FrozenArray]) -> Document:
 
 
 def require_document(data: Any) -> None:
-    """Refuse plain data that are no document, or one of a later version.
+    """Refuse plain data that are no document, one of a later version, or one of too many entries.
 
     Raises:
         DocumentError: they are not.
@@ -59,6 +73,10 @@ def require_document(data: Any) -> None:
             raise DocumentError("is not a model: it is an experiment", fix=fix)
         raise DocumentError("is not a deodar document: it has no key 'deodar'")
     file_version.require_readable("a document", content["deodar"], VERSION, content)
+    for key, most in MOST_ENTRIES.items():
+        entries = content.get(key)
+        if isinstance(entries, (dict, list)) and len(cast("list[Any]", entries)) > most:
+            raise DocumentError(f"holds {len(entries):,} {key}; at most {most:,} are read")
 
 
 class _Reader:
@@ -87,16 +105,27 @@ class _Reader:
         return doc
 
     def problem(self, where: str, fault: str, fix: str = "") -> None:
-        self.problems.append(Problem(where, fault, fix))
+        self.add([Problem(where, fault, fix)])
+
+    def add(self, problems: Iterable[Problem]) -> None:
+        """Add problems to the list.
+
+        Raises:
+            DocumentError: it is longer than anybody reads.
+        """
+        self.problems += problems
+        if len(self.problems) > MOST_LISTED:
+            rest = Problem("", f"has more than {MOST_LISTED:,} problems; the rest of it was not read")
+            raise DocumentError([*self.problems[:MOST_LISTED], rest])
 
     def attempt(self, where: str, doc: Document, change: Any) -> Document:
         try:
             return change(doc)
         except DeodarError as error:
-            self.problems += [
+            self.add(
                 Problem(where if p.where in ("", where) else f"{where}: {p.where}", p.what, p.fix)
                 for p in error.problems
-            ]
+            )
             return doc
 
     def text(self, key: str, default: str) -> str:
@@ -139,7 +168,7 @@ class _Reader:
                 arguments: dict[str, Any] = {"name": key} | axis
                 out[key] = Axis(**arguments)
             except (AxesError, UnknownName) as error:
-                self.problems += [Problem(f"axes.{key}", p.what, p.fix) for p in error.problems]
+                self.add(Problem(f"axes.{key}", p.what, p.fix) for p in error.problems)
         return out
 
     def elements(self, doc: Document, axes: Mapping[str, Axis]) -> Document:
@@ -148,7 +177,7 @@ class _Reader:
             try:
                 entry = self.entry(path, element, axes, entries)
             except (ParameterError, UnknownName) as error:
-                self.problems += error.problems
+                self.add(error.problems)
             else:
                 entries[entry.id] = entry
         counts = Counter(e.names for e in entries.values())

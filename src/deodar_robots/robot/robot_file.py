@@ -167,7 +167,7 @@ def load_robot(path: Path) -> RobotFile:
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise WorldError(f"has {size} bytes; the file of a robot has at most {MOST_BYTES}", str(path))
-        data = codec.read(regular_file.read_bytes(path))
+        data = codec.read(regular_file.read_bytes(path), codec.FEW_VALUES)
     except OSError as error:
         raise WorldError(f"cannot be read: {error.strerror or error}", where=str(path)) from None
     except WorldError:

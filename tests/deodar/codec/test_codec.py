@@ -154,3 +154,9 @@ def test_a_text_of_too_many_values_is_refused_before_it_is_parsed(
     for entry in (b"{}", b"[]", b"1"):
         with pytest.raises(DocumentError, match=r"holds about .* values; at most 100 are read"):
             reading(b"[" + (entry + b",") * 120 + entry + b"]")
+
+
+def test_a_reader_may_state_a_smaller_number_of_values() -> None:
+    assert codec.read(b"[1, 2]", most=2) == [1, 2]
+    with pytest.raises(DocumentError, match=r"holds about 3 values; at most 2 are read"):
+        codec.read(b"[1, 2, 3]", most=2)

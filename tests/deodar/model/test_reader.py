@@ -6,7 +6,7 @@ import pytest
 
 from deodar.errors import DocumentError
 from deodar.model import document_files
-from deodar.model.reader import MOST_PROBLEMS
+from deodar.model.reader import MOST_ENTRIES, MOST_LISTED, MOST_PROBLEMS
 
 
 @pytest.mark.parametrize("wrong", [MOST_PROBLEMS - 1, MOST_PROBLEMS, MOST_PROBLEMS + 1, 5000])
@@ -72,3 +72,27 @@ def test_a_document_parameter_with_other_content_is_refused(parameter: object) -
 def test_an_element_that_is_no_object_is_refused(version: int, body: object) -> None:
     with pytest.raises(DocumentError, match=r"elements\.u|u: "):
         document_files.from_data({"deodar": version, "elements": {"u": body}}, {})
+
+
+@pytest.mark.parametrize("key", sorted(MOST_ENTRIES))
+def test_more_entries_than_are_read_are_refused_before_one_of_them_is(key: str) -> None:
+    most = MOST_ENTRIES[key]
+    rows = [0] * (most + 1) if key in ("connections", "groups") else dict.fromkeys(map(str, range(most + 1)))
+    with pytest.raises(DocumentError, match=f"holds {most + 1:,} {key}; at most {most:,} are read"):
+        document_files.from_data({"deodar": 3, "elements": {}, key: rows}, {})
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        {"elements": dict.fromkeys(map(str, range(2 * MOST_LISTED)))},
+        {"axes": dict.fromkeys(map(str, range(2 * MOST_LISTED)))},
+        {"parameters": {"a": {"value": 1, "links": list(map(str, range(2 * MOST_LISTED)))}}},
+        {"groups": [0] * (2 * MOST_LISTED)},
+    ],
+)
+def test_a_thousand_problems_are_listed(content: dict[str, object]) -> None:
+    with pytest.raises(DocumentError) as caught:
+        document_files.from_data({"deodar": 3, "elements": {}, **content}, {})
+    assert len(caught.value.problems) == MOST_LISTED + 1
+    assert caught.value.problems[-1].what.startswith("has more than 1,000 problems")

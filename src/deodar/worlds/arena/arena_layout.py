@@ -168,7 +168,7 @@ def _read(path: Path) -> JsonObject:
     with reading(path, WorldError):
         if path.stat().st_size > LARGEST_FILE:
             raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB")
-        arenas = codec.read(regular_file.read_bytes(path))
+        arenas = codec.read(regular_file.read_bytes(path), codec.FEW_VALUES)
         if not isinstance(arenas, dict):
             raise WorldError(f"holds {show(arenas)}; an arena is an object with walls")
         return arenas
