@@ -66,8 +66,6 @@ def _packages(folder: Path) -> None:
     beside = folder.parent / "packed"
     beside.mkdir()
     dd.save(_model(weights=True), folder / "model.deodar")
-    dd.save_record(_record(), beside / "record.nc")
-    dd.pack(beside / "record.nc", folder / "record.deodar")
     _experiment().save(beside / "experiment.json")
     dd.pack(beside / "experiment.json", folder / "experiment.deodar")
     shutil.rmtree(beside)
@@ -110,14 +108,14 @@ def _without_proof(path: Path) -> None:
     with netcdf_file(path, "w", version=2) as plain:
         for key, text in attributes.items():
             setattr(plain, key, text)
-        for name, (dimensions, array, own) in variables.items():
+        for name, (dimensions, array, stated) in variables.items():
             for dimension, size in zip(dimensions, array.shape, strict=True):
                 if dimension not in plain.dimensions:
                     plain.createDimension(dimension, size)
             new = plain.createVariable(name, array.dtype, dimensions)
             new[:] = array
-            for key in own.keys() - {netcdf.CHECKSUMS}:
-                setattr(new, key, own[key])
+            for key in stated.keys() - {netcdf.CHECKSUMS}:
+                setattr(new, key, stated[key])
 
 
 def _matlab(folder: Path) -> None:
@@ -141,7 +139,6 @@ def _pictures(folder: Path) -> None:
     picture = Image.fromarray(pixels)
     for ending in ("png", "jpg", "bmp", "webp", "tif"):
         picture.save(folder / f"picture.{ending}")
-    picture.save(folder / "progressive.jpg", progressive=True)
     picture.save(folder / "moving.gif", save_all=True, append_images=[picture.rotate(90)])
 
 

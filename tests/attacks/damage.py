@@ -232,11 +232,11 @@ def _nested(draw: Draw, branch: Any) -> str:
     return before * depth + text + after * depth
 
 
-def _json_values(draw: Draw, way: str, tree: Any, at: tuple[Any, ...]) -> str | None:
+def _json_values(draw: Draw, change: str, tree: Any, at: tuple[Any, ...]) -> str | None:
     """Change the value at a place; return the text that stands for it where it is not plain JSON."""
     *above, last = at
     parent = _inside(tree, tuple(above))
-    match way:
+    match change:
         case "remove":
             del parent[last]
         case "swap" if len(parent) > 1:
@@ -275,9 +275,9 @@ def _json(draw: Draw, content: bytes, others: Sequence[bytes]) -> bytes:
         below = [place for place in places(tree) if place]
         if not below or len(json.dumps(tree)) > MOST_CHANGED:
             break
-        way = draw.choice(WAYS)
-        nested = _json_values(draw, way, tree, draw.choice(below))
-        if way in ("grow", "nest"):
+        change = draw.choice(WAYS)
+        nested = _json_values(draw, change, tree, draw.choice(below))
+        if change in ("grow", "nest"):
             break  # what is grown is the same object many times
     text = json.dumps(tree)
     if nested is not None:

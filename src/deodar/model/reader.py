@@ -115,8 +115,8 @@ class _Reader:
         """
         self.problems += problems
         if len(self.problems) > MOST_LISTED:
-            rest = Problem("", f"has more than {MOST_LISTED:,} problems; the rest of it was not read")
-            raise DocumentError([*self.problems[:MOST_LISTED], rest])
+            last = Problem("", f"has more than {MOST_LISTED:,} problems; the rest of it was not read")
+            raise DocumentError([*self.problems[:MOST_LISTED], last])
 
     def attempt(self, where: str, doc: Document, change: Any) -> Document:
         try:
