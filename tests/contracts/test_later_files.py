@@ -21,7 +21,7 @@ from deodar.model import clipboard
 from deodar.packing import packing as packed
 from deodar.recording import stored
 from deodar_robots.robot.robot_file import load_robot
-from deodar_studio.files.state_store import StateStore
+from deodar_studio.files.state_store import StateStore, StoredExperiment
 
 X = dd.Axis("x", 0, 20, samples=21)
 RECOVERY = "0123456789abcdef"
@@ -36,6 +36,7 @@ FORMS = (
     "deodar.experiments.design.VERSION",
     "deodar.experiments.experiment_migrations.VERSION",
     "deodar.experiments.record_target.VERSION",
+    "deodar_studio.files.state_store.VERSION",
 )
 """Versions of the forms of files, where their writers and readers have them."""
 
@@ -67,7 +68,8 @@ def write_files(folder: Path) -> None:
     dd.save_snapshot(dd.Session(model).snapshot(), folder / "moment.npz")
     experiment().save(folder / "experiment.json")
     experiment().run(folder / "results", records=folder / "store")
-    StateStore(folder / "state").store_edits(RECOVERY, model.document, "model.json")
+    stored_experiment = StoredExperiment({"name": "one", "limit": 20.0}, "experiment.json")
+    StateStore(folder / "state").store_edits(RECOVERY, model.document, "model.json", stored_experiment)
     (folder / "robot.json").write_text('{"robot": 2, "written_by": "deodar 0.9.0", "wheels": 3}')
 
 
@@ -138,6 +140,10 @@ OPENED: dict[str, tuple[str, Callable[[Path], object]]] = {
     ),
     "object of a store": ("an object of a store", with_later_objects),
     "unsaved edits": ("a document", opened_recovery),
+    "unsaved experiment": (
+        "an experiment",
+        lambda folder: StateStore(folder / "state").experiment(RECOVERY),
+    ),
     "robot": ("a robot file", lambda folder: load_robot(folder / "robot.json")),
 }
 """For each kind of file what the message calls it, and how it is opened."""

@@ -15,9 +15,10 @@ from typing import Any, cast
 import platformdirs
 import psutil
 
-from deodar import codec, regular_file
+from deodar import codec, file_version, regular_file
 from deodar.codec import JsonObject
-from deodar.errors import DeodarError, OutputError, UnknownName
+from deodar.errors import DeodarError, DocumentError, OutputError, UnknownName, reading
+from deodar.experiments.experiment_migrations import VERSION
 from deodar.model import document_files, output, partial
 from deodar.model.document import Document
 from deodar_studio.messages.to_page import Recovery
@@ -75,7 +76,8 @@ class StateStore:
                 "process": [os.getpid(), psutil.Process().create_time()],
             }
             if experiment is not None:
-                note["experiment"] = {"data": experiment.data, "file": experiment.file}
+                stated = {"version": VERSION, file_version.KEY: file_version.HERE}
+                note["experiment"] = {**stated, "data": experiment.data, "file": experiment.file}
             output.write(self._note(name), codec.line(note, ascii=True).encode())
 
     def forget(self, name: str) -> None:
@@ -108,9 +110,20 @@ class StateStore:
         ) else ""
 
     def experiment(self, name: str) -> StoredExperiment | None:
-        """Return the experiment that is stored under a name; None: it is a document."""
+        """Return the experiment that is stored under a name; None: it is a document.
+
+        Raises:
+            DocumentError: it is of a later version.
+        """
         self._require(name)
-        return _experiment(_read(self._note(name)))
+        note: Any = _read(self._note(name))
+        experiment = _experiment(note)
+        if experiment is not None:
+            with reading(name, DocumentError):
+                stated = note["experiment"]
+                version = stated.get("version", VERSION)
+                file_version.require_readable("an experiment", version, VERSION, stated)
+        return experiment
 
     def _require(self, name: str) -> None:
         if not NAME.match(name):
