@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import heapq
 import re
 from bisect import bisect_right
-from collections.abc import Generator, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,14 +15,13 @@ import xarray
 
 from deodar import codec
 from deodar.codec import JsonObject
-from deodar.errors import Fix, MissingExtra, RecordError, WorldError, first_line
+from deodar.errors import Fix, RecordError, WorldError
+from deodar.guarded.guarded_file import GuardedFile
 from deodar.model.unit import unit_seconds
 from deodar.recording import places
 from deodar.recording.record import time_dimension
 from deodar_robots.ros2.message_types import hash_of, make, store, to_bytes
-
-KEY = "deodar"
-"""Name of what deodar adds to the metadata of a bag."""
+from deodar_robots.ros_bag.bag_reading import KEY, messages_of, require_package, summary_of
 
 MOST_MESSAGES = 256
 MOST_HELD = 2**25
@@ -65,43 +63,20 @@ class BagContent:
     added: JsonObject
 
 
-@contextlib.contextmanager
-def opened(path: Path) -> Generator[Any]:
-    """Open a bag for reading.
-
-    Raises:
-        WorldError: it is not a bag, or it is damaged.
-    """
-    try:
-        # an extra
-        from rosbags.rosbag2 import Reader
-    except ImportError:
-        raise MissingExtra("rosbags", "network", "a bag of ROS 2") from None
-    if not path.exists():
-        raise WorldError("there is no such bag", str(path), "Name the folder that holds metadata.yaml")
-    try:
-        with Reader(path) as reader:
-            yield reader
-    except WorldError:
-        raise
-    except Exception as error:  # damaged files may raise any exception
-        raise WorldError(f"cannot be read as a bag: {first_line(error)}", str(path)) from None
-
-
 def content(path: Path) -> BagContent:
     """Return what a bag holds.
 
     Raises:
-        WorldError: it is not a bag, or holds no message.
+        WorldError: it is not a bag, is damaged, or holds no message.
     """
-    with opened(path) as reader:
-        if not reader.message_count:
-            raise WorldError("holds no message", str(path))
-        topics = {c.topic: BagTopic(c.msgtype, c.digest or "", c.msgcount) for c in reader.connections}
-        custom = getattr(reader.storage.metadata, "custom", None) or {}
-        start, end = int(reader.start_time), int(reader.end_time) - 1
-    added = codec.read(str(custom[KEY]).encode()) if KEY in custom else {}
-    return BagContent(dict(sorted(topics.items())), start, end, added if isinstance(added, dict) else {})
+    require_package()
+    if not path.exists():
+        raise WorldError("there is no such bag", str(path), "Name the folder that holds metadata.yaml")
+    summary = GuardedFile(WorldError, str(path)).call(summary_of, str(path))
+    topics = {name: BagTopic(kind, digest, count) for name, kind, digest, count in summary["topics"]}
+    added = codec.read(summary["custom"].encode()) if summary["custom"] else {}
+    added = added if isinstance(added, dict) else {}
+    return BagContent(dict(sorted(topics.items())), summary["start"], summary["end"], added)
 
 
 class BagMessages:
@@ -139,18 +114,10 @@ class BagMessages:
         """Read some messages, of at least two times, from the beginning of a batch on."""
         if number == self._held:
             return
-        times: list[int] = []
-        raws: list[bytes] = []
-        held, last = 0, True
-        with opened(self._path) as reader:
-            chosen = [c for c in reader.connections if c.topic == self._topic]
-            for _, time, raw in reader.messages(chosen, start=self._starts[number]):
-                if (len(times) >= MOST_MESSAGES or held > MOST_HELD) and times[-1] > times[0]:
-                    last = False
-                    break
-                times.append(int(time))
-                raws.append(bytes(raw))
-                held += len(raw)
+        guard = GuardedFile(WorldError, str(self._path))
+        limits = MOST_MESSAGES, MOST_HELD
+        part = guard.call(messages_of, str(self._path), self._topic, self._starts[number], limits)
+        times, raws, last = part["times"], part["raws"], part["last"]
         if not times:
             raise WorldError(f"the topic {self._topic} has no message", str(self._path))
         self._held, self._times, self._raws, self._last = number, times, raws, last
