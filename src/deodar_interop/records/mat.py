@@ -16,6 +16,7 @@ import numpy as np
 import xarray
 
 from deodar.errors import RecordError, UnknownName, did_you_mean
+from deodar.guarded.guarded_file import GuardedFile
 from deodar.model import output
 from deodar.model.paths import display, split
 
@@ -97,21 +98,28 @@ def load_mat(path: str | Path, name: str = "") -> np.ndarray:
         RecordError: the file cannot be read, or what is named is not an array of numbers.
         UnknownName: the file holds no such variable.
     """
+    return GuardedFile(RecordError, str(path)).call(array_of, str(path), name)
+
+
+def array_of(path: str, name: str) -> np.ndarray:
+    """Return what `load_mat` does; in a child process."""
     # only this format needs it
     from scipy.io import loadmat
 
     try:
-        found = loadmat(str(path), simplify_cells=True)
+        found = loadmat(path, simplify_cells=True)
     except NotImplementedError:
         raise RecordError(
-            "is a file of MATLAB 7.3", where=str(path), fix="Save it in MATLAB with: save(NAME, '-v7')"
+            "is a file of MATLAB 7.3", where=path, fix="Save it in MATLAB with: save(NAME, '-v7')"
         ) from None
+    except MemoryError:
+        raise
     except Exception as error:  # a damaged file may raise any exception
         what = getattr(error, "strerror", None) or "it is not a file of MATLAB, or damaged"
-        raise RecordError(f"cannot be read: {what}", where=str(path)) from None
+        raise RecordError(f"cannot be read: {what}", where=path) from None
     held = _components({k: v for k, v in found.items() if not k.startswith("__")})
     if not name and len(held) != 1:
-        raise RecordError(f"holds {', '.join(held) or 'nothing'}", where=str(path), fix="Name one of them")
+        raise RecordError(f"holds {', '.join(held) or 'nothing'}", where=path, fix="Name one of them")
     value: Any = held
     steps = split(name) if name else list(held)
     for k, step in enumerate(steps):
@@ -126,7 +134,7 @@ def load_mat(path: str | Path, name: str = "") -> np.ndarray:
     try:
         array = np.asarray(value, np.float64)
     except (TypeError, ValueError):
-        raise RecordError(f"{display(steps)} is not an array of numbers", where=str(path)) from None
+        raise RecordError(f"{display(steps)} is not an array of numbers", where=path) from None
     return array
 
 
