@@ -137,7 +137,9 @@ def _alike(a: Node, b: Node) -> bool:
 
 def _equal(a: tuple[StateRow, StateRow], b: tuple[StateRow, StateRow]) -> bool:
     return all(
-        np.array_equal(one[name], other[name]) for one, other in zip(a, b, strict=True) for name in one
+        np.array_equal(first[name], second[name])
+        for first, second in zip(a, b, strict=True)
+        for name in first
     )
 
 
@@ -196,14 +198,14 @@ def _resampled(
         if isinstance(axis, int) or isinstance(old, int):
             covered = covered[..., None] & np.ones(new.shape[d], bool)
             continue
-        lower, upper, share, there = _neighbours(old, axis)
-        if not there.any():
+        lower, upper, share, inside = _neighbours(old, axis)
+        if not inside.any():
             raise Uncarried(f"the axis {axis} has no position in common with {old}")
         share = share.reshape(-1, *(1 for _ in range(d + 1, new.ndim)))
         # equal to the sample where the share is 0, whatever its neighbour is
         a = np.take(new, lower, d)
         new = np.where(share == 0, a, a + share * (np.take(new, upper, d) - a))
-        covered = covered[..., None] & there
+        covered = covered[..., None] & inside
     return np.where(covered, new.astype(fresh.dtype), fresh)
 
 
@@ -246,7 +248,7 @@ def _named(d: Dimension) -> str:
 
 def _neighbours(old: Axis, new: Axis) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return for each sample of a new axis the samples of the old one below and above it, the share of the
-    upper one, and whether the old axis has values there.
+    upper one, and whether the old axis has a value at it.
     """
     scale = _scale(old, new)
     place = (new.points * scale - old.lower) / old.step
@@ -254,14 +256,14 @@ def _neighbours(old: Axis, new: Axis) -> tuple[np.ndarray, np.ndarray, np.ndarra
     if old.periodic:
         if new.periodic and math.isclose(new.range * scale, old.range, rel_tol=1e-9):
             place %= old.samples
-        there = (place >= 0) & (place <= old.samples)
+        inside = (place >= 0) & (place <= old.samples)
     else:
-        there = (place >= 0) & (place <= old.samples - 1)
+        inside = (place >= 0) & (place <= old.samples - 1)
     below = np.floor(place)
     lower = below.astype(int)
     upper = (lower + 1) % old.samples if old.periodic else np.clip(lower + 1, 0, old.samples - 1)
     lower = lower % old.samples if old.periodic else np.clip(lower, 0, old.samples - 1)
-    return lower, upper, place - below, there
+    return lower, upper, place - below, inside
 
 
 def _scale(old: Axis, new: Axis) -> float:

@@ -69,7 +69,7 @@ def put_learned(run: Run, learned_rows: Mapping[str, tuple[StateRow, StateRow]])
     run.state = state
 
 
-def beginning(run: Run, kept: SessionSnapshot) -> Document:
+def beginning(run: Run, snapshot: SessionSnapshot) -> Document:
     """Return the document of a run with the values that were learned at a snapshot as initial values, over
     the present axes.
 
@@ -78,13 +78,13 @@ def beginning(run: Run, kept: SessionSnapshot) -> Document:
     """
     fresh, _ = run.program.init(run.values, run.seed, run.trials)
     state = host(fresh)
-    reasons = put_rows(run.program, state, kept.states, nodes(kept.document))
+    reasons = put_rows(run.program, state, snapshot.states, nodes(snapshot.document))
     by, entries = rows(run.program, state), run.doc.by_id()
     values: dict[str, np.ndarray] = {}
-    for ident, name in (place.split(".", 1) for place in learned(kept)):
+    for ident, name in (place.split(".", 1) for place in learned(snapshot)):
         if ident in reasons:
             raise ParameterError(
-                f"what was kept cannot be carried: {reasons[ident]}",
+                f"what was snapshot cannot be carried: {reasons[ident]}",
                 where=entries[ident].path,
                 fix="Keep it again, or make another session",
             )

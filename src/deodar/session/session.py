@@ -84,7 +84,7 @@ class Session(Summarised):
         numbers, accuracy = Arithmetic.of(precision)
         distribution = distributed(Batch(), several(on.devices, on.device))[0]
         self._one_thread = OneThread()
-        self._kept: SessionSnapshot | None = None
+        self._learned: SessionSnapshot | None = None
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
         self._recorder: Recorder | None = None
@@ -174,14 +174,14 @@ class Session(Summarised):
         """
         new, run, tick = self.seed if seed is None else require_seed(seed), self._run, self.tick
         with self._one_thread, run.undone_on_error():
-            if self._kept is not None:
-                adopt(run, beginning(run, self._kept), (self.dt, self.next_dt))
+            if self._learned is not None:
+                adopt(run, beginning(run, self._learned), (self.dt, self.next_dt))
             learned_rows = rows(run.program, host(run.state)) if keep_learned else {}
             run.seed = new
             run.reset()
             if keep_learned:
                 put_learned(run, learned_rows)
-        self._kept = None
+        self._learned = None
         self.journal.append(Change(tick, "reset", (new, True) if keep_learned else (new,)))
         self._end_record("the session was reset")
 
@@ -420,7 +420,7 @@ class Session(Summarised):
         """
         snapshot = self.snapshot()
         paths = keep(snapshot, self._model)
-        self._kept = snapshot
+        self._learned = snapshot
         return paths
 
     # ----------------------------------------------------------------------------------- objects in the world

@@ -226,9 +226,9 @@ def test_a_damaged_file_of_rows_is_read_or_refused_by_name(tmp_path_factory, who
 def test_a_row_with_another_digit_is_refused_with_its_file_and_line(tmp_path, whole):
     for name in ("experiment.json", "model.json"):
         (tmp_path / name).write_bytes((whole / name).read_bytes())
-    first, second, *rest = (whole / ROWS).read_bytes().splitlines(True)
-    changed = second.replace(b'"duration": 100', b'"duration": 900', 1)
-    assert changed != second
-    (tmp_path / ROWS).write_bytes(b"".join([first, changed, *rest]))
+    head, row, *more_rows = (whole / ROWS).read_bytes().splitlines(True)
+    damaged_row = row.replace(b'"duration": 100', b'"duration": 900', 1)
+    assert damaged_row != row
+    (tmp_path / ROWS).write_bytes(b"".join([head, damaged_row, *more_rows]))
     with pytest.raises(DamagedFile, match=r"trials\.jsonl: line 2 is not a row .* that of another line"):
         load_results(tmp_path)

@@ -332,9 +332,9 @@ def test_an_edit_that_loses_a_state_is_refused_while_the_model_runs_and_begins_i
 
 
 def test_a_snapshot_of_another_model_is_refused_and_the_run_continues(driven: Driven) -> None:
-    engine, other = driven.engine, dd.Model("other")
-    other.add(dd.Field("v", [X]))
-    wrong = dd.Session(other).snapshot()
+    engine, model = driven.engine, dd.Model("another")
+    model.add(dd.Field("v", [X]))
+    wrong = dd.Session(model).snapshot()
     driven.do(lambda: engine.play(True))
     with pytest.raises(ParameterError, match=r"another model"):
         driven.do(lambda: engine.restore(wrong))
