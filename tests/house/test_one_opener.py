@@ -16,7 +16,7 @@ OWN = {
     "deodar/worlds/arena/arena_layout.py": "the layouts of deodar itself, resources of the package",
     "deodar_papers/saliency/scenes.py": "the same",
     "deodar_papers/spa/pairs.py": "the same",
-    "deodar_studio/access/token.py": "opened by its descriptor, with its owner",
+    "deodar/private_file.py": "opened by its descriptor, with its owner",
     "deodar_studio/files/open_folder.py": "opened in its folder, by its descriptor",
 }
 """Modules that open files for reading, and why they may."""

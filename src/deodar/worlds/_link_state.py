@@ -15,7 +15,8 @@ class LinkState:
         age: time since the last message of the robot, ms.
         received: periods of the robot that arrived; messages, where its sensors come one by one.
         lost: periods that did not arrive.
-        refused: messages that were not read: short, foreign, not finite, or with a number that goes back.
+        refused: messages that were not read: short, foreign, not finite, or with a number that goes back; and
+            messages for the robot that it refused.
         round_trip: time from the last command that the robot answered to its answer, ms; 0: none yet.
         by_sensor: messages of each sensor, where they come one by one.
     """

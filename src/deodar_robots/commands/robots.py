@@ -1,4 +1,4 @@
-"""The command `deodar robots [check FILE]`."""
+"""The command `deodar robots [check FILE | key ENDPOINT]`."""
 
 from __future__ import annotations
 
@@ -16,15 +16,22 @@ if TYPE_CHECKING:
     from deodar.numerics.axes import Axes
     from deodar_robots.robot.robot import Robot
 
-HELP = "list robots that files describe, or check one: connect to it and print its signals"
+HELP = "list robots that files describe, check one: connect to it and print its signals, or make a key"
 WATCHED = 1.0
 """Time for which the readings of a live robot are counted, s."""
 
 
 def arguments(parser: _options.CommandParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument("what", nargs="?", choices=("check",), help="check the robot of FILE; moves nothing")
-    parser.option("file", "FILE[@PLACE]", "a robot file, or the name of a shipped one", nargs="?")
+    parser.add_argument(
+        "what",
+        nargs="?",
+        choices=("check", "key"),
+        help="check the robot of FILE, which moves nothing; or print the key file of an endpoint here",
+    )
+    parser.option(
+        "file", "FILE[@PLACE]", "a robot file, or the name of a shipped one; of key: ENDPOINT", nargs="?"
+    )
     _options.add_json(parser)
 
 
@@ -33,9 +40,13 @@ def run(args: argparse.Namespace) -> CommandAnswer:
     # start-up time: these bring JAX
     from deodar_robots.robot import robot_file
     from deodar_robots.robot.robot import Robot
+    from deodar_robots.zenoh import link
 
     if args.what and not args.file:
-        args.wrong("check needs a FILE")
+        args.wrong("key needs an ENDPOINT" if args.what == "key" else "check needs a FILE")
+    if args.what == "key":
+        path = str(link.key_of(args.file).path)
+        return CommandAnswer({"key": path}, [path])
     if not args.what:
         files = robot_file.shipped() | {str(p): p for p in sorted(Path("robots").glob("*.json"))}
         listed = {name: robot_file.load_robot(path) for name, path in files.items()}

@@ -41,7 +41,8 @@ def arguments(parser: _options.CommandParser) -> None:
     )
     parser.flag(
         "--trusted",
-        "allow an endpoint beyond this machine, in a network of your own: messages are not encrypted",
+        "allow an endpoint beyond this machine, in a network of your own: messages are not encrypted; at one"
+        " of this machine, let every process in",
     )
     for name, what in (
         ("certificate", "certificate of this server, for an endpoint tls/HOST:PORT, which encrypts messages"),

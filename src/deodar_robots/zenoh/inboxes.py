@@ -10,10 +10,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from deodar.errors import WorldError
+from deodar import codec
+from deodar.errors import DeodarError, WorldError
 from deodar.worlds._base import Signal
 from deodar.worlds._link_state import LinkState
 from deodar_robots.zenoh.about import BadMessage, WireMessage
+
+AHEAD = 100
+"""Periods by which a command may be ahead of the last one. After messages were lost it may be ahead by
+`AHEAD_EACH` more for each period of the robot since then, so that a number of a damaged or forged message
+neither is obeyed nor makes the numbers of later commands old. Both are guesses.
+"""
+
+AHEAD_EACH = 10
 
 
 class ReadingInbox:
@@ -24,6 +33,7 @@ class ReadingInbox:
     Attributes:
         stamp: stamp of the newest message of the robot; 0: none.
         gone: whether the robot has left the network.
+        refusals: messages that the robot refused in this run, by reason.
     """
 
     def __init__(self) -> None:
@@ -37,6 +47,7 @@ class ReadingInbox:
         self._round_trip = 0.0
         self.stamp = 0
         self.gone = False
+        self.refusals: dict[str, int] = {}
 
     def want(self, keys: Sequence[str]) -> None:
         """Keep the readings of these keys alone."""
@@ -49,6 +60,7 @@ class ReadingInbox:
         with self._changed:
             self._newest.clear()
             self._keys, self._error, self._last, self.stamp = frozenset(), "", 0, 0
+            self.refusals = {}
             self._heard = time.monotonic()
 
     def offer(self, where: str, raw: bytes) -> None:
@@ -103,6 +115,17 @@ class ReadingInbox:
             self._error = text[:1000]
             self._changed.notify_all()
 
+    def refuse(self, raw: bytes) -> None:
+        """Take the numbers of messages that the robot refused, by reason."""
+        try:
+            counts = codec.read(raw)
+        except DeodarError:
+            counts = None
+        if isinstance(counts, dict):
+            self.refusals = {
+                reason: n for reason, n in counts.items() if reason in REASONS and type(n) is int
+            }
+
     def leave(self) -> None:
         """Take the news that the robot has left the network; one that returns has to be begun again."""
         with self._changed:
@@ -152,9 +175,19 @@ class ReadingInbox:
     def state(self, robot: str) -> LinkState:
         """Return how well the link with a robot works."""
         with self._changed:
-            return LinkState(
-                robot, 1000 * self.age(), self._received, self._lost, self._refused, self._round_trip
-            )
+            refused = self._refused + sum(self.refusals.values())
+            return LinkState(robot, 1000 * self.age(), self._received, self._lost, refused, self._round_trip)
+
+
+REASONS = {
+    "bad": "not a message, or not finite",
+    "shape": "of another shape than the motor",
+    "foreign": "of another commander",
+    "unknown": "for a motor that is not there",
+    "old": "with a number that goes back",
+    "jump": "with a number that jumps ahead",
+}
+"""Why a message for a robot is refused."""
 
 
 @dataclass(frozen=True)
@@ -176,22 +209,24 @@ class CommandInbox:
     """Commands from the network, of one commander at a time.
 
     Anybody may send; a message that is not a finite array of the motor's shape from the present commander,
-    with a sequence number above the last, is counted and never acted on. Memory is bounded: the newest
-    command of each motor is kept. Methods may be called by any thread.
+    with a sequence number above the last and not far beyond it, is counted and never acted on. Memory is
+    bounded: the newest command of each motor is kept. Methods may be called by any thread.
 
     Args:
         motors: signals of the motors by name.
         complete: called when all commands of a period are there, with its number and its start in ms.
+        period: ms between two commands; None: it never changes.
 
     Attributes:
-        counts: messages by what became of them: accepted, bad (not a message, or not finite), shape (of
-            another shape), foreign (not of the commander), unknown (no such motor), old (a number that goes
-            back).
+        counts: messages by what became of them: accepted, or one of `REASONS`.
         stamp: stamp of the newest accepted message; 0: none.
     """
 
     def __init__(
-        self, motors: Mapping[str, Signal], complete: Callable[[int, float], None] | None = None
+        self,
+        motors: Mapping[str, Signal],
+        complete: Callable[[int, float], None] | None = None,
+        period: float | None = None,
     ) -> None:
         self.counts: Counter[str] = Counter()
         self.stamp = 0
@@ -203,6 +238,9 @@ class CommandInbox:
         self._newest: dict[str, Command] = {}
         self._ended, self._halted = 0, -1
         self._waiting: tuple[int, int, float] | None = None
+        self._period = period
+        self._reached, self._reached_at = 0, time.monotonic()
+        self._before: Counter[str] = Counter()
 
     @property
     def commander(self) -> int:
@@ -215,6 +253,8 @@ class CommandInbox:
             self._commander, self._copies = commander, copies
             self._newest.clear()
             self._waiting, self._ended, self._halted, self.stamp = None, 0, -1, 0
+            self._reached, self._reached_at = 0, time.monotonic()
+            self._before = self.counts.copy()
 
     def offer(self, motor: str, raw: bytes) -> None:
         """Take a message for a motor, or count why it is not taken."""
@@ -229,7 +269,7 @@ class CommandInbox:
             lead = 1 if self._copies == 1 else 0
             numbers = message.array[None] if lead else message.array
             self._newest[motor] = Command(numbers, message.sequence, time.monotonic())
-            self.stamp = message.stamp
+            self._reach(message)
         self._check()
 
     def end(self, raw: bytes) -> None:
@@ -238,10 +278,11 @@ class CommandInbox:
             message = self._message(raw)
             if message is None:
                 return
-            if message.sequence <= self._ended:
-                self.counts["old"] += 1
+            refused = "old" if message.sequence <= self._ended else self._jump(message)
+            if refused:
+                self.counts[refused] += 1
                 return
-            self.stamp = message.stamp
+            self._reach(message)
             self._waiting = message.sequence, message.parts, message.time
         self._check()
 
@@ -251,6 +292,9 @@ class CommandInbox:
             message = self._message(raw)
             if message is None:
                 return
+            if self._jump(message):
+                self.counts["jump"] += 1
+                return
             self._halted = max(self._halted, message.sequence)
             self._newest = {m: c for m, c in self._newest.items() if c.sequence > self._halted}
 
@@ -258,6 +302,22 @@ class CommandInbox:
         """Return the newest command of each motor, or those of one period."""
         with self._lock:
             return {m: c for m, c in self._newest.items() if sequence is None or c.sequence == sequence}
+
+    def refusals(self) -> dict[str, int]:
+        """Return the numbers of messages that were refused since the commander began, by reason."""
+        with self._lock:
+            return {k: n for k in REASONS if (n := self.counts[k] - self._before[k])}
+
+    def _reach(self, message: WireMessage) -> None:
+        """Note the newest message that was accepted."""
+        self.stamp = message.stamp
+        if message.sequence > self._reached:
+            self._reached, self._reached_at = message.sequence, time.monotonic()
+
+    def _jump(self, message: WireMessage) -> str:
+        """Return `jump` if the number of a message is too far ahead of the last one, else ""."""
+        waited = 1000 * (time.monotonic() - self._reached_at) / (self._period or 1000.0)
+        return "jump" if message.sequence > self._reached + AHEAD + AHEAD_EACH * waited else ""
 
     def _message(self, raw: bytes) -> WireMessage | None:
         """Return a message of the present commander; None, and a count, for another one."""
@@ -285,7 +345,7 @@ class CommandInbox:
             return "bad"
         last = self._newest.get(motor)
         after = self._halted if last is None else max(last.sequence, self._halted)
-        return "old" if message.sequence <= after else ""
+        return "old" if message.sequence <= after else self._jump(message)
 
     def _check(self) -> None:
         with self._lock:

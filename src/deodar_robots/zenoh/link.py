@@ -14,6 +14,8 @@ from typing import Any
 from deodar import codec
 from deodar.codec import Json
 from deodar.errors import Fix, MissingExtra, WorldError, option
+from deodar_robots.zenoh import port_key
+from deodar_robots.zenoh.port_key import PortKey
 
 _KEYS = "transport/link/tls/"
 
@@ -194,7 +196,8 @@ def require_endpoint(text: str, trusted: bool = False, files: TlsFiles = NO_FILE
 
     Args:
         text: the endpoint.
-        trusted: whether the network of another host is trusted; without TLS messages are not encrypted.
+        trusted: whether the network of another host, or every process of this one, is trusted; without TLS
+            messages are not encrypted.
         files: certificates.
 
     Raises:
@@ -222,13 +225,40 @@ def require_endpoint(text: str, trusted: bool = False, files: TlsFiles = NO_FILE
     return text
 
 
-def connect(endpoint: str, patience: float, files: TlsFiles = NO_FILES, router: bool = False) -> Any:
+Credentials = TlsFiles | PortKey
+"""What a side proves itself with: certificates, or the key of a port of this machine."""
+
+
+def credentials(endpoint: str, trusted: bool = False, files: TlsFiles = NO_FILES) -> Credentials:
+    """Return what a side at an endpoint proves itself with; without TLS and the key of a port, nothing.
+
+    Raises:
+        WorldError: the key of the port cannot be read or made.
+    """
+    scheme, host, _ = _parts(endpoint)
+    return files if scheme == "tls" or trusted or host not in LOCAL else key_of(endpoint)
+
+
+def key_of(endpoint: str) -> PortKey:
+    """Return the key of a port of this machine; it is made at its first use.
+
+    Raises:
+        WorldError: the text is not an endpoint of this machine without TLS, or the key cannot be read or
+            made.
+    """
+    match = _ENDPOINT.fullmatch(require_endpoint(endpoint))
+    if match is None or match[1] == "tls":
+        raise WorldError(f"{endpoint} proves itself by certificates", fix=f"Write it as {HERE}")
+    return port_key.kept(match[2], int(match[3]))
+
+
+def connect(endpoint: str, patience: float, credentials: Credentials = NO_FILES, router: bool = False) -> Any:
     """Return a session of Zenoh that is connected to an endpoint and listens nowhere.
 
     Args:
         endpoint: the endpoint.
         patience: time after which a program that does not answer is given up, s.
-        files: certificates, for an endpoint with TLS.
+        credentials: certificates, for an endpoint with TLS, or the key of the port.
         router: whether a router of ROS 2 listens there, through which all messages go, or the robot itself.
 
     Raises:
@@ -240,33 +270,36 @@ def connect(endpoint: str, patience: float, files: TlsFiles = NO_FILES, router: 
         {
             "mode": "client" if router else "peer",
             "listen/endpoints": [],
-            "connect/endpoints": [endpoint],
+            "connect/endpoints": [_numbered(endpoint)],
             # the rest is for the question why not
             "connect/timeout_ms": max(1, round(800 * patience)),
             "connect/exit_on_failure": True,
-            **(files.of_client() if scheme == "tls" else {}),
+            **_proven(scheme, credentials, credentials.of_client),
         }
     )
     try:
         return zenoh.open(config)
     except zenoh.ZError:
+        key = isinstance(credentials, PortKey)
+        files = NO_FILES if key else credentials
         fault, fix = why_not(scheme, host, port, files, max(0.1, 0.1 * patience))
         who, start = "robot", "Start the robot, for example: deodar serve arena:blocks"
         if router:
             who, start = "router of ROS 2", "Start it: ros2 run rmw_zenoh_cpp rmw_zenohd"
+        proof = f" with the key of this port, {credentials.path}" if key else ""
         raise WorldError(
-            fault or f"no {who} answers at {endpoint} within {patience:g} s",
+            fault or f"no {who} answers at {endpoint} within {patience:g} s{proof}",
             where=endpoint if fault else "",
             fix=fix or start,
         ) from None
 
 
-def listen(endpoint: str, files: TlsFiles = NO_FILES, router: bool = False) -> Any:
+def listen(endpoint: str, credentials: Credentials = NO_FILES, router: bool = False) -> Any:
     """Return a session of Zenoh that listens at an endpoint, and nowhere else.
 
     Args:
         endpoint: the endpoint.
-        files: certificates, for an endpoint with TLS.
+        credentials: certificates, for an endpoint with TLS, or the key of the port.
         router: whether messages between others go through this session.
 
     Raises:
@@ -274,16 +307,28 @@ def listen(endpoint: str, files: TlsFiles = NO_FILES, router: bool = False) -> A
     """
     zenoh = library()
     scheme, host, _ = _parts(endpoint)
-    secure = files.of_server() if scheme == "tls" else {}
+    secure = _proven(scheme, credentials, credentials.of_server)
     try:
         mode = "router" if router else "peer"
-        return zenoh.open(_config({"mode": mode, "listen/endpoints": [endpoint], **secure}))
+        return zenoh.open(_config({"mode": mode, "listen/endpoints": [_numbered(endpoint)], **secure}))
     except zenoh.ZError as error:
         taken = "in use" in str(error)
         raise WorldError(
             f"cannot listen at {endpoint}{': another program does' if taken else ''}",
             fix=option("Choose another port:", "at", f"{scheme}/{host}:7462"),
         ) from None
+
+
+def _proven(
+    scheme: str, credentials: Credentials, settings: Callable[[], dict[str, Json]]
+) -> dict[str, Json]:
+    """Return settings of Zenoh for credentials; none where there is nothing to prove."""
+    return settings() if scheme == "tls" or isinstance(credentials, PortKey) else {}
+
+
+def _numbered(endpoint: str) -> str:
+    """Return an endpoint with the address of this machine in place of its name, which may stand for two."""
+    return endpoint.replace("/localhost:", "/127.0.0.1:")
 
 
 def _parts(endpoint: str) -> tuple[str, str, int]:

@@ -21,6 +21,7 @@ class ServedWorld:
         clock: step, or live.
         at: endpoint; empty: a free port of this machine.
         files: certificates for an endpoint with TLS.
+        trusted: whether every process of this machine is.
 
     Attributes:
         server: the server.
@@ -34,9 +35,10 @@ class ServedWorld:
         clock: RobotClock = "step",
         at: str = "",
         files: TlsFiles = link.NO_FILES,
+        trusted: bool = False,
     ) -> None:
         self.endpoint = at or free_endpoint()
-        self.server = WorldServer(world, name, self.endpoint, clock, files=files)
+        self.server = WorldServer(world, name, self.endpoint, clock, trusted, files)
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._serve, name=f"serve {name}", daemon=True)
         self._thread.start()

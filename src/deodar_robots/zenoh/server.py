@@ -38,6 +38,7 @@ from deodar_robots.zenoh.about import (
 )
 from deodar_robots.zenoh.inboxes import CommandInbox
 from deodar_robots.zenoh.link import TlsFiles
+from deodar_robots.zenoh.port_key import PortKey
 
 MOST_WAITING = 64
 """Most queries that wait for the world; more are refused, so that memory is bounded."""
@@ -57,7 +58,7 @@ class WorldServer:
         name: name of the robot.
         endpoint: where to listen.
         clock: step, or live.
-        trusted: whether the network of another host is trusted.
+        trusted: whether the network of another host is trusted; on this machine, whether every process is.
         files: certificate and private key for an endpoint with TLS. With an authority a commander needs a
             certificate that it signed.
 
@@ -90,8 +91,9 @@ class WorldServer:
         self._events: queue.Queue[tuple[str, Any]] = queue.Queue()
         events = self._events
         self._inbox = CommandInbox(
-            world.motors, lambda *step: events.put(("step", step)) if clock == "step" else None
+            world.motors, lambda *step: events.put(("step", step)) if clock == "step" else None, world.period
         )
+        self._told: dict[str, int] = {}
         self._requests: list[tuple[str, Axes]] = []
         self._readings: list[np.ndarray] | None = None
         self._limiter = MotorLimiter(self.about.motors, self.about.rules)
@@ -101,7 +103,8 @@ class WorldServer:
         self._dtype = np.dtype(np.float32)
         self._deferred: Any = None
         self._who = ""
-        self._session = link.listen(self.endpoint, files)
+        self._credentials = link.credentials(self.endpoint, trusted, files)
+        self._session = link.listen(self.endpoint, self._credentials)
         self._publishers: dict[str, Any] = {}
         self._close = weakref.finalize(self, self._session.close)
         self._declare()
@@ -118,6 +121,7 @@ class WorldServer:
             return
         while not stopped():
             self._handle(0.1)
+            self._tell_refusals()
 
     def close(self) -> None:
         """Put the motors to rest, close the world, and leave the network."""
@@ -134,7 +138,7 @@ class WorldServer:
 
     def _declare(self) -> None:
         zenoh, robot = link.library(), self.about.name
-        inbox, events, text = self._inbox, self._events, self.about.to_text()
+        inbox, events, text, credentials = self._inbox, self._events, self.about.to_text(), self._credentials
 
         def command(sample: Any) -> None:
             inbox.offer(unquote(str(sample.key_expr).rsplit("/", 1)[1]), bytes(sample.payload))
@@ -144,6 +148,11 @@ class WorldServer:
 
         def halt(sample: Any) -> None:
             inbox.halt(bytes(sample.payload))
+
+        def describe(request: Any) -> None:
+            challenge = bytes(request.payload or b"")
+            proof = credentials.proof(challenge) if isinstance(credentials, PortKey) else None
+            request.reply(about, text, attachment=proof)
 
         def query(kind: str) -> Callable[[Any], None]:
             def put(request: Any) -> None:
@@ -164,7 +173,7 @@ class WorldServer:
             session.declare_subscriber(key(robot, "motor") + "/*", link.callback(command)),
             session.declare_subscriber(key(robot, "step"), link.callback(end)),
             session.declare_subscriber(key(robot, "halt"), link.callback(halt)),
-            session.declare_queryable(about, link.callback(lambda request: request.reply(about, text))),
+            session.declare_queryable(about, link.callback(describe)),
             *(session.declare_queryable(key(robot, kind), link.callback(query(kind))) for kind in QUERIES),
             session.liveliness().declare_subscriber(key(robot, "commander") + "/*", link.callback(gone)),
             session.liveliness().declare_token(key(robot, "alive")),
@@ -213,6 +222,7 @@ class WorldServer:
         self._requests, self._readings, self._deferred = [], None, None
         self._limiter.begin(copies)
         self._inbox.begin(number, copies)
+        self._told = {}
         return codec.line({"clock": self.about.clock})
 
     def _read(self, query: Any) -> bytes | None:
@@ -326,6 +336,7 @@ class WorldServer:
         A motor that was never commanded gets no command, as in a run in one process.
         """
         self._sequence += 1
+        self._tell_refusals()
         commands: dict[str, np.ndarray] = {}
         newest, clock = self._inbox.commands(), time.monotonic()
         for motor in self.about.motors:
@@ -365,6 +376,13 @@ class WorldServer:
             array = array[0] if signal.each and self._copies == 1 else array
             messages.append(WireMessage(array, self._sequence, moment, stamp, self._inbox.stamp, parts=parts))
         return messages
+
+    def _tell_refusals(self) -> None:
+        """Tell the model how many messages were refused, if there are more than before."""
+        refusals = self._inbox.refusals()
+        if refusals != self._told:
+            self._told = refusals
+            self._publish("refused", codec.line({**refusals}).encode())
 
     def _publish(self, part: str, raw: bytes) -> None:
         self._put_at(key(self.about.name, part), raw)

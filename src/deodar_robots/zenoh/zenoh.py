@@ -7,6 +7,7 @@ import platform
 import secrets
 import threading
 import time
+import warnings
 import weakref
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -16,7 +17,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import WorldError, did_you_mean
+from deodar.errors import RunWarning, WorldError, did_you_mean
 from deodar.numerics.axes import Axes
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
@@ -35,8 +36,9 @@ from deodar_robots.zenoh.about import (
     requests_to_data,
     unbundle,
 )
-from deodar_robots.zenoh.inboxes import ReadingInbox
+from deodar_robots.zenoh.inboxes import REASONS, ReadingInbox
 from deodar_robots.zenoh.link import TlsFiles
+from deodar_robots.zenoh.port_key import PortKey
 from deodar_robots.zenoh.served_world import ServedWorld
 
 SLOWEST = 60.0
@@ -67,7 +69,7 @@ class Zenoh(World):
         at: endpoint of the robot, tcp/HOST:PORT, or with TLS tls/HOST:PORT.
         patience: time without a message of the robot after which a reading raises an error, s.
         trusted: whether the network between this machine and another host is trusted; without TLS messages
-            are not encrypted.
+            are not encrypted. On this machine: whether every process is, so that no key is needed.
         authority: file of the authority that signed the certificate of the robot; needed with TLS.
         certificate: file of a certificate of this side, if the robot asks for one.
         private_key: file of its private key.
@@ -104,7 +106,7 @@ class Zenoh(World):
         self.sensors, self.motors, self.period = self.about.sensors, self.about.motors, self.about.period
         self._requests: Requests | None = None
         self._copies, self._sequence, self._begun = 1, 0, False
-        self._read_at = 0
+        self._read_at, self._warned = 0, False
 
     @property
     def repeatable(self) -> bool:  # type: ignore[override]
@@ -119,7 +121,8 @@ class Zenoh(World):
     # ----------------------------------------------------------------------------------------- the connection
 
     def _connect(self, robot: str) -> None:
-        self._session = session = link.connect(self.at, max(self.patience, 0.2), self._files)
+        self._credentials = link.credentials(self.at, self.trusted, self._files)
+        self._session = session = link.connect(self.at, max(self.patience, 0.2), self._credentials)
         self._commander = secrets.randbits(62) + 1
         self._publishers: dict[str, Any] = {}
         self._close = weakref.finalize(self, session.close)
@@ -137,19 +140,14 @@ class Zenoh(World):
         limit = time.monotonic() + max(self.patience, 0.2)
         robots: list[About] = []
         while not robots and time.monotonic() < limit:
-            replies = self._session.get(named, timeout=max(self.patience, 0.2))
-            robots = [About.from_text(bytes(r.ok.payload)) for r in replies if r.ok is not None]
+            robots = self._robots(named, max(self.patience, 0.2))
             if not robots:
                 time.sleep(0.02)
         names = sorted(about.name for about in robots)
         if len(robots) == 1:
             return robots[0]
         if not robots and robot:
-            others = [
-                About.from_text(bytes(r.ok.payload)).name
-                for r in self._session.get("*/about", timeout=self.patience)
-                if r.ok is not None
-            ]
+            others = [about.name for about in self._robots("*/about", self.patience)]
             hint = did_you_mean(robot, others)
             raise WorldError(f"no robot called {robot!r} is at {self.at}", fix=hint)
         if not robots:
@@ -157,6 +155,25 @@ class Zenoh(World):
         if len(set(names)) < len(names):
             raise WorldError(f"two robots at {self.at} have one name, {names[0]!r}", fix="Rename one of them")
         raise WorldError(f"several robots are at {self.at}", fix=f"Name one: {', '.join(names)}")
+
+    def _robots(self, named: str, seconds: float) -> list[About]:
+        """Return the robots that answer; each has to prove that it has the key of the port, if there is one.
+
+        Raises:
+            WorldError: one does not prove it, or does not describe itself.
+        """
+        challenge = secrets.token_bytes(32)
+        replies = self._session.get(named, payload=challenge, timeout=seconds)
+        robots: list[About] = []
+        for sample in (reply.ok for reply in replies if reply.ok is not None):
+            proof, key = bytes(sample.attachment or b""), self._credentials
+            if isinstance(key, PortKey) and not key.proven(challenge, proof):
+                raise WorldError(
+                    f"the program at {self.at} does not prove that it has the key of this port, {key.path}",
+                    fix="Let it answer `about` with the proof, as a robot without deodar does",
+                )
+            robots.append(About.from_text(bytes(sample.payload)))
+        return robots
 
     def _declare(self) -> None:
         zenoh, robot, inbox, session = link.library(), self.about.name, self._inbox, self._session
@@ -174,6 +191,7 @@ class Zenoh(World):
         self._declared = [
             session.declare_subscriber(key(robot, "sensor") + "/**", link.callback(reading)),
             session.declare_subscriber(key(robot, "period"), passed_to(inbox.end)),
+            session.declare_subscriber(key(robot, "refused"), passed_to(inbox.refuse)),
             session.declare_subscriber(
                 key(robot, "error"), passed_to(lambda raw: inbox.fail(raw.decode(errors="replace")))
             ),
@@ -200,6 +218,7 @@ class Zenoh(World):
         # a live robot is one, whatever the number of copies
         self._copies = len(trials) if self.about.clock == "step" else 1
         self._begun, self._sequence, self._read_at, self._requests = True, 0, 0, None
+        self._warned = False
         self._limiter.begin(self._copies)
 
     def _again(self) -> None:
@@ -219,6 +238,7 @@ class Zenoh(World):
         return self.sense_all([(sensor, axes)], time)[0]
 
     def sense_all(self, requests: Sequence[tuple[str, Axes]], time: float) -> list[np.ndarray]:
+        self._warn_refused()
         for sensor, _ in requests:
             self.require(sensor)
         requested = [(sensor, tuple(axes)) for sensor, axes in requests]
@@ -235,6 +255,7 @@ class Zenoh(World):
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
         self._require_there()
         self._wait()
+        self._warn_refused()
         self._sequence += 1
         for motor, command in motors.items():
             self.require_motor(motor)
@@ -247,6 +268,19 @@ class Zenoh(World):
         if self._begun and self._close.alive and self.about.clock == "live":
             self._limiter.rest()
             self._send(key(self.robot, "halt"), np.zeros(()), 0.0)
+
+    def _warn_refused(self) -> None:
+        """Issue one warning of a run when the robot has refused messages; `link` counts the later ones."""
+        refusals = self._inbox.refusals
+        if not refusals or self._warned:
+            return
+        self._warned = True
+        reasons = "; ".join(f"{n} {REASONS[reason]}" for reason, n in refusals.items())
+        warnings.warn(
+            f"the robot {self.robot!r} has refused {sum(refusals.values())} messages so far: {reasons}",
+            RunWarning,
+            stacklevel=3,
+        )
 
     def _newest(self, requests: Sequence[tuple[str, Axes]], time: float) -> list[np.ndarray]:
         """Return the newest readings of a live robot, none of them older than the patience."""

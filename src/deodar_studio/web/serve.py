@@ -13,6 +13,7 @@ from urllib.parse import urlsplit
 
 import uvicorn
 
+from deodar import private_file
 from deodar.errors import OutputError
 from deodar.session.interrupt import interrupted_by_sigterm
 from deodar_studio.access import token as tokens
@@ -102,7 +103,7 @@ def prepare(
     host, bound = service.host, bind(service.host, service.port)
     number = bound.getsockname()[1]
     if service.token and not secret:
-        secret = tokens.kept(state_folder(), number) if is_local(host) else tokens.new()
+        secret = tokens.kept(state_folder(), number) if is_local(host) else private_file.new()
     shown = host if host not in ("0.0.0.0", "::") else socket.gethostname()
     address = (
         f"http://{f'[{shown}]' if ':' in shown else shown}:{number}/{f'?token={secret}' if secret else ''}"

@@ -31,10 +31,14 @@ class ForeignRobot:
     """A head that turns at the commanded speed, in 30 lines."""
 
     def __init__(self, at: str) -> None:
-        self.session = link.listen(at)
+        key = link.credentials(at)
+        self.session = link.listen(at, key)
         self.angle, self.speed, self.count, self.heard = 0.0, 0.0, 0, 0.0
         self.kept = [
-            self.session.declare_queryable("pan/about", lambda q: q.reply("pan/about", json.dumps(ABOUT))),
+            self.session.declare_queryable(
+                "pan/about",
+                lambda q: q.reply("pan/about", json.dumps(ABOUT), attachment=key.proof(bytes(q.payload))),
+            ),
             self.session.declare_subscriber("pan/motor/speed", self.take),
             self.session.liveliness().declare_token("pan/alive"),
         ]

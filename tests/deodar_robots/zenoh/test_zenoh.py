@@ -12,7 +12,7 @@ import pytest
 import deodar as dd
 from deodar import codec
 from deodar.cli import main
-from deodar.errors import WorldError
+from deodar.errors import RunWarning, WorldError
 from deodar.worlds._base import Signal
 from deodar.worlds._motor_rule import MotorRule
 from deodar_robots.zenoh import link
@@ -136,7 +136,7 @@ def test_only_whole_finite_commands_of_the_commander_move_a_motor(served):
     robot = served(wheel)
     world = Zenoh(at=robot.endpoint)
     world.reset(0)
-    stranger = link.connect(robot.endpoint, 2.0)
+    stranger = link.connect(robot.endpoint, 2.0, link.credentials(robot.endpoint))
     right = dict(sequence=1, commander=world._commander)
     good = WireMessage(np.float32(9), **right).to_bytes()
     nan = WireMessage(np.float32(np.nan), **right).to_bytes()
@@ -154,12 +154,18 @@ def test_only_whole_finite_commands_of_the_commander_move_a_motor(served):
     expected = {"bad": 5, "shape": 1, "foreign": 3, "unknown": 1}
     until(lambda: {k: robot.server.counts[k] for k in expected} == expected)
     assert wheel.angle == 0
-    for _ in range(3):
+    until(lambda: sum(world._inbox.refusals.values()) == 10)
+    with pytest.warns(
+        RunWarning, match=r"has refused 10 messages so far: 5 not a message.* 3 of another com"
+    ):
+        world.act({"speed": np.ones(1, np.float32)}, 0.0)
+    for _ in range(2):
         world.act({"speed": np.ones(1, np.float32)}, 0.0)
     stranger.put(
         key("robot", "motor", "speed"), WireMessage(np.float32(9), 2, commander=world._commander).to_bytes()
     )
     until(lambda: robot.server.counts["old"] == 1)
+    until(lambda: world.link().refused == 11)
     assert world.sense("angle", (), 30.0) == pytest.approx(0.03)
     stranger.close()
     world.close()
@@ -167,7 +173,7 @@ def test_only_whole_finite_commands_of_the_commander_move_a_motor(served):
 
 def test_a_flood_of_a_stranger_is_counted_and_needs_no_memory(served):
     robot = served(Wheel(), clock="live")
-    stranger = link.connect(robot.endpoint, 2.0)
+    stranger = link.connect(robot.endpoint, 2.0, link.credentials(robot.endpoint))
     publisher = stranger.declare_publisher(
         key("robot", "motor", "speed"), congestion_control=link.library().CongestionControl.BLOCK
     )
@@ -251,7 +257,7 @@ def test_a_stranger_cannot_halt_a_robot(served):
     robot = served(SlowToStop(), clock="live")
     world = Zenoh(at=robot.endpoint)
     dd.Session(turning(), world=world).run_live(100)
-    stranger = link.connect(robot.endpoint, 2.0)
+    stranger = link.connect(robot.endpoint, 2.0, link.credentials(robot.endpoint))
     for raw in (WireMessage(np.float32(0), 99, commander=7).to_bytes(), b"DDR1"):
         stranger.put(key("robot", "halt"), raw)
     until(lambda: robot.server.counts["foreign"] == robot.server.counts["bad"] == 1)
@@ -325,7 +331,7 @@ def test_a_query_with_values_of_other_types_is_answered_and_the_robot_goes_on(se
     robot = served(Wheel())
     world = Zenoh(at=robot.endpoint)
     world.reset(0)
-    stranger = link.connect(robot.endpoint, 2.0)
+    stranger = link.connect(robot.endpoint, 2.0, link.credentials(robot.endpoint))
     for time_, message in (("x", "time is 'x'"), (None, "time is None"), ([1], "expected a finite number")):
         asked = {"commander": world._commander, "requests": [["angle", []]], "time": time_}
         (answer,) = stranger.get(key("robot", "read"), payload=codec.line(asked), timeout=5.0)

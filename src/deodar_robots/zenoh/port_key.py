@@ -1,0 +1,89 @@
+"""The key of a port of this machine, by which a robot and its model prove that they are of one user.
+
+Any process of the machine can connect to a port. Zenoh opens a link only to a side that knows the password of
+the key; the password itself does not travel. A model asks the robot for a proof in turn, so that a program
+that took the port cannot show readings. Each port has a key of its own: what is answered to a program at one
+port opens no other one.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import hmac
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from deodar import private_file
+from deodar.codec import Json
+from deodar.errors import WorldError, first_line
+from deodar.model.written import states
+
+_AUTH = "transport/auth/usrpwd/"
+_USER = "deodar"
+
+
+@dataclass(frozen=True)
+class PortKey:
+    """The key of a port.
+
+    Attributes:
+        path: its file, `deodar:PASSWORD`, which Zenoh reads as a dictionary of users.
+        password: the password.
+    """
+
+    path: Path
+    password: str = field(repr=False)
+
+    def of_server(self) -> dict[str, Json]:
+        """Return the settings of Zenoh for the side that listens."""
+        return {f"{_AUTH}dictionary_file": str(self.path)}
+
+    def of_client(self) -> dict[str, Json]:
+        """Return the settings of Zenoh for the side that connects."""
+        return {f"{_AUTH}user": _USER, f"{_AUTH}password": self.password}
+
+    def proof(self, challenge: bytes) -> bytes:
+        """Return what only a program with the key can answer to a challenge."""
+        return hmac.digest(self.password.encode(), challenge, hashlib.sha256)
+
+    def proven(self, challenge: bytes, proof: bytes) -> bool:
+        """Return whether a proof answers a challenge."""
+        return hmac.compare_digest(self.proof(challenge), proof)
+
+
+def path_of(host: str, port: int) -> Path:
+    """Return the path of the key of a port."""
+    return states() / "robots" / (f"{port}-v6" if ":" in host else f"{port}")
+
+
+def kept(host: str, port: int) -> PortKey:
+    """Return the key of a port; it is made at its first use.
+
+    Raises:
+        WorldError: others can read its file, or it cannot be written, or is not a key.
+    """
+    path = path_of(host, port)
+    try:
+        with contextlib.suppress(FileExistsError):
+            if not path.exists():
+                private_file.write(path, f"{_USER}:{private_file.new()}\n")
+        return PortKey(path, _password(path))
+    except (OSError, ValueError) as error:
+        raise WorldError(
+            f"is no key of a robot: {first_line(error)}",
+            where=str(path),
+            fix="Remove it; the next robot at this port makes another one",
+        ) from None
+
+
+def _password(path: Path) -> str:
+    """Return the password in a file; another process may be about to write it."""
+    limit = time.monotonic() + 1.0
+    while not (text := private_file.read(path)) and time.monotonic() < limit:
+        time.sleep(0.02)
+    user, _, password = text.strip().partition(":")
+    if user != _USER or not private_file.FORM.match(password):
+        raise ValueError(f"it does not hold {_USER}: and a password")
+    return password
