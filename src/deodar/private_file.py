@@ -14,7 +14,7 @@ from pathlib import Path
 
 FORM = re.compile(r"^[A-Za-z0-9_-]{32}$")
 DAYS = 30
-"""Days after which a file that nobody used is removed (a guess)."""
+"""Days after which a file that was not used is removed (a guess)."""
 
 
 def new() -> str:
@@ -43,7 +43,7 @@ def read(path: Path) -> str:
 
 
 def write(path: Path, text: str) -> None:
-    """Make a secret file; files beside it that nobody used for `DAYS` days are removed.
+    """Make a secret file; files beside it that were not used for `DAYS` days are removed.
 
     Raises:
         FileExistsError: there is one.

@@ -18,7 +18,7 @@ OTHERS = {
     "recording.netcdf": "the same",
     "deodar_interop.records.cedar": "files in the temporary folder that `places` gives it",
     "figures._encode": "writes into the temporary file that `output` gives it",
-    "deodar_studio.access.token": "a secret of mode 0600, which must not exist before",
+    "private_file": "a secret of mode 0600, which must not exist before",
     "deodar_studio.access.redirect_file": "a secret of mode 0600, in a temporary folder",
     "deodar_studio.world.embodiment": "a file in a temporary folder",
     "deodar_spikes.norse": "the file for norse, in a temporary folder",

@@ -72,7 +72,7 @@ def kept(host: str, port: int) -> PortKey:
         return PortKey(path, _password(path))
     except (OSError, ValueError) as error:
         raise WorldError(
-            f"is no key of a robot: {first_line(error)}",
+            f"cannot be used as the key of a port: {first_line(error)}",
             where=str(path),
             fix="Remove it; the next robot at this port makes another one",
         ) from None
