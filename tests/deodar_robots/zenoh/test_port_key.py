@@ -67,10 +67,10 @@ def robot(wheel: Wheel):
 
 @pytest.fixture
 def world(robot: ServedWorld):
-    made = Zenoh(at=robot.endpoint, patience=5.0)
-    made.reset(0)
-    yield made
-    made.close()
+    model_world = Zenoh(at=robot.endpoint, patience=5.0)
+    model_world.reset(0)
+    yield model_world
+    model_world.close()
 
 
 def file_of(robot: ServedWorld) -> Path:
@@ -81,7 +81,7 @@ def file_of(robot: ServedWorld) -> Path:
 def test_a_process_without_the_key_gets_nothing_and_moves_nothing(wheel, robot, world, tmp_path, user):
     if user and (sys.platform == "win32" or os.geteuid() != 0):
         pytest.skip("only root may become another user")
-    environment = {name: value for name, value in os.environ.items() if name != "DEODAR_STATE"}
+    environment = {name: text for name, text in os.environ.items() if name != "DEODAR_STATE"}
     ran = subprocess.run(
         [sys.executable, "-c", STRANGER, robot.endpoint, str(world._commander), str(user)],
         env=environment | {"HOME": str(tmp_path), "XDG_STATE_HOME": str(tmp_path)},
@@ -96,9 +96,9 @@ def test_a_process_without_the_key_gets_nothing_and_moves_nothing(wheel, robot, 
 def test_the_key_is_a_file_of_the_user_and_each_port_has_another_one(robot):
     file = file_of(robot)
     assert file.stat().st_mode & 0o777 == 0o600 or sys.platform == "win32"
-    found = link.credentials(robot.endpoint)
-    assert found.path == file and found.password not in repr(found)
-    assert link.credentials(robot.endpoint.replace("127.0.0.1", "localhost")) == found
+    port = link.credentials(robot.endpoint)
+    assert port.path == file and port.password not in repr(port)
+    assert link.credentials(robot.endpoint.replace("127.0.0.1", "localhost")) == port
     assert port_key.path_of("[::1]", 7461) != port_key.path_of("127.0.0.1", 7461)
     assert port_key.path_of("127.0.0.1", 7462) != port_key.path_of("127.0.0.1", 7461)
 
@@ -132,13 +132,13 @@ def test_a_model_with_another_key_is_told_which_file_it_used(robot):
 def test_a_program_that_took_the_port_cannot_show_readings():
     """It lets everybody in, as a listener of its own make would, and describes itself as a robot."""
     robot = ServedWorld(Wheel(), "robot")
-    known = link.credentials(robot.endpoint)
+    stolen_port = link.credentials(robot.endpoint)
     robot.close()
-    session = link.listen(robot.endpoint, known)
-    about = robot.server.about.to_text()
-    for proof in (None, b"x" * 32, known.proof(b"another challenge")):
+    session = link.listen(robot.endpoint, stolen_port)
+    description = robot.server.about.to_text()
+    for proof in (None, b"x" * 32, stolen_port.proof(b"another challenge")):
         answer = session.declare_queryable(
-            "robot/about", lambda q, proof=proof: q.reply("robot/about", about, attachment=proof)
+            "robot/about", lambda q, proof=proof: q.reply("robot/about", description, attachment=proof)
         )
         with pytest.raises(WorldError, match="does not prove that it has the key"):
             Zenoh(at=robot.endpoint)
@@ -172,8 +172,8 @@ def test_forged_replayed_and_jumping_commands_move_no_motor(wheel, robot, world)
     host, port = "127.0.0.1", int(robot.endpoint.rpartition(":")[2])
     recorded = bytes(relay.seen)
     for _ in range(300):
-        with socket.create_connection((host, port)) as again:
-            again.sendall(recorded)
+        with socket.create_connection((host, port)) as connection:
+            connection.sendall(recorded)
     assert wheel.angle == 0
     with pytest.warns(RunWarning, match=r"has refused 702 messages so far: 200 of another .*; 502 .* jumps"):
         world.act({"speed": np.ones(1, np.float32)}, 0.0)
