@@ -249,7 +249,7 @@ def key_of(endpoint: str) -> PortKey:
     match = _ENDPOINT.fullmatch(require_endpoint(endpoint))
     if match is None or match[1] == "tls":
         raise WorldError(f"{endpoint} proves itself by certificates", fix=f"Write it as {HERE}")
-    return port_key.kept(match[2], int(match[3]))
+    return port_key.key_at(match[2], int(match[3]))
 
 
 def connect(endpoint: str, patience: float, credentials: Credentials = NO_FILES, router: bool = False) -> Any:

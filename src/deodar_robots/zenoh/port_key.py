@@ -58,7 +58,7 @@ def path_of(host: str, port: int) -> Path:
     return states() / "robots" / (f"{port}-v6" if ":" in host else f"{port}")
 
 
-def kept(host: str, port: int) -> PortKey:
+def key_at(host: str, port: int) -> PortKey:
     """Return the key of a port; it is made at its first use.
 
     Raises:

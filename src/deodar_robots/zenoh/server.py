@@ -93,7 +93,7 @@ class WorldServer:
         self._inbox = CommandInbox(
             world.motors, lambda *step: events.put(("step", step)) if clock == "step" else None, world.period
         )
-        self._told: dict[str, int] = {}
+        self._reported_refusals: dict[str, int] = {}
         self._requests: list[tuple[str, Axes]] = []
         self._readings: list[np.ndarray] | None = None
         self._limiter = MotorLimiter(self.about.motors, self.about.rules)
@@ -222,7 +222,7 @@ class WorldServer:
         self._requests, self._readings, self._deferred = [], None, None
         self._limiter.begin(copies)
         self._inbox.begin(number, copies)
-        self._told = {}
+        self._reported_refusals = {}
         return codec.line({"clock": self.about.clock})
 
     def _read(self, query: Any) -> bytes | None:
@@ -380,8 +380,8 @@ class WorldServer:
     def _tell_refusals(self) -> None:
         """Tell the model how many messages were refused, if there are more than before."""
         refusals = self._inbox.refusals()
-        if refusals != self._told:
-            self._told = refusals
+        if refusals != self._reported_refusals:
+            self._reported_refusals = refusals
             self._publish("refused", codec.line({**refusals}).encode())
 
     def _publish(self, part: str, raw: bytes) -> None:

@@ -147,7 +147,7 @@ class Zenoh(World):
         if len(robots) == 1:
             return robots[0]
         if not robots and robot:
-            others = [about.name for about in self._robots("*/about", self.patience)]
+            others = [other.name for other in self._robots("*/about", self.patience)]
             hint = did_you_mean(robot, others)
             raise WorldError(f"no robot called {robot!r} is at {self.at}", fix=hint)
         if not robots:
@@ -166,10 +166,10 @@ class Zenoh(World):
         replies = self._session.get(named, payload=challenge, timeout=seconds)
         robots: list[About] = []
         for sample in (reply.ok for reply in replies if reply.ok is not None):
-            proof, key = bytes(sample.attachment or b""), self._credentials
-            if isinstance(key, PortKey) and not key.proven(challenge, proof):
+            proof, port = bytes(sample.attachment or b""), self._credentials
+            if isinstance(port, PortKey) and not port.proven(challenge, proof):
                 raise WorldError(
-                    f"the program at {self.at} does not prove that it has the key of this port, {key.path}",
+                    f"the program at {self.at} does not prove that it has the key of this port, {port.path}",
                     fix="Let it answer `about` with the proof, as a robot without deodar does",
                 )
             robots.append(About.from_text(bytes(sample.payload)))
