@@ -1262,8 +1262,8 @@ export type ReturnTo = {
 // The link with a robot in another process, a few times a second.
 //
 // `robot`: its name; empty: the world is in this process. `age`: time since its last message, ms; `lost`:
-// periods that did not arrive; `refused`: messages that were not read; `round_trip`: time from a command to
-// the message that answers it, ms.
+// periods that did not arrive; `refused`: messages that one of both sides refused; `round_trip`: time from a
+// command to the message that answers it, ms.
 export type RobotLink = {
   type: "robot_link";
   robot?: string;

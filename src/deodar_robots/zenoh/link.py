@@ -283,7 +283,7 @@ def connect(endpoint: str, patience: float, credentials: Credentials = NO_FILES,
         key = isinstance(credentials, PortKey)
         files = NO_FILES if key else credentials
         fault, fix = why_not(scheme, host, port, files, max(0.1, 0.1 * patience))
-        who, start = "robot", "Start the robot, for example: deodar serve arena:blocks"
+        who, start = "robot", "Start the robot as this user, for example: deodar serve arena:blocks"
         if router:
             who, start = "router of ROS 2", "Start it: ros2 run rmw_zenoh_cpp rmw_zenohd"
         proof = f" with the key of this port, {credentials.path}" if key else ""
