@@ -100,20 +100,24 @@ def _raising(error: BaseException) -> Callable[..., int]:
 
 
 @pytest.mark.parametrize(
-    ("error", "says"),
+    ("error", "says", "status"),
     [
-        (KeyboardInterrupt(), "stopped"),
-        (PermissionError(13, "Permission denied", "secret.json"), "Permission denied: secret.json"),
-        (OSError(28, "No space left on device"), "No space left on device"),
-        (MemoryError(), "not enough memory"),
-        (dd.errors.MissingExtra("cv2", "vision", "the camera"), "pip install 'deodar[vision]'"),
+        (KeyboardInterrupt(), "stopped", 130),
+        (PermissionError(13, "Permission denied", "secret.json"), "Permission denied: secret.json", 1),
+        (OSError(28, "No space left on device"), "No space left on device", 1),
+        (MemoryError(), "not enough memory", 1),
+        (dd.errors.MissingExtra("cv2", "vision", "the camera"), "pip install 'deodar[vision]'", 1),
     ],
 )
 def test_an_error_of_a_command_is_one_line(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], error: BaseException, says: str
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    error: BaseException,
+    says: str,
+    status: int,
 ) -> None:
     monkeypatch.setattr(cli.COMMANDS["elements"], "run", _raising(error))
-    assert _status(["elements"]) == 1
+    assert _status(["elements"]) == status
     out, err = capsys.readouterr()
     assert not out and err.startswith("deodar elements: ") and says in err
     assert len(err.splitlines()) == 1

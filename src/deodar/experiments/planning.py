@@ -79,13 +79,14 @@ def plan(setup: Setup, steps: int = 200) -> WorkPlan:
     setup.shortened(1).rows(largest)  # compiles
     n = min(steps, setup.steps)
     while True:
+        part = setup.shortened(n)
         began = time.perf_counter()
-        rows = setup.shortened(n).rows(largest)
+        rows = part.rows(largest)
         wall = time.perf_counter() - began
         if wall >= 0.2 or n >= setup.steps:
             break
         n = min(2 * n, setup.steps)
-    seconds = wall * setup.steps / n / len(largest)
+    seconds = wall * setup.steps / part.steps / len(largest)
     row = max(len(codec.line(row, ascii=True)) + 1 for row in rows)
     memory = psutil.Process().memory_info().rss
     return WorkPlan(tuple(map(len, pieces)), seconds, memory, row, int(setup.record_bytes))

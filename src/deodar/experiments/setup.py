@@ -102,8 +102,12 @@ class Setup(Summarised):
         return round(self.experiment.plan.limit / self.dt)
 
     def shortened(self, steps: int) -> Setup:
-        """Return the same setup with another limit, in steps, to measure the time of a step."""
-        plan = dc.replace(self.experiment.plan, limit=steps * self.dt)
+        """Return the same setup with another limit, in steps, to measure the time of a step.
+
+        A trial has at least one sampling interval, so the limit is a whole number of them.
+        """
+        gap = self.experiment.plan.gap(self.dt)
+        plan = dc.replace(self.experiment.plan, limit=math.ceil(steps / gap) * gap * self.dt)
         return Setup(dc.replace(self.experiment, plan=plan), self.model, self.world)
 
     @cached_property

@@ -15,7 +15,7 @@ from deodar import codec
 from deodar.codec import Json
 from deodar.errors import Fix, MissingExtra, WorldError, option
 from deodar_robots.zenoh import port_key
-from deodar_robots.zenoh.port_key import PortKey
+from deodar_robots.zenoh.port_key import RobotKey
 
 _KEYS = "transport/link/tls/"
 
@@ -225,7 +225,7 @@ def require_endpoint(text: str, trusted: bool = False, files: TlsFiles = NO_FILE
     return text
 
 
-Credentials = TlsFiles | PortKey
+Credentials = TlsFiles | RobotKey
 """What a side proves itself with: certificates, or the key of a port of this machine."""
 
 
@@ -239,7 +239,7 @@ def credentials(endpoint: str, trusted: bool = False, files: TlsFiles = NO_FILES
     return files if scheme == "tls" or trusted or host not in LOCAL else key_of(endpoint)
 
 
-def key_of(endpoint: str) -> PortKey:
+def key_of(endpoint: str) -> RobotKey:
     """Return the key of a port of this machine; it is made at its first use.
 
     Raises:
@@ -280,7 +280,7 @@ def connect(endpoint: str, patience: float, credentials: Credentials = NO_FILES,
     try:
         return zenoh.open(config)
     except zenoh.ZError:
-        key = isinstance(credentials, PortKey)
+        key = isinstance(credentials, RobotKey)
         files = NO_FILES if key else credentials
         fault, fix = why_not(scheme, host, port, files, max(0.1, 0.1 * patience))
         who, start = "robot", "Start the robot as this user, for example: deodar serve arena:blocks"
@@ -323,7 +323,7 @@ def _proven(
     scheme: str, credentials: Credentials, settings: Callable[[], dict[str, Json]]
 ) -> dict[str, Json]:
     """Return settings of Zenoh for credentials; none where there is nothing to prove."""
-    return settings() if scheme == "tls" or isinstance(credentials, PortKey) else {}
+    return settings() if scheme == "tls" or isinstance(credentials, RobotKey) else {}
 
 
 def _numbered(endpoint: str) -> str:

@@ -25,7 +25,7 @@ _USER = "deodar"
 
 
 @dataclass(frozen=True)
-class PortKey:
+class RobotKey:
     """The key of a port.
 
     Attributes:
@@ -58,7 +58,7 @@ def path_of(host: str, port: int) -> Path:
     return states() / "robots" / (f"{port}-v6" if ":" in host else f"{port}")
 
 
-def key_at(host: str, port: int) -> PortKey:
+def key_at(host: str, port: int) -> RobotKey:
     """Return the key of a port; it is made at its first use.
 
     Raises:
@@ -69,7 +69,7 @@ def key_at(host: str, port: int) -> PortKey:
         with contextlib.suppress(FileExistsError):
             if not path.exists():
                 private_file.write(path, f"{_USER}:{private_file.new()}\n")
-        return PortKey(path, _password(path))
+        return RobotKey(path, _password(path))
     except (OSError, ValueError) as error:
         raise WorldError(
             f"cannot be used as the key of a port: {first_line(error)}",

@@ -38,7 +38,7 @@ from deodar_robots.zenoh.about import (
 )
 from deodar_robots.zenoh.inboxes import CommandInbox
 from deodar_robots.zenoh.link import TlsFiles
-from deodar_robots.zenoh.port_key import PortKey
+from deodar_robots.zenoh.port_key import RobotKey
 
 MOST_WAITING = 64
 """Most queries that wait for the world; more are refused, so that memory is bounded."""
@@ -151,7 +151,7 @@ class WorldServer:
 
         def describe(request: Any) -> None:
             challenge = bytes(request.payload or b"")
-            proof = credentials.proof(challenge) if isinstance(credentials, PortKey) else None
+            proof = credentials.proof(challenge) if isinstance(credentials, RobotKey) else None
             request.reply(about, text, attachment=proof)
 
         def query(kind: str) -> Callable[[Any], None]:

@@ -38,7 +38,7 @@ from deodar_robots.zenoh.about import (
 )
 from deodar_robots.zenoh.inboxes import REASONS, ReadingInbox
 from deodar_robots.zenoh.link import TlsFiles
-from deodar_robots.zenoh.port_key import PortKey
+from deodar_robots.zenoh.port_key import RobotKey
 from deodar_robots.zenoh.served_world import ServedWorld
 
 SLOWEST = 60.0
@@ -147,7 +147,7 @@ class Zenoh(World):
         if len(robots) == 1:
             return robots[0]
         if not robots and robot:
-            others = [other.name for other in self._robots("*/about", self.patience)]
+            others = [present.name for present in self._robots("*/about", self.patience)]
             hint = did_you_mean(robot, others)
             raise WorldError(f"no robot called {robot!r} is at {self.at}", fix=hint)
         if not robots:
@@ -167,7 +167,7 @@ class Zenoh(World):
         robots: list[About] = []
         for sample in (reply.ok for reply in replies if reply.ok is not None):
             proof, port = bytes(sample.attachment or b""), self._credentials
-            if isinstance(port, PortKey) and not port.proven(challenge, proof):
+            if isinstance(port, RobotKey) and not port.proven(challenge, proof):
                 raise WorldError(
                     f"the program at {self.at} does not prove that it has the key of this port, {port.path}",
                     fix="Let it answer `about` with the proof, as a robot without deodar does",

@@ -27,6 +27,9 @@ SMALLEST = 0.1
 of all signals, which cost time (a guess).
 """
 
+LARGEST = float(np.finfo(np.float32).max)
+"""Largest number of single precision."""
+
 
 def check(wiring: Wiring) -> Iterator[Problem]:
     """Report elements that do not move in single precision, at the document's step."""
@@ -68,7 +71,8 @@ def _spacing(n: Node) -> float:
     is none.
     """
     begin = abs(_begin(n))
-    return float(np.spacing(np.float32(begin))) if begin else 0.0
+    # one that is too large is refused where it is written to the program
+    return float(np.spacing(np.float32(begin))) if 0 < begin <= LARGEST else 0.0
 
 
 def _share(n: Node, step: float) -> float:
