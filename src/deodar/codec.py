@@ -13,6 +13,7 @@ import itertools
 import json
 import math
 import re
+import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias, cast
 
@@ -30,7 +31,7 @@ architecture).
 """
 
 FEW_VALUES = 200_000
-"""Number of values of a file that people write: an experiment, an arena, what is tuned (a guess)."""
+"""Number of values of a file that people write: an arena, a robot, what is tuned (a guess)."""
 
 DEEPEST = 64
 """Largest depth of nesting (a guess, several times that of the deepest known document)."""
@@ -49,6 +50,11 @@ MOST_DIGITS = 300
 
 
 # -------------------------------------------------------------------------------------------------------- out
+
+
+def composed(text: str) -> str:
+    """Return a text with accents as parts of their letters."""
+    return text if text.isascii() else unicodedata.normalize("NFC", text)
 
 
 def text(data: object, indent: int = 2, finite: bool = False) -> str:

@@ -40,9 +40,12 @@ ENDINGS = (
 )
 FILE = rf"(?:[\w.+-]+[/\\]+)*[^\s'\"/\\]+\.(?:{ENDINGS.replace(' ', '|')})"
 
+UNQUOTED = r"[^\s'\"()\[\],;]*(?: [^'\"()\[\],;:\n]*[/\\][^\s'\"()\[\],;]*)?"
+"""The rest of a path without quotation marks: spaces belong to it up to its last separator."""
+
 HIDDEN = (
     (re.compile(r"'[^'\n]*[/\\][^'\n]*'|\"[^\"\n]*[/\\][^\"\n]*\""), "'PATH'"),
-    (re.compile(r"(?:(?<![\w.])(?:~|[A-Za-z]:)?[/\\]+|\bPATH[/\\]+)[\w.~-][^\s'\"()\[\],;]*"), "PATH"),
+    (re.compile(r"(?:(?<![\w.])(?:~|[A-Za-z]:)?[/\\]+|\bPATH[/\\]+)[\w.~-]" + UNQUOTED), "PATH"),
     (re.compile(rf"'[^'\n]*{FILE}'|\"[^\"\n]*{FILE}\"|\b{FILE}\b"), "FILE"),
 )
 """What shows a path or the name of a file, and what replaces it."""

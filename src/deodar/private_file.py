@@ -5,6 +5,7 @@ A process that can read such a file can act as the user anyway.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import secrets
@@ -51,8 +52,9 @@ def write(path: Path, text: str) -> None:
     """
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     for other in path.parent.iterdir():
-        if time.time() - other.stat().st_mtime > DAYS * 86400:
-            other.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):  # another process may have removed it
+            if time.time() - other.lstat().st_mtime > DAYS * 86400:
+                other.unlink()
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o600)
     with os.fdopen(descriptor, "w", encoding="ascii") as file:
         file.write(text)

@@ -1,4 +1,7 @@
 import { type ChildProcess, spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, test } from "vitest";
 
@@ -23,17 +26,24 @@ const DRIVING = {
   connections: [{ source: "go left.output", target: "left.input" }],
 };
 
+// robot and studio find the key of the port in it
+const STATE = mkdtempSync(join(tmpdir(), "deodar-robot-"));
+
 let robot: ChildProcess;
 let studio: Studio;
 let observer: Observer;
 
 beforeAll(async () => {
   const words = ["serve", "arena:blocks", "--at", AT, "--name", "epuck", "--clock", "live"];
-  robot = spawn(python(), ["-m", "deodar", ...words], { stdio: ["ignore", "pipe", "inherit"] });
+  robot = spawn(python(), ["-m", "deodar", ...words], {
+    stdio: ["ignore", "pipe", "inherit"],
+    env: { ...process.env, DEODAR_STATE: STATE },
+  });
   await new Promise((resolve) => robot.stdout?.once("data", resolve));
   studio = await startStudio({
     files: { "driving.json": JSON.stringify(DRIVING) },
     file: "driving.json",
+    state: STATE,
     words: ["--world", `zenoh:epuck, at=${AT}, patience=20`],
   });
   observer = await studio.observe();
@@ -43,6 +53,7 @@ beforeAll(async () => {
 afterAll(async () => {
   await studio.stop();
   robot.kill();
+  rmSync(STATE, { recursive: true, force: true });
 });
 
 const world = () => panel(studio.page, "World");

@@ -25,6 +25,8 @@ export interface StudioOptions extends ServerOptions {
   files?: Record<string, string>;
   /** Folders in it, by name, with their files by name and content. */
   folders?: Record<string, Record<string, string>>;
+  /** The folder of unsaved edits and of keys, if another process shares it. */
+  state?: string;
   colours?: "light" | "dark";
   /** Messages of the browser's console that belong to the test, such as those of a lost connection. */
   expected?: RegExp[];
@@ -72,7 +74,7 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
   };
   const errors: string[] = [];
   try {
-    const state = join(home, "state");
+    const state = options.state ?? join(home, "state");
     let server = await startServer(folder, state, options);
     closing.push(() => server.stop());
     const restart = async (signal?: NodeJS.Signals) => {

@@ -220,7 +220,7 @@ def _probes(
     _require_alone(recorded, request, writes)
     every = [request.every if probe.every is None else probe.every for probe in recorded]
     steps = gaps(every or [request.every], step)
-    for interval, n in zip(every, steps, strict=False):
+    for interval, n in zip(every or [request.every], steps, strict=False):
         require_sampled(interval, n, total, step)
     gap = math.gcd(*steps)
     return recorded, gap, [(n // gap, probe.when) for n, probe in zip(steps, recorded, strict=False)]

@@ -23,6 +23,7 @@ from deodar.compiler import hosts
 from deodar.errors import DeodarError, Interrupted, NotFinite, RunWarning
 from deodar.model.model import Handle, Model
 from deodar.parameters import real
+from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe
 from deodar.resources import Resources, use_resources
 from deodar.session import agreement
@@ -130,7 +131,7 @@ def simulate(
     agreement.warn(model.document, world, stacklevel=2)
     used_step = real(model.document.step if dt is None else dt)
     if used_step is not None and used_step > 0:  # else the run is refused
-        agreement.warn_of_rounding(model.document, used_step, precision, stacklevel=2)
+        agreement.warn_of_rounding(model.document, used_step, Arithmetic.of(precision)[0], stacklevel=2)
     request = SimulationRequest(duration, dt, seed, record, every, trials, sweep, precision, on)
     with hosts.together(places.of_all_hosts(on.devices, on.device)):
         across = hosts.count() > 1 and hosts.span(places.several(on.devices, on.device))

@@ -11,6 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
+from deodar.codec import composed
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, PortAxes, PortBounds, Setting
 from deodar.numerics import resampling
@@ -127,7 +128,7 @@ class Project(Coupling):
         return {"output": jnp.broadcast_to(y, shape(self.axes))}
 
     def _renames(self) -> tuple[tuple[str, str], ...]:
-        return tuple(dict(self.rename).items())
+        return tuple((composed(a), composed(b)) for a, b in dict(self.rename).items())
 
     def _source(self, axes: Axes) -> list[str]:
         names = dict(self._renames())

@@ -252,9 +252,7 @@ class Design(Summarised, Part):
         path = output.location(path)
         with reading(path, DocumentError):
             require_file(path)
-            return cls.from_data(
-                codec.read(regular_file.read_bytes(path), codec.FEW_VALUES), path.parent, read
-            )
+            return cls.from_data(codec.read(regular_file.read_bytes(path)), path.parent, read)
 
     @staticmethod
     def schema() -> dict[str, Any]:

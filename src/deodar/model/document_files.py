@@ -193,10 +193,22 @@ def left_arrays(folder: Path, stem: str = "", named: str = "") -> list[Path]:
     try:
         arrays = [path for path in folder.iterdir() if form.fullmatch(path.name) and path.name != named]
         arrays = [path for path in arrays if time.time() - path.lstat().st_mtime > LEFT_SECONDS]
-        texts = [regular_file.read_bytes(path) for path in folder.glob("*.json") if arrays and path.is_file()]
+        arrays = [path for path in arrays if _is_array_file(path)]
+        texts = [regular_file.read_bytes(path) for path in folder.iterdir() if arrays and _may_name(path)]
     except OSError:
         return []
     return [path for path in arrays if not any(path.name[-ENDING_LENGTH:].encode() in text for text in texts)]
+
+
+def _is_array_file(path: Path) -> bool:
+    """Return whether the name of a file is that of its content, so that `save` wrote it."""
+    digest = hashlib.sha256(regular_file.read_bytes(path)).hexdigest()
+    return path.name[-ENDING_LENGTH:].startswith(digest[:8])
+
+
+def _may_name(path: Path) -> bool:
+    """Return whether a file may be a document, also one that was renamed to keep it."""
+    return path.is_file() and path.suffix != ".npz" and path.stat().st_size <= MOST_BYTES
 
 
 def array_file(content: bytes | str) -> str:

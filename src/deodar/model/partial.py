@@ -76,6 +76,8 @@ def folder(path: Path) -> Generator[Path]:
             shutil.rmtree(inner, ignore_errors=True)
         yield beside
     finally:
+        if (beside / OLD).exists() and not os.path.lexists(path):
+            (beside / OLD).rename(path)
         shutil.rmtree(beside, ignore_errors=True)
         if handle is not None:
             os.close(handle)

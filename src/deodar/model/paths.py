@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import dataclasses as dc
 import hashlib
-import unicodedata
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from deodar import codec
+from deodar.codec import composed
 from deodar.errors import UnknownName
 
 PathNames = tuple[str, ...]
@@ -55,17 +55,14 @@ def split(path: str) -> PathNames:
     return tuple(names)
 
 
-def composed(text: str) -> str:
-    """Return a text with accents as parts of their letters."""
-    return text if text.isascii() else unicodedata.normalize("NFC", text)
-
-
 def known(names: PathNames, taken: Collection[PathNames]) -> PathNames | None:
     """Return names as `taken` has them, which may write accents in another way; None: it lacks them."""
     if names in taken or all(map(str.isascii, names)):
         return names if names in taken else None
-    forms = (tuple(unicodedata.normalize(form, n) for n in names) for form in ("NFC", "NFD"))
-    return next((form for form in forms if form in taken), None)
+    wanted = tuple(map(composed, names))
+    if wanted in taken:
+        return wanted
+    return next((n for n in taken if len(n) == len(wanted) and tuple(map(composed, n)) == wanted), None)
 
 
 @dc.dataclass(frozen=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Self
 
 import numpy as np
 
+from deodar.codec import composed
 from deodar.declarations import Recompile
 from deodar.errors import AxesError, Problem
 from deodar.numerics import units
@@ -78,7 +78,7 @@ class Axis(Summarised):
         if self.name == "":
             problems.append(Problem("axis", "needs a name"))
         elif "name" not in faults:  # axes are matched by name
-            object.__setattr__(self, "name", unicodedata.normalize("NFC", self.name))
+            object.__setattr__(self, "name", composed(self.name))
         if not {"samples", "periodic"} & faults.keys() and self.samples < 2 and not self.periodic:
             problems.append(Problem(where, f"samples is 1; expected 2 to {MOST_SAMPLES}"))
         if not {"lower", "upper"} & faults.keys():

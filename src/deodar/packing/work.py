@@ -135,7 +135,7 @@ def _results_folder(place: Path) -> Work:
 
 
 def _experiment(place: Path) -> Work:
-    design, named = _design(place), codec.read(regular_file.read_bytes(place), codec.FEW_VALUES)
+    design, named = _design(place), codec.read(regular_file.read_bytes(place))
     doc = opening.load(str(design.model)).document
     beside = [place, *_model_files(place, str(named["model"]))]
     kind, _, argument = str(named.get("world", "")).partition(":")

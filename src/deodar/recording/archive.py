@@ -102,14 +102,15 @@ class Archive:
         """
         try:
             group = codec.parse(self._zip.read(f"{name}/{META}"))
-        except Exception as error:  # libraries that read untrusted bytes may raise any exception
-            raise self._damaged(error, name) from None
-        with reading(f"{self.where}: {name}", RecordError):
-            portable.require_proof(group["attributes"], True)
-        try:
+            with reading(f"{self.where}: {name}", RecordError):
+                portable.require_proof(group["attributes"], True)
             members: Mapping[str, Any] = group["consolidated_metadata"]["metadata"]
             variables = {new: self._variable(name, new, metadata) for new, metadata in members.items()}
             return portable.unpack(xarray.Dataset(variables, attrs=group["attributes"]))
+        except RecordError as error:
+            if isinstance(error, DamagedFile):
+                raise self._damaged(error, name) from None
+            raise
         except Exception as error:  # libraries that read untrusted bytes may raise any exception
             raise self._damaged(error, name) from None
 

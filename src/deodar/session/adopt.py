@@ -26,8 +26,10 @@ def adopt(run: Run, doc: Document, steps: Iterable[float]) -> str:
         ParameterError: a state cannot be carried.
     """
     new = run.continued(doc)
-    if new is None or new.limiting:
+    if new is None:
         require(run, doc, steps)
+    elif new.limiting:
+        _require_steps(run, doc, steps)
     if new is not None:
         run.change(new)
         return new.cost
@@ -40,7 +42,11 @@ def adopt(run: Run, doc: Document, steps: Iterable[float]) -> str:
 
 def require(run: Run, doc: Document, steps: Iterable[float]) -> None:
     """Raise an error for a document that a run cannot continue with, as `adopt` does."""
+    _require_steps(run, doc, steps)
+    require_carried(run, doc)
+
+
+def _require_steps(run: Run, doc: Document, steps: Iterable[float]) -> None:
     for step in set(steps):
         require_step(doc, step)
     run.exchange.require(doc)
-    require_carried(run, doc)

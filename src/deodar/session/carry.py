@@ -70,9 +70,12 @@ def put_rows(
         for row, target in zip(
             states[ident], (state["groups"][g], state["held"].get(str(g), {})), strict=True
         ):
-            fresh = {name: np.asarray(values[(*copy, r)]) for name, values in target.items()}
             try:
-                new = _carried(before[ident], row, after[ident], fresh)
+                if before[ident] is after[ident]:
+                    new = {name: row[name] for name in target}
+                else:
+                    fresh = {name: np.asarray(values[(*copy, r)]) for name, values in target.items()}
+                    new = _carried(before[ident], row, after[ident], fresh)
             except Uncarried as reason:
                 reasons[ident] = str(reason)
                 continue
@@ -216,13 +219,17 @@ def _partners(was: Sequence[Dimension], becomes: Sequence[Dimension]) -> list[in
     """
     free = list(range(len(was)))
     partners: list[int | None] = []
-    for d in becomes:
-        k = next((k for k in free if _same_name(was[k], d)), None)
-        free = [n for n in free if n != k]
+    for n, d in enumerate(becomes):  # of several of one name that of the same place
+        k = n if n < len(was) and _same_name(was[n], d) else None
+        free = [m for m in free if m != k]
         partners.append(k)
     for n, d in enumerate(becomes):
         if partners[n] is None:
-            k = next((k for k in free if _renamed(was[k], d)), None)
+            partners[n] = k = next((k for k in free if _same_name(was[k], d)), None)
+            free = [m for m in free if m != k]
+    for n, d in enumerate(becomes):
+        if partners[n] is None:
+            k = next((k for k in sorted(free, key=lambda k: k != n) if _renamed(was[k], d)), None)
             if k is None:
                 raise Uncarried(f"nothing is known along {_named(d)}")
             free.remove(k)

@@ -82,9 +82,15 @@ def beginning(run: Run, snapshot: SessionSnapshot) -> Document:
     by, entries = rows(run.program, state), run.doc.by_id()
     values: dict[str, np.ndarray] = {}
     for ident, name in (place.split(".", 1) for place in learned(snapshot)):
+        # one that was stated after the values were kept stays
+        before = snapshot.document.by_id()[ident].element
+        if ident in entries and getattr(before, name, None) is not getattr(
+            entries[ident].element, name, None
+        ):
+            continue
         if ident in reasons:
             raise ParameterError(
-                f"what was snapshot cannot be carried: {reasons[ident]}",
+                f"what was learned cannot be carried: {reasons[ident]}",
                 where=entries[ident].path,
                 fix="Keep it again, or make another session",
             )

@@ -153,5 +153,8 @@ def _channels(picture: OpenedPicture) -> np.ndarray:
     upright = ImageOps.exif_transpose(picture)
     if upright.mode[0] not in "IF":
         return np.asarray(upright.convert("RGB"))
-    grey = np.asarray(upright, np.float64) / (1.0 if upright.mode == "F" else DEEPEST)
+    grey = np.asarray(upright, np.float64)
+    largest = grey.max(initial=0.0)
+    whole = 1.0 if upright.mode == "F" and largest <= 1 else 255.0 if largest <= 255 else DEEPEST
+    grey = np.clip(grey / (DEEPEST if upright.mode.startswith("I;16") else whole), 0.0, 1.0)
     return np.repeat(grey[:, :, None], CHANNELS, axis=2)

@@ -27,7 +27,8 @@ def test_no_other_module_imports_json() -> None:
         if (isinstance(node, ast.Import) and any(alias.name == "json" for alias in node.names))
         or (isinstance(node, ast.ImportFrom) and node.module == "json")
     }
-    assert found == {"codec"}
+    # messages of the child that reads files of others have marks in their objects
+    assert found == {"codec", "guarded.channel"}
 
 
 @pytest.mark.parametrize("name", examples.names())
