@@ -15,7 +15,7 @@ from pathlib import Path
 
 FORM = re.compile(r"^[A-Za-z0-9_-]{32}$")
 DAYS = 30
-"""Days after which a file that was not used is removed (a guess)."""
+"""Days after which a file that was not used is old (a guess)."""
 
 
 def new() -> str:
@@ -27,9 +27,11 @@ def read(path: Path) -> str:
     """Return the text of a secret file, and note that it was used.
 
     Raises:
-        OSError: there is no such file, it is not a regular one, or another user owns it or can access it.
+        OSError: there is no such file, it is not a regular one, or another user owns it or can access it, or
+            can change its folder.
         ValueError: it holds no text.
     """
+    _require_own(path.parent)
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
     with os.fdopen(descriptor, "rb") as file:
         about = os.fstat(file.fileno())
@@ -38,23 +40,37 @@ def read(path: Path) -> str:
         if os.name == "posix" and (about.st_uid != os.geteuid() or about.st_mode & 0o077):
             raise PermissionError("others can access it, or own it")
         text = file.read(256).decode("ascii")
-        if os.utime in os.supports_fd:
-            os.utime(file.fileno())
+        # the time of a file on a disk that is only read stays
+        with contextlib.suppress(OSError):
+            if os.utime in os.supports_fd:
+                os.utime(file.fileno())
     return text
 
 
 def write(path: Path, text: str) -> None:
-    """Make a secret file; files beside it that were not used for `DAYS` days are removed.
+    """Make a secret file.
 
     Raises:
         FileExistsError: there is one.
-        OSError: the system refused.
+        OSError: the system refused, or another user can change its folder.
     """
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    for other in path.parent.iterdir():
-        with contextlib.suppress(OSError):  # another process may have removed it
-            if time.time() - other.lstat().st_mtime > DAYS * 86400:
-                other.unlink()
+    _require_own(path.parent)
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o600)
     with os.fdopen(descriptor, "w", encoding="ascii") as file:
         file.write(text)
+
+
+def remove_old(folder: Path) -> None:
+    """Remove the files of a folder that were not used for `DAYS` days."""
+    for file in folder.iterdir() if folder.is_dir() else ():
+        with contextlib.suppress(OSError):  # another process may have removed it
+            if time.time() - file.lstat().st_mtime > DAYS * 86400:
+                file.unlink()
+
+
+def _require_own(folder: Path) -> None:
+    """Refuse a folder in which another user can replace files."""
+    about = folder.stat()
+    if os.name == "posix" and (about.st_uid not in (os.geteuid(), 0) or about.st_mode & 0o022):
+        raise PermissionError(f"others can change its folder, {folder}")

@@ -65,6 +65,7 @@ class Channel:
         self._source, self._sink, self._mark = source, sink, mark
         self.longest = self.deadline = math.inf
         self.functions = functions
+        self._begun = functions is None
 
     def send(self, word: str, content: PlainData = None) -> None:
         """Send a message.
@@ -105,6 +106,11 @@ class Channel:
             BrokenChannel: the other side has ended, is late, or sends what is no message, or one that is too
                 long.
         """
+        if not self._begun:
+            head = b""
+            while not head.endswith(self._mark.encode()):
+                head = head[-len(self._mark) :] + self._read(1)
+            self._begun = True
         length, count = self._numbers(2)
         if 8 * count > self.longest:
             raise BrokenChannel

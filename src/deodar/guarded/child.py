@@ -61,7 +61,9 @@ def main() -> None:
 
         # a file of the memory of a reader that crashed is of no use
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    sink.write(sys.argv[1].encode())  # what was written before is no message
     channel = Channel(source, sink, sys.argv[1])
+    sink.flush()
     with contextlib.suppress(BrokenChannel):
         while True:
             word, content = channel.receive()
@@ -71,7 +73,7 @@ def main() -> None:
 
 def _answer(channel: Channel, request: ChildRequest) -> None:
     try:
-        os.chdir(request.folder)
+        _enter(request.folder)
         function = pkgutil.resolve_name(request.function)
         with limited(request):
             answer = function(*request.values)
@@ -87,6 +89,15 @@ def _answer(channel: Channel, request: ChildRequest) -> None:
         channel.send("error", error_data(error))
     except BaseException as error:  # a panic of Rust is no Exception
         channel.send("failed", f"{type(error).__name__}: {first_line(error)}"[:300])
+
+
+def _enter(folder: str) -> None:
+    """Enter the working folder of the parent; one that was removed, or may not be entered, has no files."""
+    try:
+        if os.getcwd() != folder:
+            os.chdir(folder)
+    except OSError:
+        os.chdir(os.sep)
 
 
 def _send_items(channel: Channel, items: Iterator[PlainData], request: ChildRequest) -> None:

@@ -9,6 +9,7 @@ import secrets
 import signal
 import subprocess
 import sys
+import sysconfig
 import threading
 import time
 import weakref
@@ -62,7 +63,7 @@ class Child:
             stderr=subprocess.DEVNULL,
             env={
                 **os.environ,
-                "PYTHONPATH": os.pathsep.join(path or os.getcwd() for path in sys.path),
+                "PYTHONPATH": _search_path(),
                 "JAX_PLATFORMS": "cpu",
                 "OPENBLAS_NUM_THREADS": "1",
                 "RUST_BACKTRACE": "0",
@@ -103,9 +104,12 @@ class Child:
                 self._reply(*cast("tuple[int, list[PlainData]]", content))
                 word, content = self._channel.receive()
         except BrokenChannel as broken:
+            late = isinstance(broken, LateChannel)
+            if not late:
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    self._process.wait(1)
             self._process.kill()
             status = self._process.wait()
-            late = isinstance(broken, LateChannel)
             raise EndedChild(_ended_by(status, self._seconds if late else None)) from None
         self.yields, self.useful = word == "item", word in ("value", "error")
         return word, content
@@ -164,6 +168,19 @@ def _end(process: subprocess.Popen[bytes], parent: int) -> None:
     if os.getpid() == parent:
         process.kill()
         process.communicate()
+
+
+def _search_path() -> str:
+    """Return where the child finds modules: those of Python first, so that no file of a user hides one."""
+    own = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
+    own |= {os.path.join(folder, "lib-dynload") for folder in own}
+    found = [
+        str(path) for path in sys.path if isinstance(path, (str, os.PathLike)) and str(path) not in ("", ".")
+    ]
+    if "" in sys.path:
+        with contextlib.suppress(FileNotFoundError):
+            found.append(os.getcwd())
+    return os.pathsep.join(sorted(found, key=lambda path: path not in own))
 
 
 def _enlarge(descriptor: int) -> None:

@@ -80,7 +80,7 @@ class GuardedFile:
     def _busy_child(self, function: Callable[P, T], values: tuple[object, ...]) -> Generator[Child]:
         name = f"{function.__module__}:{function.__name__}"
         plain = cast("tuple[PlainData, ...]", values)
-        request = ChildRequest(name, plain, self.memory, self.seconds, os.getcwd())
+        request = ChildRequest(name, plain, self.memory, self.seconds, _here())
         with children().child(name) as child:
             child.request(request)
             try:
@@ -103,3 +103,11 @@ class GuardedFile:
             where=self.where,
             fix="It is damaged, or larger than what is read; use another file",
         )
+
+
+def _here() -> str:
+    """Return the working folder; "" if it was removed."""
+    try:
+        return os.getcwd()
+    except FileNotFoundError:
+        return ""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from deodar.codec import Json
-from deodar.errors import WorldError
+from deodar.errors import WorldError, reading
 from deodar.guarded.guarded_file import GuardedFile
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import show
@@ -111,11 +111,13 @@ def _read(path: Path) -> np.ndarray:
             where=str(path),
             fix="Name a file that Pillow can read, such as a .jpg or .png",
         )
-    return _array(GuardedFile(WorldError, str(path)).call(pixels_of, str(path)))
+    pixels = GuardedFile(WorldError, str(path)).call(pixels_of, str(path))
+    with reading(path, WorldError):
+        return _array(pixels if pixels.ndim == 3 else np.repeat(pixels[:, :, None], CHANNELS, axis=2))
 
 
 def pixels_of(path: str) -> np.ndarray:
-    """Return the pixels of a file, height x width x 3, as `_channels` does; in a child process.
+    """Return the pixels of a file as `_channels` does; in a child process.
 
     Raises:
         WorldError: it is no picture, or has more than MOST_PIXELS pixels.
@@ -144,17 +146,20 @@ def pixels_of(path: str) -> np.ndarray:
 
 
 def _channels(picture: OpenedPicture) -> np.ndarray:
-    """Return the pixels, height x width x 3, the way up that the file states.
+    """Return the pixels, the way up that the file states: bytes, height x width x 3.
 
-    They are bytes, or 0 to 1 of a picture of 16 bits or of floating-point numbers.
+    Of a grey picture of 16 or 32 bits, or of floating-point numbers, they are 0 to 1, height x width. A file
+    of the last two does not state its white: that is 1, 255 or 65535, the first that no value exceeds.
     """
     from PIL import ImageOps  # start-up time
 
     upright = ImageOps.exif_transpose(picture)
     if upright.mode[0] not in "IF":
         return np.asarray(upright.convert("RGB"))
-    grey = np.asarray(upright, np.float64)
+    grey = np.array(upright, np.float32)
     largest = grey.max(initial=0.0)
-    whole = 1.0 if upright.mode == "F" and largest <= 1 else 255.0 if largest <= 255 else DEEPEST
-    grey = np.clip(grey / (DEEPEST if upright.mode.startswith("I;16") else whole), 0.0, 1.0)
-    return np.repeat(grey[:, :, None], CHANNELS, axis=2)
+    if upright.mode.startswith("I;16") or largest > 255:
+        grey /= DEEPEST
+    elif upright.mode == "I" or largest > 1:
+        grey /= 255
+    return grey

@@ -18,7 +18,7 @@ from pathlib import Path
 from deodar import private_file
 from deodar.codec import Json
 from deodar.errors import WorldError, first_line
-from deodar.model.written import states
+from deodar.model.written import STATES, states
 
 _AUTH = "transport/auth/usrpwd/"
 _USER = "deodar"
@@ -64,17 +64,24 @@ def key_at(host: str, port: int) -> RobotKey:
     Raises:
         WorldError: others can read its file, or it cannot be written, or is not a key.
     """
-    path = path_of(host, port)
+    try:
+        path = path_of(host, port)
+    except RuntimeError:  # no home folder is known
+        raise WorldError(
+            "there is no folder for the key of a port, because this user has no home folder",
+            fix=f"State a folder in the variable {STATES}",
+        ) from None
     try:
         with contextlib.suppress(FileExistsError):
             if not path.exists():
                 private_file.write(path, f"{_USER}:{private_file.new()}\n")
         return RobotKey(path, _password(path))
     except (OSError, ValueError) as error:
+        remove = "Remove it; the next robot at this port makes another one"
         raise WorldError(
             f"cannot be used as the key of a port: {first_line(error)}",
             where=str(path),
-            fix="Remove it; the next robot at this port makes another one",
+            fix=remove if path.exists() else f"State a folder that you can write in the variable {STATES}",
         ) from None
 
 

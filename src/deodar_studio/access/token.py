@@ -48,5 +48,6 @@ def kept(folder: Path, port: int) -> str:
     token = private_file.new()
     with contextlib.suppress(OSError):
         place.unlink(missing_ok=True)
+        private_file.remove_old(place.parent)
         private_file.write(place, token)
     return token

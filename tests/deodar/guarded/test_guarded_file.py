@@ -192,3 +192,37 @@ def _runs(pid: int) -> bool:
         return psutil.Process(pid).status() != psutil.STATUS_ZOMBIE
     except psutil.NoSuchProcess:
         return False
+
+
+IN_A_PROCESS = """
+import os, sys
+sys.path.insert(0, "")
+import deodar.worlds.picture
+from PIL import Image
+Image.new("RGB", (4, 3)).save(sys.argv[1] + "/picture.png")
+os.chdir(sys.argv[2])
+if sys.argv[2].endswith("removed"):
+    os.rmdir(sys.argv[2])
+print(deodar.worlds.picture.Picture(sys.argv[1] + "/picture.png").pixels.shape)
+"""
+
+
+@pytest.mark.parametrize("folder", ["hiding", "removed"])
+def test_the_working_folder_hides_no_module_and_may_be_gone(tmp_path: Path, folder: str) -> None:
+    (tmp_path / folder).mkdir()
+    if folder == "hiding":
+        (tmp_path / folder / "random.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'w').close()")
+        (tmp_path / folder / "resource.py").write_text("raise SystemError")
+    command = [sys.executable, "-c", IN_A_PROCESS, str(tmp_path), str(tmp_path / folder)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stdout == "(3, 4, 3)\n", done.stderr
+    assert not (tmp_path / "ran").exists()
+
+
+def test_what_python_prints_at_its_start_is_no_message(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text('print("hello")')
+    (tmp_path / "folder").mkdir()
+    command = [sys.executable, "-c", IN_A_PROCESS, str(tmp_path), str(tmp_path / "folder")]
+    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert done.stdout.endswith("(3, 4, 3)\n"), done.stderr

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import shutil
 import subprocess
@@ -205,16 +206,25 @@ def test_a_save_that_fails_leaves_no_array_file(tmp_path: Path, monkeypatch: pyt
 
 
 def test_array_files_without_a_document_are_taken_away_by_its_next_save(tmp_path: Path) -> None:
-    names_of = ("m.00000001.npz", "m.00000002.npz", "m.00000003.npz", "other.00000004.npz")
-    for name in names_of:
-        (tmp_path / name).write_bytes(b"")
-    (tmp_path / "copy.json").write_text('{"arrays": {"file": "m.00000002.npz"}}')
-    for name in (names_of[0], names_of[1], names_of[3]):
+    def array_file_of(stem: str, content: bytes) -> str:
+        name = f"{stem}.{hashlib.sha256(content).hexdigest()[:8]}.npz"
+        (tmp_path / name).write_bytes(content)
+        return name
+
+    left, named, young, others = (
+        array_file_of(stem, content)
+        for stem, content in (("m", b"1"), ("m", b"2"), ("m", b"3"), ("other", b"4"))
+    )
+    date = "m.20261128.npz"  # of the user: its name is not that of its content
+    (tmp_path / date).write_bytes(b"5")
+    (tmp_path / "m.old").write_text(f'{{"arrays": {{"file": "{named}"}}}}')
+    for name in (left, named, others, date):
         os.utime(tmp_path / name, (0, 0))
     dd.save(model(), tmp_path / "m.json")
-    (array_file,) = set(names(tmp_path)) - {*names_of, "copy.json", "m.json"}
+    stay = {named, young, others, date, "m.old", "m.json"}
+    (array_file,) = set(names(tmp_path)) - stay
     os.utime(tmp_path / array_file, (0, 0))
-    assert names(tmp_path) == sorted([array_file, "copy.json", "m.json", *names_of[1:]])
-    assert document_files.left_arrays(tmp_path) == [tmp_path / names_of[3]]
+    assert names(tmp_path) == sorted([array_file, *stay])
+    assert document_files.left_arrays(tmp_path) == [tmp_path / others]
     dd.save(model(1), tmp_path / "m.json", force=True)
     assert array_file not in names(tmp_path) and dd.load(tmp_path / "m.json").document == model(1).document

@@ -148,3 +148,12 @@ def test_accents_of_both_forms_of_unicode_are_one_name() -> None:
         u >> v
         assert model[f"{first}.v.activation"] is not None and not model.check()
         assert display(model.document.entries[0].names) == f"{first} u", "files keep what was written"
+
+
+@pytest.mark.parametrize("name", ["R\u2126.r", "k\u2126", "e\u0301\u00e9"])
+def test_an_element_is_found_by_its_own_path_however_its_accents_are_written(name: str) -> None:
+    model = dd.Model("m")
+    model.add(dd.Field(name, [dd.Axis("x", 0, 10, samples=11)]))
+    (entry,) = model.document.entries
+    model.set(f"{entry.path}.tau", 20.0)
+    assert model.document.entries[0].element.tau == 20.0  # type: ignore[attr-defined]

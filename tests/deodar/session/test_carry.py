@@ -307,3 +307,23 @@ def test_a_failed_reset_or_restore_changes_nothing() -> None:
             call()
         assert (s.tick, s.seed, s.world, s.journal) == (5, 1, world, [])
         assert np.array_equal(s.read("u.activation"), before)
+
+
+def test_of_two_axes_of_one_name_that_of_the_same_place_is_continued() -> None:
+    x = dd.Axis("x", 0, 10, samples=11)
+    model = dd.Model("pair")
+    start = np.arange(121.0).reshape(11, 11) / 100
+    u, v = model.add(dd.Field("u", [x])), model.add(dd.Field("v", [x]))
+    u >> model.add(dd.AdaptiveWeights([x], start=start, rate=0.0, name="w")) >> v
+    s = dd.Session(model, precision="float64")
+    s.set({"u.axes": [dd.Axis("y", 0, 10, samples=11)]})
+    weights = [row[0]["weights"] for row in s.snapshot().states.values() if "weights" in row[0]]
+    assert np.array_equal(weights[0], start)
+
+
+def test_what_is_stated_after_keep_stays() -> None:
+    s = running()
+    s.keep()
+    s.set("trace.start", np.full(101, 0.25))
+    s.reset()
+    assert np.allclose(s.read("trace.output"), 0.25)

@@ -176,3 +176,10 @@ def test_a_picture_with_numbers_beyond_its_range_is_refused(tmp_path: Path) -> N
     Image.fromarray(np.full((4, 4), 70_000, np.int32)).save(tmp_path / "deep.tif")
     with pytest.raises(WorldError, match=r"0 to 255 .* or 0 to 1"):
         Picture(tmp_path / "deep.tif")
+
+
+@pytest.mark.parametrize(("dtype", "factor"), [("int32", 1), ("float32", 1), ("float32", 1 / 255)])
+def test_a_grey_picture_of_another_form_has_its_own_white(tmp_path: Path, dtype: str, factor: float) -> None:
+    grey = np.linspace(0, 255, 12).reshape(3, 4)
+    Image.fromarray((grey * factor).astype(dtype)).save(tmp_path / "grey.tiff")
+    assert np.allclose(dd.Picture(tmp_path / "grey.tiff").pixels[:, :, 1], grey / 255, atol=1 / 255)
