@@ -172,15 +172,15 @@ def _end(process: subprocess.Popen[bytes], parent: int) -> None:
 
 def _search_path() -> str:
     """Return where the child finds modules: those of Python first, so that no file of a user hides one."""
-    own = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
-    own |= {os.path.join(folder, "lib-dynload") for folder in own}
-    found = [
+    python = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
+    python |= {os.path.join(folder, "lib-dynload") for folder in python}
+    folders = [
         str(path) for path in sys.path if isinstance(path, (str, os.PathLike)) and str(path) not in ("", ".")
     ]
     if "" in sys.path:
         with contextlib.suppress(FileNotFoundError):
-            found.append(os.getcwd())
-    return os.pathsep.join(sorted(found, key=lambda path: path not in own))
+            folders.append(os.getcwd())
+    return os.pathsep.join(sorted(folders, key=lambda path: path not in python))
 
 
 def _enlarge(descriptor: int) -> None:

@@ -80,7 +80,7 @@ class GuardedFile:
     def _busy_child(self, function: Callable[P, T], values: tuple[object, ...]) -> Generator[Child]:
         name = f"{function.__module__}:{function.__name__}"
         plain = cast("tuple[PlainData, ...]", values)
-        request = ChildRequest(name, plain, self.memory, self.seconds, _here())
+        request = ChildRequest(name, plain, self.memory, self.seconds, _working_folder())
         with children().child(name) as child:
             child.request(request)
             try:
@@ -105,7 +105,7 @@ class GuardedFile:
         )
 
 
-def _here() -> str:
+def _working_folder() -> str:
     """Return the working folder; "" if it was removed."""
     try:
         return os.getcwd()

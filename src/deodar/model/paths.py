@@ -59,10 +59,10 @@ def known(names: PathNames, taken: Collection[PathNames]) -> PathNames | None:
     """Return names as `taken` has them, which may write accents in another way; None: it lacks them."""
     if names in taken or all(map(str.isascii, names)):
         return names if names in taken else None
-    wanted = tuple(map(composed, names))
-    if wanted in taken:
-        return wanted
-    return next((n for n in taken if len(n) == len(wanted) and tuple(map(composed, n)) == wanted), None)
+    letters = tuple(map(composed, names))
+    if letters in taken:
+        return letters
+    return next((n for n in taken if len(n) == len(letters) and tuple(map(composed, n)) == letters), None)
 
 
 @dc.dataclass(frozen=True)

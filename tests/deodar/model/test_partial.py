@@ -211,14 +211,14 @@ def test_array_files_without_a_document_are_taken_away_by_its_next_save(tmp_path
         (tmp_path / name).write_bytes(content)
         return name
 
-    left, named, young, others = (
+    unnamed, named, young, others = (
         array_file_of(stem, content)
         for stem, content in (("m", b"1"), ("m", b"2"), ("m", b"3"), ("other", b"4"))
     )
     date = "m.20261128.npz"  # of the user: its name is not that of its content
     (tmp_path / date).write_bytes(b"5")
     (tmp_path / "m.old").write_text(f'{{"arrays": {{"file": "{named}"}}}}')
-    for name in (left, named, others, date):
+    for name in (unnamed, named, others, date):
         os.utime(tmp_path / name, (0, 0))
     dd.save(model(), tmp_path / "m.json")
     stay = {named, young, others, date, "m.old", "m.json"}
