@@ -68,7 +68,7 @@ def key_at(host: str, port: int) -> RobotKey:
         path = path_of(host, port)
     except RuntimeError:  # no home folder is known
         raise WorldError(
-            "there is no folder for the key of a port, because this user has no home folder",
+            "the key of a port has no place, because this user has no home folder",
             fix=f"State a folder in the variable {STATES}",
         ) from None
     try:
