@@ -147,7 +147,7 @@ class Part(metaclass=PartType):
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
-        problems = [*set_normal(self)] or [Problem(where, what) for where, what in self.validate()]
+        problems = [*set_normal(self)] or [Problem(where, fault) for where, fault in self.validate()]
         if problems:
             kind = type(self).__name__
             raise ParameterError([dc.replace(p, where=f"{kind}.{p.where}") for p in problems])
@@ -181,10 +181,10 @@ class Part(metaclass=PartType):
 
 def require_known(cls: type[Any], args: Sequence[Any], values: Mapping[str, Any]) -> None:
     """Refuse a call with a name that is no parameter of a class, or with too many values by position."""
-    known = [p.name for p in parameters(cls)]
+    declared = [p.name for p in parameters(cls)]
     for name in values:
-        if name not in known:
-            raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, known))
+        if name not in declared:
+            raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, declared))
     if len(args) > len(positional(cls)):
         raise ParameterError(
             f"{cls.__name__} takes {len(positional(cls))} values by position, not {len(args)}",
@@ -195,13 +195,13 @@ def require_known(cls: type[Any], args: Sequence[Any], values: Mapping[str, Any]
 def set_normal(part: Any) -> Iterator[Problem]:
     """Give each parameter of a new object its stored form; yield the problems of those that have none."""
     for p in parameters(type(part)):
-        given = getattr(part, p.name)
-        if isinstance(p.default, Needed) and (given is None or isinstance(given, Needed)):
+        argument = getattr(part, p.name)
+        if isinstance(p.default, Needed) and (argument is None or isinstance(argument, Needed)):
             yield Problem(p.name, f"{type(part).__name__} needs {p.name}", _call(type(part), p))
             continue
         try:
             # an unchanged object is kept, so that changes can be detected by identity
-            if not _same(stored := normal(p, given), given):
+            if not _same(stored := normal(p, argument), argument):
                 object.__setattr__(part, p.name, stored)
         except ValueError as error:
             yield Problem(p.name, str(error))

@@ -34,10 +34,10 @@ def read(path: Path) -> str:
     _require_own(path.parent)
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
     with os.fdopen(descriptor, "rb") as file:
-        about = os.fstat(file.fileno())
-        if not stat.S_ISREG(about.st_mode):
+        status = os.fstat(file.fileno())
+        if not stat.S_ISREG(status.st_mode):
             raise OSError("it is not a regular file")
-        if os.name == "posix" and (about.st_uid != os.geteuid() or about.st_mode & 0o077):
+        if os.name == "posix" and (status.st_uid != os.geteuid() or status.st_mode & 0o077):
             raise PermissionError("others can access it, or own it")
         text = file.read(256).decode("ascii")
         # the time of a file on a disk that is only read stays
@@ -71,6 +71,6 @@ def remove_old(folder: Path) -> None:
 
 def _require_own(folder: Path) -> None:
     """Refuse a folder in which another user can replace files."""
-    about = folder.stat()
-    if os.name == "posix" and (about.st_uid not in (os.geteuid(), 0) or about.st_mode & 0o022):
+    status = folder.stat()
+    if os.name == "posix" and (status.st_uid not in (os.geteuid(), 0) or status.st_mode & 0o022):
         raise PermissionError(f"others can change its folder, {folder}")

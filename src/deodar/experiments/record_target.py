@@ -127,8 +127,8 @@ class PieceRecords:
 
     def put(self) -> JsonObject:
         """Store all records as one object; return its entry in the rows."""
-        about = {OBJECT_VERSION: VERSION, file_version.KEY: file_version.HERE, "trials": self._entries}
-        content = self._writer.close(about)
+        attributes = {OBJECT_VERSION: VERSION, file_version.KEY: file_version.HERE, "trials": self._entries}
+        content = self._writer.close(attributes)
         return self._target.put(self._trials, content)
 
 

@@ -53,10 +53,12 @@ class _Opened:
             self.close()
             self.name = ""
             self.archive = Archive(self.store.open(name), f"{self.store.shown}/{name}")
-            about = self.archive.attributes
+            attributes = self.archive.attributes
             with reading(self.archive.where, RecordError):
-                version = about.get(OBJECT_VERSION, 1)
-                file_version.require_readable("an object of a store", version, VERSION, about, RecordError)
+                version = attributes.get(OBJECT_VERSION, 1)
+                file_version.require_readable(
+                    "an object of a store", version, VERSION, attributes, RecordError
+                )
             self.name = name
         return self.archive
 

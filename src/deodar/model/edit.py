@@ -19,7 +19,7 @@ from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, 
 from deodar.leaves import replace
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, DocumentParameter, Entry, Use
-from deodar.model.paths import PathNames, display, known, stored_id
+from deodar.model.paths import PathNames, as_taken, display, stored_id
 from deodar.numerics.axes import Axis
 from deodar.parameters import Reference, is_text, parameters, real, show
 
@@ -633,12 +633,12 @@ def _vacant(
             "elements and groups need names, not"
             f" {next(n for n in names if not isinstance(n, str) or not n or not is_text(n))!r}"
         )
-    other = known(names, taken)
-    if other is not None:
+    occupied = as_taken(names, taken)
+    if occupied is not None:
         raise ModelError(
-            f"there is already an element {taken[other].path!r}", fix="Give one of them another name"
+            f"there is already an element {taken[occupied].path!r}", fix="Give one of them another name"
         )
-    if known(names, groups) is not None:
+    if as_taken(names, groups) is not None:
         raise ModelError(f"there is already a group {display(names)!r}", fix="Give one of them another name")
     for k in range(1, len(names)):
         if names[:k] in taken:

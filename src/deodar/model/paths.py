@@ -55,7 +55,7 @@ def split(path: str) -> PathNames:
     return tuple(names)
 
 
-def known(names: PathNames, taken: Collection[PathNames]) -> PathNames | None:
+def as_taken(names: PathNames, taken: Collection[PathNames]) -> PathNames | None:
     """Return names as `taken` has them, which may write accents in another way; None: it lacks them."""
     if names in taken or all(map(str.isascii, names)):
         return names if names in taken else None
@@ -96,7 +96,7 @@ def readings(path: str, index: Index) -> list[tuple[PathNames, str]]:
     path = composed(path)
     parts = split(path)
     for k in range(min(len(parts), index.depth), 0, -1):
-        if (names := known(parts[:k], index.names)) is not None:
+        if (names := as_taken(parts[:k], index.names)) is not None:
             matches.append((names, ".".join(quote(p) if not p.isdigit() else p for p in parts[k:])))
     ends = [k for k, c in enumerate(path[: index.longest + 1]) if c == "."]
     for _, names in sorted(hit for end in [*ends, len(path)] for hit in index.texts.get(path[:end], ())):

@@ -26,13 +26,12 @@ def adopt(run: Run, doc: Document, steps: Iterable[float]) -> str:
         ParameterError: a state cannot be carried.
     """
     new = run.continued(doc)
-    if new is None:
-        require(run, doc, steps)
-    elif new.limiting:
-        _require_steps(run, doc, steps)
     if new is not None:
+        if new.limiting:
+            _require_steps(run, doc, steps)
         run.change(new)
         return new.cost
+    require(run, doc, steps)
     states, before = rows(run.program, host(run.state)), nodes_of(run.program)
     with run.undone_on_error():
         run.load(doc)

@@ -107,7 +107,7 @@ def array_of(path: str, name: str) -> np.ndarray:
     from scipy.io import loadmat
 
     try:
-        found = loadmat(path, simplify_cells=True)
+        variables = loadmat(path, simplify_cells=True)
     except NotImplementedError:
         raise RecordError(
             "is a file of MATLAB 7.3", where=path, fix="Save it in MATLAB with: save(NAME, '-v7')"
@@ -117,7 +117,7 @@ def array_of(path: str, name: str) -> np.ndarray:
     except Exception as error:  # a damaged file may raise any exception
         what = getattr(error, "strerror", None) or "it is not a file of MATLAB, or damaged"
         raise RecordError(f"cannot be read: {what}", where=path) from None
-    held = _components({k: v for k, v in found.items() if not k.startswith("__")})
+    held = _components({k: v for k, v in variables.items() if not k.startswith("__")})
     if not name and len(held) != 1:
         raise RecordError(f"holds {', '.join(held) or 'nothing'}", where=path, fix="Name one of them")
     value: Any = held

@@ -44,11 +44,11 @@ def read(path: Path, size: tuple[int, int] | None) -> RecordedEvents:
     if len(content) > MOST_BYTES:
         raise WorldError(f"is larger than {MOST_BYTES >> 30} GiB", where=where, fix="Save it as AEDAT4")
     content = re.sub(rb"\A(\s*#[^\n]*(\n|\Z))+", b"", content)
-    first, _, rest = content.partition(b"\n")
+    first, _, lines = content.partition(b"\n")
     words = first.replace(b",", b" ").split()
     stated = (int(words[0]), int(words[1])) if len(words) == 2 and b"".join(words).isdigit() else None
     if stated is not None or re.match(rb"\s*(?!nan|inf)[A-Za-z]", first):
-        content = rest
+        content = lines
     content = content.replace(b",", b" ")
     table = _table(content, where)
     times, columns, rows, polarity = table.T
@@ -76,6 +76,6 @@ def _table(content: bytes, where: str) -> np.ndarray:
     except ValueError as error:
         raise WorldError(f"is text, and no recording of events: {error}", where=where, fix=FIX) from None
     if table.shape[1] != 4 or len(table) > MOST_EVENTS:
-        what = f"has {table.shape[1]} numbers in a line" if table.shape[1] != 4 else "has too many events"
-        raise WorldError(what, where=where, fix=FIX)
+        fault = f"has {table.shape[1]} numbers in a line" if table.shape[1] != 4 else "has too many events"
+        raise WorldError(fault, where=where, fix=FIX)
     return table
