@@ -28,7 +28,7 @@ def main() -> dict[str, list[float]]:
     kept = session.snapshot()
 
     model = dd.load(Path(__file__).parent / "working_memory.json")
-    model.set("cue.windows", [])
+    model.set("cue.windows", None)
     session.edit(model.document)  # the cue, now without a window; states stay
     for center in (38, 41, 44):
         session.set("cue.center", center)

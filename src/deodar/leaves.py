@@ -252,5 +252,7 @@ def _child(holder: Any, step: str, path: str) -> Any:
         }
         if step in named:
             return named[step]
-        raise UnknownName(f"{path}: there is no part {step!r}", fix=f"Valid indices: 0 to {len(items) - 1}")
-    raise UnknownName(f"{path}: the value before {step!r} has no parts")
+        valid = f"Valid indices: 0 to {len(items) - 1}" if items else "The list is empty: set it first"
+        raise UnknownName(f"{path}: there is no part {step!r}", fix=valid)
+    none = "It is None: set it to a list first" if holder is None else ""
+    raise UnknownName(f"{path}: the value before {step!r} has no parts", fix=none)

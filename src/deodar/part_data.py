@@ -24,11 +24,7 @@ def to_data(part: Any, kind: bool = True, without: Sequence[str] = ("name",)) ->
     out: dict[str, Any] = {"kind": type(part).__name__} if kind else {}
     for p in parameters(type(part)):
         stored = getattr(part, p.name)
-        if (
-            p.name not in without
-            and stored is not None
-            and (p.name not in defaults(type(part)) or stored != p.default)
-        ):
+        if p.name not in without and (p.name not in defaults(type(part)) or stored != p.default):
             out[p.name] = _plain(stored, f"{type(part).__name__}.{p.name}", p.of is object)
     return out
 
@@ -161,10 +157,10 @@ def _plain(stored: Any, where: str, open: bool) -> Any:
         return {str(k): _plain(v, where, open) for k, v in cast("Mapping[Any, Any]", stored).items()}
     if isinstance(stored, float) and open and stored.is_integer() and abs(stored) < WHOLE:
         return int(stored)
-    if isinstance(stored, (bool, int, float, str)):
+    if stored is None or isinstance(stored, (bool, int, float, str)):
         return stored
     raise ParameterError(
         f"{show(stored)} cannot be written in a file",
         where=where,
-        fix="Use a number, text, true or false, or a list of these",
+        fix="Use a number, text, true or false, None, or a list of these",
     )

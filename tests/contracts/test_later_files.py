@@ -18,6 +18,7 @@ from deodar.batch.run_file import CHECKPOINT
 from deodar.cli import main
 from deodar.errors import DeodarError, DocumentError
 from deodar.model import clipboard
+from deodar.model.document import VERSION
 from deodar.packing import packing as packed
 from deodar.recording import stored
 from deodar_robots.robot.robot_file import load_robot
@@ -214,7 +215,7 @@ def test_a_version_that_is_none_is_not_something_to_type(stated: object, tmp_pat
     (tmp_path / "model.json").write_text(json.dumps({"deodar": 9, "written_by": stated, "elements": {}}))
     with pytest.raises(DocumentError) as refused:
         dd.load(tmp_path / "model.json")
-    assert str(refused.value).endswith("reads versions 1 to 3. Type: pip install --upgrade deodar")
+    assert str(refused.value).endswith(f"reads versions 1 to {VERSION}. Type: pip install --upgrade deodar")
 
 
 def test_files_state_the_deodar_that_wrote_them(tmp_path: Path) -> None:

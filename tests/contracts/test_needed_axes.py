@@ -13,6 +13,7 @@ from deodar.elements.memories import History
 from deodar.elements.stimuli import Pattern
 from deodar.errors import DocumentError, ParameterError
 from deodar.model import document_files
+from deodar.model.document import VERSION
 from deodar.model.migrations import DEFAULTS_OF_1
 from deodar.numerics.axes import Axis
 from deodar.parameters import parameters
@@ -64,7 +65,7 @@ def test_the_call_that_an_error_proposes_has_every_value_in_its_place() -> None:
 
 @pytest.mark.parametrize(("kind", "name"), NEEDED)
 def test_a_document_without_the_axes_has_a_problem_that_names_an_axis_of_it(kind: str, name: str) -> None:
-    document = {"deodar": 3, "axes": SPACE, "elements": {"e": {"kind": kind}}}
+    document = {"deodar": VERSION, "axes": SPACE, "elements": {"e": {"kind": kind}}}
     with pytest.raises(DocumentError) as caught:
         document_files.from_data(document, {})
     [problem] = [p for p in caught.value.problems if p.where == f"e.{name}"]
@@ -85,7 +86,9 @@ def test_a_document_of_version_1_without_the_axes_keeps_its_meaning(kind: str, n
         Axis(**axis) for axis in DEFAULTS_OF_1[kind][name]
     )
     again, arrays = document_files.to_data(doc)
-    assert again["deodar"] == 3 and document_files.from_data(json.loads(json.dumps(again)), arrays) == doc
+    assert (
+        again["deodar"] == VERSION and document_files.from_data(json.loads(json.dumps(again)), arrays) == doc
+    )
 
 
 def test_a_document_of_version_1_runs_as_before() -> None:

@@ -87,7 +87,7 @@ def bistable(kind: Bistable, inputs: NDArray[np.float64] | NDArray[np.float32]) 
         "u", [x], 20, -5.0, dd.Logistic(kind.beta), kernel=kernel, global_inhibition=kind.inhibition
     )
     u = model.add(field)
-    windows = [[]] if len(inputs) == 1 else [[(0, 200)], [(200, 1e9)]]
+    windows = [None] if len(inputs) == 1 else [[(0, 200)], [(200, 1e9)]]
     for name, values, when in zip("ab", inputs, windows, strict=False):
         model.add(dd.Pattern(name, [x], values, windows=when)) >> u
     return model

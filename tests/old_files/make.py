@@ -11,6 +11,11 @@ documents of that version.
     git -C OLD checkout 24269c2
     PYTHONPATH=OLD/src python tests/old_files/make.py experiment FOLDER
 
+`version_3` holds files in which an empty list of time windows means that a stimulus is always on:
+
+    git -C OLD checkout 2ba7d9e7
+    PYTHONPATH=OLD/src python tests/old_files/make.py 3 FOLDER
+
 The files are as those versions wrote them, with one exception: `axis` was removed from the peak position in
 `version_1/choice.json`. Version 1 could read documents without it, but always wrote it, so the other files of
 this document state the axis.
@@ -35,8 +40,9 @@ from deodar.experiments.events import Appears, Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
+from deodar.model.kept_presets import KeptPreset, with_presets
 from deodar.recording import files
-from deodar_studio.files.state_store import StateStore
+from deodar_studio.files.state_store import StateStore, StoredExperiment
 
 
 def choice(version: int) -> dd.Model:
@@ -97,10 +103,64 @@ def objects(folder: Path) -> None:
         experiment.run(folder / "stopped", on=dd.Resources(progress=stop))
 
 
+def always(folder: Path) -> None:
+    """Write files of a node with two inputs, one always on and one for a time, and of an experiment whose
+    factor and action switch the second to always on.
+    """
+    model = dd.Model("always")
+    node = model.add(dd.RateNode("n", tau=10, resting_level=-2))
+    model.add(Boost("lasting", amplitude=1.0)) >> node
+    cue = model.add(Boost("cue", amplitude=3.0, windows=[(10, 60)]))
+    cue >> node
+    values = {cue.id: {"windows": [], "amplitude": 2.0}}
+    model.commit(with_presets(model.document, [KeptPreset("always on", "", values)]))
+    dd.save(model, folder / "always.json")
+    dd.save(model, folder / "always.deodar")
+    files.save_record(dd.simulate(model, 100, record=["n.activation"], every=5), folder / "record.nc")
+    session = dd.Session(model)
+    with session.record(folder / "session.zarr", ["n.activation"], every=5):
+        session.run(20)
+        dd.save_snapshot(session.snapshot(), folder / "snapshot.npz")
+        session.set("cue.windows", [])
+        session.run(80)
+    experiment = Experiment(
+        "always",
+        model,
+        dd.TrialPlan(
+            100,
+            watch=["n.activation"],
+            actions=[dd.Set(80, "cue.windows", [])],
+            measures=[Measure("end", "n.activation", "mean")],
+            every=5,
+        ),
+        trials=2,
+        factors=[
+            Factor("when", [[], [[20, 40]]], "cue.windows"),
+            Factor("how", {"weak": {"lasting.amplitude": 1.0, "lasting.windows": []}}),
+        ],
+        precision="float64",
+    )
+    experiment.save(folder / "experiment.json")
+
+    def stop(trials: int) -> None:
+        if trials:
+            raise KeyboardInterrupt
+
+    experiment.run(folder / "whole")
+    with contextlib.suppress(KeyboardInterrupt):
+        experiment.run(folder / "stopped", on=dd.Resources(progress=stop))
+    plain = experiment.to_data()
+    del plain["experiment"]
+    stored = StoredExperiment(plain, "experiment.json")
+    StateStore(folder / "state").store_edits("0123456789abcdef", model.document, "always.json", stored)
+
+
 def main(version: str, folder: Path) -> None:
     """Write every kind of file."""
     if version == "experiment":
         return objects(folder)
+    if version == "3":
+        return always(folder)
     model = choice(int(version))
     dd.save(model, folder / "choice.json")
     if version == "1":

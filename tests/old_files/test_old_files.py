@@ -1,4 +1,4 @@
-"""Files of deodar from document versions 1 and 2, and an experiment of version 2, open, run and resume;
+"""Files of deodar from document versions 1 to 3, and an experiment of version 2, open, run and resume;
 `make.py` made them.
 """
 
@@ -15,6 +15,7 @@ import deodar as dd
 from deodar.cli import main
 from deodar.compiler.device import find
 from deodar.errors import OutputExists
+from deodar.experiments import row_line
 from deodar.model import document
 from deodar.recording.provenance import made_by
 from deodar.recording.repeat import repeat
@@ -58,8 +59,10 @@ def begun_here(old: Path, folder: Path) -> Path:
     shutil.copytree(old, folder)
     first, *others = (folder / "trials.jsonl").read_text().split("\n")
     content = json.loads(first)
-    content["about"]["made_by"] = made_by(find())
-    (folder / "trials.jsonl").write_text("\n".join([json.dumps(content), *others]))
+    content["about"]["made_by"] = made_by(find(), content["about"].get("precision", "float32"))
+    checked = content.pop("crc32c", None) is not None  # rows of later versions state their checksums
+    line = row_line.write(content, checked).decode().rstrip("\n")
+    (folder / "trials.jsonl").write_text("\n".join([line, *others]))
     return folder
 
 
@@ -188,3 +191,74 @@ def test_a_folder_whose_document_was_changed_is_still_refused(stopped: Path) -> 
 def test_the_table_of_a_folder_is_read() -> None:
     table = dd.load_results(OLD / "whole")
     assert table.sizes["trial"] == 8 and dd.load_record(OLD / "whole" / "trials.nc").identical(table)
+
+
+# ---------------------------------------------------------- version 3: no windows meant that it was always on
+
+LASTING = OLD.with_name("version_3")
+
+
+@pytest.mark.parametrize(
+    "name", ["always.json", "always.deodar", "experiment.model.json", "whole/model.json", "snapshot.npz"]
+)
+def test_a_stimulus_without_windows_of_version_3_is_always_on(name: str, tmp_path: Path) -> None:
+    path = LASTING / name
+    model = dd.Model(document=dd.load_snapshot(path).document) if path.suffix == ".npz" else dd.load(path)
+    assert model.get("lasting.windows") is None
+    assert [(w.start, w.stop) for w in model.get("cue.windows")] == [(10, 60)]
+    dd.save(model, tmp_path / "model.json")
+    written = json.loads((tmp_path / "model.json").read_text())
+    assert written["deodar"] == document.VERSION and written["elements"]["lasting"]["windows"] is None
+
+
+def test_a_preset_of_version_3_switches_a_stimulus_to_always_on() -> None:
+    model = dd.load(LASTING / "always.json")
+    report = dd.apply_preset(model, "always on")
+    assert [line.verdict for line in report.lines] == ["carried"] * 2
+    assert model.get("cue.windows") is None and model.get("cue.amplitude") == 2.0
+
+
+def test_a_record_and_a_snapshot_of_version_3_have_the_same_bits() -> None:
+    record = dd.load_record(LASTING / "record.nc")
+    repetition = repeat(record, dd.simulate)
+    assert repetition.compared == 21 and max(repetition.largest.values()) < 1e-6
+    session = dd.Session(dd.load(LASTING / "always.json"))
+    session.restore(dd.load_snapshot(LASTING / "snapshot.npz"))
+    session.run(20)
+    np.testing.assert_allclose(session.read("n.activation"), record["n.activation"].sel(time=40), atol=1e-6)
+
+
+def test_a_session_of_version_3_is_repeated_with_its_changes() -> None:
+    """A stimulus was switched to always on by an empty list of windows."""
+    record = dd.load_record(LASTING / "session.zarr")
+    session = dd.session_at(LASTING / "session.zarr", 100)
+    assert session.get("cue.windows") is None
+    np.testing.assert_allclose(session.read("n.activation"), record["n.activation"].sel(time=100), atol=1e-6)
+
+
+def test_an_experiment_of_version_3_is_read_and_resumed(tmp_path: Path) -> None:
+    """Its factor has a level without windows, and its action sets an empty list of them."""
+    experiment = dd.Experiment.load(LASTING / "experiment.json")
+    assert experiment.check() == []
+    onsets, strengths = experiment.factors
+    assert [changes["cue.windows"] for changes in onsets.sets] == [None, [[20, 40]]]
+    assert strengths.sets == [{"lasting.amplitude": 1, "lasting.windows": None}]
+    assert experiment.plan.actions == (dd.Set(80, "cue.windows", None),)
+    experiment.save(tmp_path / "again.json")
+    reread = dd.Experiment.load(tmp_path / "again.json")
+    assert reread.factors == experiment.factors and reread.plan.actions == experiment.plan.actions
+    folder = begun_here(LASTING / "stopped", tmp_path / "stopped")
+    rows = (folder / "trials.jsonl").read_text().split("\n")[:2]
+    resumed, whole = experiment.run(folder), dd.load_results(LASTING / "whole")
+    assert (folder / "trials.jsonl").read_text().split("\n")[:2] == rows
+    assert resumed["when"].values.tolist() == whole["when"].values.tolist()
+    np.testing.assert_allclose(resumed["end"], whole["end"], atol=1e-10)
+
+
+def test_unsaved_edits_of_an_experiment_of_version_3_are_converted(tmp_path: Path) -> None:
+    shutil.copytree(LASTING / "state", tmp_path / "state")
+    store = StateStore(tmp_path / "state")
+    (offered,) = store.stored_edits()
+    stored = store.experiment(offered.name)
+    assert stored is not None and stored.data["actions"][0]["value"] is None
+    assert stored.data["factors"]["how"]["levels"]["weak"]["lasting.windows"] is None

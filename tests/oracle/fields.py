@@ -137,7 +137,7 @@ def run(field, stimulus, steps, dt, many=12):
 def stimulus(s, time):
     """Return the values of a stimulus at a time."""
     shape = tuple(a.samples for a in s.axes)
-    on = not s.windows or any(w.start <= time + 1e-9 and time < w.stop - 1e-9 for w in s.windows)
+    on = s.windows is None or any(w.start <= time + 1e-9 and time < w.stop - 1e-9 for w in s.windows)
     out = np.zeros(shape)
     for place in np.ndindex(*shape):
         value = s.amplitude if on else 0.0

@@ -210,7 +210,9 @@ def _keep(small: Model, doc: Document, field: Entry, entries: Sequence[Entry]) -
     """Copy constant inputs of the field, always on, under the group `background`."""
     new = {field.id: "field"}
     for e in entries:
-        element: Element = dc.replace(e.element, windows=()) if isinstance(e.element, Stimulus) else e.element  # type: ignore[call-arg]
+        element: Element = (
+            dc.replace(e.element, windows=None) if isinstance(e.element, Stimulus) else e.element
+        )  # type: ignore[call-arg]
         if element.stateful or isinstance(element, Sensor) or not element.steady() or e.id == field.id:
             raise AnalysisError(
                 f"{type(element).__name__} gives no constant input",

@@ -49,7 +49,7 @@ class MovingGaussian(Stimulus):
         waypoints: p, times and the positions at them; in the document's time unit and axis units;
             interpolated linearly, constant before the first and after the last. Positions may exceed a
             periodic axis: 350 to 370 is a move by 20 across its end. None: p = 0.
-        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; none: always; []: never.
 
     Ports:
         output: over `axes`.
@@ -160,7 +160,7 @@ class TimeSeries(Stimulus):
         interpolation: `linear` or `hold`.
         period: P, time after which the series repeats; in the document's time unit; values at times later
             than P are not used. 0: no repetition.
-        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; none: always; []: never.
 
     Ports:
         output: over `axes`.

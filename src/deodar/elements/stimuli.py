@@ -27,11 +27,14 @@ NOTHING = 3.0
 
 @dataclass(frozen=True)
 class Stimulus(Element):
-    """The base class of stimuli: s(x, t), a pattern times a gate over time; subclasses define the pattern."""
+    """The base class of stimuli: s(x, t), a pattern times a gate over time; subclasses define the pattern.
+
+    The gate is open in the windows: without windows (None) always, and with an empty list never.
+    """
 
     name: str = ""
     axes: Sequence[Axis] = ()
-    windows: Sequence[Window] = dc.field(default=(), kw_only=True)
+    windows: Sequence[Window] | None = dc.field(default=None, kw_only=True)
 
     inputs: ClassVar[tuple[str, ...]] = ()
 
@@ -40,7 +43,7 @@ class Stimulus(Element):
         raise NotImplementedError
 
     def validate_axes(self, ins: PortAxes) -> Iterator[str | tuple[str, str]]:
-        for k, w in enumerate(self.windows):
+        for k, w in enumerate(self.windows or ()):
             if w.stop < w.start:
                 yield (
                     f"windows.{k} ends at {w.stop:g}, before it begins at {w.start:g}, so it is never on",
@@ -51,7 +54,7 @@ class Stimulus(Element):
                 )
 
     def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
-        for k, w in enumerate(self.windows):
+        for k, w in enumerate(self.windows or ()):
             if w.stop == w.start:
                 yield (
                     f"windows.{k} begins and ends at {w.start:g}, so it is never on",
@@ -67,7 +70,7 @@ class Stimulus(Element):
 
     def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:
         found = self.strength()
-        return {"output": ANY if found == ZERO else hull(ZERO, found) if self.windows else found}
+        return {"output": ANY if found == ZERO else found if self.windows is None else hull(ZERO, found)}
 
     def placed(self, width: str, ends: Sequence[str]) -> Iterator[tuple[str, str]]:
         """Warn about a center outside the axes, and about a width too small or too large for them."""
@@ -134,7 +137,7 @@ class Boost(Stimulus):
     Parameters:
         axes: axes of the stimulus; none: a constant, which expands along the axes of any target.
         amplitude: value at every sample.
-        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; none: always; []: never.
 
     Ports:
         output: over `axes`.
@@ -172,7 +175,7 @@ class GaussianStimulus(Stimulus):
         center: position of the maximum; in axis units, one value or one for each axis.
         sigma: width; in axis units, one value or one for each axis, > 0.
         amplitude: value at the centre; if normalized, the integral.
-        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; none: always; []: never.
         normalized: whether the amplitude is the integral.
         boundary: whether it wraps around the ends; `periodic` (the Gaussian wraps around the ends) or `zero`
             (it does not), one value or one for each axis; none: periodic on periodic axes.
@@ -242,7 +245,7 @@ class BoxStimulus(Stimulus):
         center: middle of the box; in axis units, one value or one for each axis.
         width: full width; in axis units, one value or one for each axis, > 0.
         amplitude: value inside.
-        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; none: always; []: never.
 
     Ports:
         output: over `axes`.
@@ -293,7 +296,7 @@ class Pattern(Stimulus):
         axes: axes of the stimulus; none: a constant for a node.
         values: one value for each sample of the axes.
         amplitude: factor.
-        windows: when it is on; pairs (start, stop) in the document's time unit; without windows always.
+        windows: when it is on; pairs (start, stop) in the document's time unit; none: always; []: never.
 
     Ports:
         output: over `axes`.

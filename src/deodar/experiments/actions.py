@@ -190,12 +190,12 @@ class Set(Action):
 
     Attributes:
         path: the parameter, of an element or of the document.
-        value: a number, or another valid value of the parameter.
+        value: a number, or another valid value of the parameter, which may be None.
     """
 
     at: At
     path: Annotated[str, Recompile(names="parameter")]
-    value: object
+    value: object | None
     when: When = ""
 
     def sets(self) -> Iterator[tuple[str, Any]]:
@@ -389,7 +389,7 @@ def with_pushes(model: Model, actions: Sequence[Action]) -> tuple[Model, dict[Pu
         while (f"push{number}",) in doc.by_names():
             number += 1
         waits = bool(push.when) or isinstance(push.at, Sequence)
-        windows = () if waits else ((push.times[0], push.times[0] + push.lasting),)
+        windows = None if waits else ((push.times[0], push.times[0] + push.lasting),)
         boost = Boost(f"push{number}", amplitude=0.0 if waits else push.amount, windows=windows)  # pyright: ignore[reportArgumentType]
         doc, entry = edit.add(doc, boost)
         doc = edit.connect(doc, entry, "", target, "")

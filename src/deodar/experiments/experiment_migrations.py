@@ -1,7 +1,8 @@
 """Convert experiments of older versions to the present version: plain data in, plain data out.
 
 Version 1: the path of a field alone meant its output. Since version 2 it means the activation. Version 3
-renames parameters.
+renames parameters. In version 4, as in version 4 of documents, a stimulus with an empty list of time windows
+is never on, and null means always.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ from typing import Any, cast
 from deodar import file_version
 from deodar.codec import Json, JsonObject
 from deodar.model.document import Document
-from deodar.model.migrations import recorded
+from deodar.model.migrations import always_on, always_on_value, recorded
 
-VERSION = 3
+VERSION = 4
 """Version of experiments, in their files and in the identity of their rows."""
 
 PATHS: Mapping[str, tuple[str, ...]] = {
@@ -52,7 +53,9 @@ def migrate(experiment: Mapping[str, Json], doc: Document | None) -> JsonObject:
     if version == 1 and doc is not None:
         out = _from_1(out, doc)
     if version in (1, 2):
-        out = _parts(out, _renamed) | {"experiment": VERSION}
+        out = _parts(out, _renamed)
+    if version in (1, 2, 3):
+        out = _from_3(out) | {"experiment": VERSION}
     return out
 
 
@@ -73,6 +76,43 @@ def _from_1(experiment: JsonObject, doc: Document) -> JsonObject:
 def _renamed(kind: str, values: dict[str, Any]) -> dict[str, Any]:
     names = RENAMED_AFTER_2.get(kind, {})
     return {names.get(key, key): value for key, value in values.items()}
+
+
+def _from_3(experiment: JsonObject) -> JsonObject:
+    """Convert the values that actions and the levels of factors set."""
+    out = _parts(experiment, _set_always_on)
+    factors = experiment.get("factors")
+    if isinstance(factors, dict):
+        rows = cast("dict[str, Any]", factors)
+        out["factors"] = {name: _factor_always_on(factor) for name, factor in rows.items()}
+    return out
+
+
+def _set_always_on(kind: str, values: dict[str, Any]) -> dict[str, Any]:
+    if kind != "Set" or "value" not in values:
+        return values
+    return values | {"value": always_on_value(values.get("path"), values["value"])}
+
+
+def _factor_always_on(factor: Any) -> Any:
+    """Convert the levels of a factor.
+
+    A list becomes named levels if a value changes: the rows of trials state the names that its values had.
+    """
+    settings = cast("dict[str, Any]", factor) if isinstance(factor, dict) else {}
+    path, levels = settings.get("path", ""), settings.get("levels")
+    if isinstance(levels, list):
+        named = {str(level): level for level in cast("list[Any]", levels)}
+        if all(always_on_value(path, level) is level for level in named.values()):
+            return factor
+    elif isinstance(levels, dict):
+        named = cast("dict[str, Any]", levels)
+    else:
+        return factor
+    converted = {
+        name: always_on_value(path, level) if path else always_on(level) for name, level in named.items()
+    }
+    return settings | {"levels": converted}
 
 
 def _parts(experiment: JsonObject, convert: Convert) -> JsonObject:

@@ -14,7 +14,7 @@ from deodar.leaves import StepLimit, resting, step_limits, structure
 from deodar.model.paths import Index, PathNames, display
 from deodar.summary import Summarised, Summary, counted
 
-VERSION = 3
+VERSION = 4
 READS = ("", "previous", "current", "delayed")
 KEYS = (
     *(

@@ -1,7 +1,8 @@
 """Convert documents of older versions to the present version: plain data in, plain data out.
 
 Version 1: some elements had an axis as a default, and a document could leave it out. Version 2 states every
-axis. Version 3 renames parameters.
+axis. Version 3 renames parameters. Until version 3 a stimulus with an empty list of time windows was always
+on; since version 4 it is never on, and null means always.
 """
 
 from __future__ import annotations
@@ -13,6 +14,13 @@ from deodar.codec import Json
 from deodar.errors import UnknownName
 from deodar.model import find
 from deodar.model.document import Document
+from deodar.model.kept_presets import PRESETS
+
+WINDOWS = "windows"
+"""The parameter whose empty list has another meaning since version 4; only stimuli have one of this name."""
+
+ALWAYS_IS_NONE = 4
+"""The version of documents since which None, not an empty list, means that a stimulus is always on."""
 
 AxisData = Mapping[str, Any]
 
@@ -52,9 +60,12 @@ def migrate(document: Mapping[str, Json]) -> dict[str, Json]:
 
     Data of an unexpected form are not changed: the reader reports them.
     """
-    if document.get("deodar") == 1:
+    version = document.get("deodar")
+    if version == 1:
         document = _from_1(document)
-    return _from_2(document) if document.get("deodar") in (1, 2) else dict(document)
+    if version in (1, 2):
+        document = _from_2(document)
+    return _from_3(document) if version in (1, 2, 3) else dict(document)
 
 
 def recorded(doc: Document, path: str) -> str:
@@ -98,6 +109,44 @@ def _from_2(document: Mapping[str, Json]) -> dict[str, Json]:
         if renamed and not renamed.keys().isdisjoint(body):
             elements[path] = {renamed.get(key, key): value for key, value in body.items()}
     return {**document, "elements": elements}
+
+
+def _from_3(document: Mapping[str, Json]) -> dict[str, Json]:
+    elements, layout = document.get("elements"), document.get("layout")
+    out = dict(document)
+    if isinstance(elements, dict):
+        bodies = cast("dict[str, Any]", elements)
+        out["elements"] = {path: always_on(body) for path, body in bodies.items()}
+    presets = cast("dict[str, Any]", layout).get(PRESETS) if isinstance(layout, dict) else None
+    if isinstance(presets, list):
+        listed = [_preset(preset) for preset in cast("list[Any]", presets)]
+        out["layout"] = {**cast("dict[str, Any]", layout), PRESETS: listed}
+    return out
+
+
+def _preset(preset: Any) -> Any:
+    values = cast("dict[str, Any]", preset).get("values") if isinstance(preset, dict) else None
+    if not isinstance(values, dict):
+        return preset
+    by_element = cast("dict[str, Any]", values)
+    return {**preset, "values": {ident: always_on(inner) for ident, inner in by_element.items()}}
+
+
+def always_on(values: Any) -> Any:
+    """Convert the values of parameters before document version 4, by name or path: without windows, a
+    stimulus was always on.
+    """
+    if not isinstance(values, dict):
+        return values
+    by_path = cast("dict[str, Any]", values)
+    return {path: always_on_value(path, value) for path, value in by_path.items()}
+
+
+def always_on_value(path: Any, value: Any) -> Any:
+    """Convert the value of one parameter before document version 4, of which the name or path is known."""
+    if isinstance(path, str) and path.rpartition(".")[2] == WINDOWS and value in ([], ()):
+        return None
+    return value
 
 
 def _key(axes: dict[str, Json], axis: AxisData) -> str:

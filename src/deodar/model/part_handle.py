@@ -90,7 +90,14 @@ class PartsHandle(Summarised, Reference):
         vars(self).update(_model=model, _id=ident, _leaf=leaf)
 
     def __value__(self) -> tuple[Part, ...]:
-        return get(self._model.entry(self._id).element, self._leaf)
+        entry = self._model.entry(self._id)
+        parts: tuple[Part, ...] | None = get(entry.element, self._leaf)
+        if parts is None:
+            path = f"{entry.path}.{self._leaf}"
+            raise UnknownName(
+                f"{path} is None now, no list of parts", fix=f"Write: model.set({path!r}, [...])"
+            )
+        return parts
 
     def __len__(self) -> int:
         return len(self.__value__())
@@ -164,7 +171,7 @@ def inside(model: Owner, ident: str, part: Part, leaf: str, name: str) -> Any:
     """Return a parameter of an element, or of a part at the path `leaf` inside it; parts as handles."""
     form, path = parameter(type(part), name).form, f"{leaf}.{name}" if leaf else name
     parameter_value = getattr(part, name)
-    if form == "parts":
+    if form == "parts" and parameter_value is not None:
         return PartsHandle(model, ident, path)
     return PartHandle(model, ident, path) if isinstance(parameter_value, Part) else parameter_value
 

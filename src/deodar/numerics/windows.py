@@ -46,14 +46,14 @@ class Window(Part):
         return cls(*value) if isinstance(value, (tuple, list)) and len(value) == 2 else value
 
 
-def gate(windows: Sequence[Window], time: Any, dtype: DTypeLike) -> Scalar:
-    """Return 1 inside any of the windows, else 0; without windows always 1.
+def gate(windows: Sequence[Window] | None, time: Any, dtype: DTypeLike) -> Scalar:
+    """Return 1 inside any of the windows, else 0; None: always 1; no windows: always 0.
 
     A step belongs to a window if its time does, with a tolerance of half a step, so that rounding moves no
     edge.
     """
     if not windows:
-        return 1.0
+        return 1.0 if windows is None else 0.0
     half = 0.5 * time.dt
     inside = False
     for w in windows:

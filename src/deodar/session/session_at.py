@@ -13,6 +13,7 @@ import numpy as np
 from deodar import codec
 from deodar.errors import RecordError, TimeError
 from deodar.model import find
+from deodar.model.migrations import ALWAYS_IS_NONE, always_on_value
 from deodar.model.model import Model
 from deodar.progress import telling
 from deodar.resources import Resources, use_resources
@@ -62,8 +63,7 @@ def session_at(
     changes: list[Change] = []
     if "session" in description:
         model, settings = _of_session(stored, description, trust)
-        entries: Any = codec.parse(str(stored.attrs.get("changes", "[]")))
-        changes = list(map(from_file, entries))
+        changes = _changes(stored, description)
     else:
         model, settings = request(stored, trust)
     if settings.get("trials") is not None or settings.get("sweep"):
@@ -82,6 +82,14 @@ def session_at(
     with telling(progress, "repeating", "steps") as tell:
         repeat_changes(session, until(changes, tick), tick, tell, stops)
     return session
+
+
+def _changes(data: xarray.Dataset, description: Any) -> list[Change]:
+    """Return the changes of a recorded session; their values are of the version of its document."""
+    entries: Any = codec.parse(str(data.attrs.get("changes", "[]")))
+    if description["document"]["deodar"] < ALWAYS_IS_NONE:
+        entries = [e | {"value": always_on_value(e["what"], e["value"])} for e in entries]
+    return list(map(from_file, entries))
 
 
 def _of_session(data: xarray.Dataset, description: Any, trust: bool) -> tuple[Model, dict[str, Any]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses as dc
 import datetime
 import os
 import re
@@ -18,12 +19,15 @@ import psutil
 from deodar import codec, file_version, regular_file
 from deodar.codec import JsonObject
 from deodar.errors import DeodarError, DocumentError, OutputError, UnknownName, reading
-from deodar.experiments.experiment_migrations import VERSION
+from deodar.experiments.experiment_migrations import VERSION, migrate
 from deodar.model import document_files, output, partial
 from deodar.model.document import Document
 from deodar_studio.messages.to_page import Recovery
 
 MOST_RECENT = 12
+UNSTATED = 3
+"""Version of stored experiments that state none."""
+
 NAME = re.compile(r"^[0-9a-f]{16}$")
 
 
@@ -118,12 +122,15 @@ class StateStore:
         self._require(name)
         note: Any = _read(self._note(name))
         experiment = _experiment(note)
-        if experiment is not None:
-            with reading(name, DocumentError):
-                stated = note["experiment"]
-                version = stated.get("version", VERSION)
-                file_version.require_readable("an experiment", version, VERSION, stated)
-        return experiment
+        if experiment is None:
+            return None
+        stated = note["experiment"]
+        version = stated.get("version", UNSTATED)
+        with reading(name, DocumentError):
+            file_version.require_readable("an experiment", version, VERSION, stated)
+        plain = migrate({**experiment.data, "experiment": version}, None)
+        del plain["experiment"]
+        return dc.replace(experiment, data=plain)
 
     def _require(self, name: str) -> None:
         if not NAME.match(name):

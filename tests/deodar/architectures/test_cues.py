@@ -24,7 +24,7 @@ class Chain:
     def __init__(self) -> None:
         model = serial_order(ITEMS, cues=2)
         self.meanings = [model[f"item {k}.meaning"].id for k in range(1, ITEMS + 1)]
-        model.set("start.windows", [])
+        model.set("start.windows", None)
         model.set("start.amplitude", 0.0)
         for name, target in (("shown", "action"), ("seen", "satisfaction")):
             stimulus = dd.GaussianStimulus(name, [action_axis()], center=0.0, sigma=WIDTH, amplitude=0.0)

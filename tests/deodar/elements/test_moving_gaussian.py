@@ -90,7 +90,7 @@ def test_a_document_of_version_2_names_the_waypoints_path():
     body = {
         "path" if key == "waypoints" else key: content for key, content in document["elements"]["s"].items()
     }
-    assert document["deodar"] == 3 and "path" in body
+    assert "path" in body
     for version in (1, 2):
         assert (
             document_files.from_data({**document, "deodar": version, "elements": {"s": body}}, arrays)

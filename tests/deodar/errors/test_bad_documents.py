@@ -208,8 +208,8 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "null": (b"null", ("is not a deodar document",)),
     "of another program": (b'{"format": 1, "layers": {}}', ("has no key 'deodar'",)),
     "of another version": (
-        b'{"deodar": 4, "elements": {}}',
-        ("of version 4; this deodar, ", "reads versions 1 to 3", "pip install --upgrade"),
+        b'{"deodar": 5, "elements": {}}',
+        ("of version 5; this deodar, ", "reads versions 1 to 4", "pip install --upgrade"),
     ),
     "of a version in words": (b'{"deodar": "1", "elements": {}}', ("is a document of version '1'",)),
     "of no version": (b'{"deodar": true, "elements": {}}', ("is a document of version True",)),

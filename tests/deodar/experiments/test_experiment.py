@@ -19,9 +19,11 @@ from deodar.experiments import row_line
 from deodar.experiments.actions import End, Move, Place, Push, Ramp, Record, Remove, Reset, Set, Snapshot
 from deodar.experiments.events import All, AnyOf, Appears, Crosses, Leaves, Reached, Vanishes, Within
 from deodar.experiments.experiment import Experiment
+from deodar.experiments.experiment_migrations import VERSION
 from deodar.experiments.factor import Factor, assign
 from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
+from deodar.model.document import VERSION as DOCUMENT_VERSION
 from deodar.recording import files
 from tests.deodar.experiments.calls import changed, run_alone
 from tests.deodar.experiments.robots import decider, room, straight
@@ -196,7 +198,7 @@ def test_a_stopped_experiment_whose_model_is_of_an_older_version_is_resumed(tmp_
     experiment = choice(trials=1)
     whole = experiment.run(tmp_path / "out")
     model, rows = tmp_path / "out" / "model.json", tmp_path / "out" / ROWS
-    old = model.read_text().replace('"deodar": 3', '"deodar": 2')
+    old = model.read_text().replace(f'"deodar": {DOCUMENT_VERSION}', '"deodar": 2')
     first, *others = rows.read_bytes().splitlines(keepends=True)
     header = row_line.read(first, True)
     header["about"]["model"] = hashlib.sha256(old.encode()).hexdigest()
@@ -262,7 +264,10 @@ def test_a_file_of_an_older_version_calls_the_object_of_an_action_thing(tmp_path
     actions = [Place(2, "box", (50, 20), (4, 30)), Move(3, "box", (60, 20)), Remove(4, "box")]
     choice(actions=actions, world="arena:blocks").save(tmp_path / "e.json")
     document = json.loads((tmp_path / "e.json").read_text())
-    assert document["experiment"] == 3 and [action["object"] for action in document["actions"]] == ["box"] * 3
+    assert (
+        document["experiment"] == VERSION
+        and [action["object"] for action in document["actions"]] == ["box"] * 3
+    )
     for action in document["actions"]:
         action["thing"] = action.pop("object")
     (tmp_path / "e.json").write_text(json.dumps(document | {"experiment": version}))
@@ -440,7 +445,7 @@ def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
         and "holds no levels" in text
         and "Did you mean 'of'" in text
     )
-    file.write_text(json.dumps(document | {"experiment": 4}))
+    file.write_text(json.dumps(document | {"experiment": VERSION + 1}))
     with pytest.raises(DocumentError, match="of version"):
         Experiment.load(file)
     file.write_text("{}")

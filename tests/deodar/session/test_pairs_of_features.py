@@ -67,7 +67,7 @@ def built(row: Mapping[str, Any]) -> dd.Model:
     u = model.add(dd.Field("u", axes, **options), ticks=row["ticks"])
     v = model.add(dd.Field("v", axes, tau=10.0, noise=row["noise"]))
     for k in range(2 if row["sources"] == "two" else 1):
-        windows = [(5.0, 20.0)] if row["sources"] == "window" else []
+        windows = [(5.0, 20.0)] if row["sources"] == "window" else None
         name = f"s{k}"
         if axes:
             center = [a.lower + (0.3 + 0.4 * k) * a.range for a in axes]

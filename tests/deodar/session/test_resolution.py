@@ -36,7 +36,7 @@ def localised(dimensions: int, finer: int, former: float) -> dd.Model:
             "u", over, tau=10, resting_level=-5, sigmoid=dd.Logistic(2), kernel=kernel, global_inhibition=0.01
         )
     )
-    for name, amplitude, windows in (("former", former, [(0, 150)]), ("tested", 0.0, [])):
+    for name, amplitude, windows in (("former", former, [(0, 150)]), ("tested", 0.0, None)):
         (
             model.add(
                 dd.GaussianStimulus(

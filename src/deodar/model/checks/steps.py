@@ -61,7 +61,7 @@ def _constants(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
 
 
 def _windows(wiring: Wiring, n: Node, step: float) -> Iterator[Problem]:
-    windows: Any = getattr(n.element, "windows", ())
+    windows: Any = getattr(n.element, "windows", None)
     for k, w in enumerate(windows if isinstance(windows, tuple) else ()):
         if not isinstance(w, Window) or w.stop <= w.start:
             continue

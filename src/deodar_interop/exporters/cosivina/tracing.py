@@ -81,7 +81,7 @@ class Wires:
         out = self.out.get(e.id, [])
         return (
             not element.amplitude
-            and not element.windows
+            and element.windows is None
             and len(out) == 1
             and self._named(e, f"nothing to {self._name(out[0].target)}")
         )

@@ -131,7 +131,25 @@ def later():
     return m, ["u", "v", "w"]
 
 
-MODELS = [selection, memory, broad, coupled, node, planes, couplings, later]
+def never_and_always():
+    """Stimuli that are never on, a sum of a boost that is always on, and a gate that never opens."""
+    m = dd.Model("never")
+    u = m.add(dd.Field("u", [LINE]))
+    n = m.add(dd.RateNode("n"))
+    m.add(dd.GaussianStimulus("lasting", [LINE], center=-9, sigma=3, amplitude=6)) >> u
+    m.add(dd.GaussianStimulus("bell", [LINE], center=0, sigma=3, amplitude=9, windows=[])) >> u
+    m.add(dd.Pattern("pattern", [LINE], np.linspace(0, 9, 121), windows=[])) >> u
+    m.add(dd.Boost("boost", [], 9.0, windows=[])) >> n
+    total = m.add(dd.Sum(name="sum"))
+    m.add(dd.Boost("sum period", [], 3.0)) >> total >> n
+    product = m.add(dd.Product(name="gated"))
+    u["activation"] >> product
+    m.connect(m.add(dd.Boost("gated on", [], 1.0, windows=[])), product["factor"])
+    product >> u
+    return m, ["u", "n"]
+
+
+MODELS = [selection, memory, broad, coupled, node, planes, couplings, later, never_and_always]
 
 
 @pytest.mark.parametrize("make", MODELS)

@@ -50,7 +50,8 @@ def gain(b: Given, element: Gain) -> None:
 def total(b: Given, element: Sum) -> None:
     """Write SumInputs; a sum of timed boosts, or of a shifted input and its border, is one element."""
     sources = [c.source for c in b.draft.wires.into.get((b.id, "input"), [])]
-    boosts = [e for e in b.draft.followers(b.id, "period") if isinstance(e.element, Boost)]
+    named = b.draft.followers(b.id, "period")
+    boosts = [e for e in named if isinstance(e.element, Boost) and e.element.windows is not None]
     if sources and sources == [e.id for e in boosts]:
         return timed_boosts(b, boosts)
     moved, border = b.draft.followers(b.id, "moved"), b.draft.followers(b.id, "border")
@@ -71,7 +72,7 @@ def product(b: Given, element: Product) -> None:
         if (
             isinstance(opening, Boost)
             and opening.amplitude == 1
-            and opening.windows
+            and opening.windows is not None
             and [c.source for c in wires] == [gate.id]
             and b.draft.readers(gate.id) == 1
         ):

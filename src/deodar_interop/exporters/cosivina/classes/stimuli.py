@@ -41,7 +41,7 @@ def gaussian(b: Given, element: GaussianStimulus) -> None:
     """Write GaussStimulus1D, 2D or 3D, and their timed forms."""
     axes, dims = tuple(element.axes), b.dims()
     rank = 1 if is_row(dims) else len(dims)
-    timed = bool(element.windows)
+    timed = element.windows is not None
     if rank > (MOST_TIMED if timed else len(LETTERS)):
         return sampled(b, element)
     amplitude = element.amplitude / (cell(axes) if element.normalized else 1)
@@ -54,7 +54,7 @@ def gaussian(b: Given, element: GaussianStimulus) -> None:
         values[f"position{letter}"] = 1 if axis is None else places[axis.name]
         values[f"sigma{letter}"] = 1 if axis is None else broad[axis.name]
         values[f"circular{letter}"] = True if axis is None else rings[axis.name]
-    if timed:
+    if element.windows is not None:
         values["onTimes"] = periods(b, element.windows)
     part = b.sized(f"{'Timed' * timed}GaussStimulus{rank}D", values)
     b.show(part, free=not timed)
@@ -65,7 +65,7 @@ def boost(b: Given, element: Boost) -> None:
     if element.axes:
         return _pattern(b, np.full(shape(element.axes), element.amplitude), element.windows)
     late = any(c.reads == "delayed" for c in b.draft.wires.out.get(b.id, []))
-    if element.windows:
+    if element.windows is not None:
         part = b.part("TimedBoost", {"amplitude": element.amplitude, "onTimes": periods(b, element.windows)})
     elif late and not element.amplitude:  # several amplitudes without a period: never on
         part = b.part("TimedBoost", {"amplitude": [[0], [0]], "onTimes": []})
@@ -82,7 +82,7 @@ def timed_boosts(b: Given, boosts: Sequence[Entry]) -> None:
     amplitudes, times = list[list[float]](), list[list[float]]()
     for e in boosts:
         element = cast(Boost, e.element)
-        found = periods(b, element.windows)
+        found = periods(b, element.windows or ())
         amplitudes.append([element.amplitude])
         # periods before it that overlap take precedence, so one that is interrupted is written whole
         times.append([found[0][0], found[-1][1]] if found else [b.draft.start, b.draft.start])
@@ -107,7 +107,7 @@ def sampled(b: Given, element: Stimulus) -> None:
 def series(b: Given, element: TimeSeries) -> None:
     """Write CustomStimulusSequence: patterns that are each shown until the next."""
     dims = b.dims()
-    if element.interpolation != "hold" or element.period or element.windows:
+    if element.interpolation != "hold" or element.period or element.windows is not None:
         raise Unwritable("cosivina shows one pattern after another, without interpolation, period or windows")
     values = element.amplitude * _data(element.values)
     moments = _data(element.times).reshape(-1)
@@ -234,15 +234,15 @@ def array(values: np.ndarray) -> Any:
     }
 
 
-def _pattern(b: Given, values: np.ndarray, windows: Sequence[Window]) -> None:
+def _pattern(b: Given, values: np.ndarray, windows: Sequence[Window] | None) -> None:
     dims = b.dims()
     given = values.reshape(size(dims))
     data = array(given) if given.ndim > 2 else given[0].tolist() if len(given) == 1 else given.tolist()
-    if windows:
+    if windows is not None:
         part = b.sized("TimedCustomStimulus", {"stimulusPattern": data, "onTimes": periods(b, windows)})
     else:
         part = b.sized("CustomStimulus", {"pattern": data})
-    b.show(part, free=not windows)
+    b.show(part, free=windows is None)
 
 
 def _data(values: Any) -> np.ndarray:

@@ -52,7 +52,7 @@ def gauss_stimulus(b: SourceElement) -> None:
         amplitude=factor * b.values.number("amplitude", 0),
         normalized=normalized,
         boundary=boundary(dims, ends),
-        windows=windows(b) if timed else (),
+        windows=windows(b) if timed else None,
     )
     b.outlet("output", b.add(stimulus, dims), still=not timed)
 
@@ -106,7 +106,7 @@ def custom_stimulus(b: SourceElement) -> None:
     if pattern is None or pattern.size != math.prod(pattern_shape):
         raise Unfit(f"its pattern is not of the size {list(size)}")
     timed = b.element.kind.startswith("Timed")
-    values, on = np.asarray(pattern).reshape(pattern_shape), windows(b) if timed else ()
+    values, on = np.asarray(pattern).reshape(pattern_shape), windows(b) if timed else None
     b.outlet("output", b.add(Pattern(b.label, axes(dims), values, windows=on), dims), still=not timed)
 
 
@@ -222,11 +222,10 @@ def boundary(dims: Dims, ends: list[str]) -> list[str] | None:
 
 def _windows(b: SourceElement, spans: list[tuple[int, int]]) -> list[Window]:
     start, step = b.simulator.start, b.step
-    listed = [
+    return [
         Window(start + (a - 1) * step, min(start + z * step, FOR_EVER) if z < 1e14 else FOR_EVER)
         for a, z in spans
     ]
-    return listed or [Window(start - 1, start - 1)]  # never
 
 
 def _without(spans: list[tuple[int, int]], taken: list[tuple[int, int]]) -> list[tuple[int, int]]:

@@ -102,9 +102,9 @@ def boost(b: StoredElement) -> None:
     dims = b.dims()
     amplitude, active = b.values.number("amplitude", 5), b.values.flag("isActive", True)
     b.start = amplitude if active else 0.0
-    element = Boost(b.label, axes(dims), amplitude, windows=() if active else [_never()])
+    element = Boost(b.label, axes(dims), amplitude, windows=None if active else [])
     if not active:
-        b.values.say("isActive", "carried", "as a window in which it is never on")
+        b.values.say("isActive", "carried", "as a list without windows: it is never on")
     b.outlet("output", b.add(element, dims), still=True)
 
 
@@ -179,12 +179,7 @@ def _windows(b: StoredElement) -> list[Window]:
     periods = [(a, z) for a, z in b.values.rows("onTimes", 2)]
     if periods and b.values.lines["onTimes"].verdict == "carried":
         b.values.say("onTimes", "carried", "moved by one step, since dnf-composer counts the time first")
-    windows = [Window((a - 1) * b.step, z * b.step) for a, z in spans(periods, b.step)]
-    return windows or [_never()]
-
-
-def _never() -> Window:
-    return Window(-1.0, -1.0)
+    return [Window((a - 1) * b.step, z * b.step) for a, z in spans(periods, b.step)]
 
 
 NARROW = 0.001
