@@ -31,6 +31,7 @@ def studio(
     world: Any = None,
     token: bool = True,
     port: int = 0,
+    unattended: bool = False,
 ) -> Iterator[str]:
     """Run a studio in a thread of its own; yield its address, with the token."""
     up: list[str] = []
@@ -40,7 +41,7 @@ def studio(
         up.append(address)
         ready.set()
 
-    server, bound = prepare(Service(root, file, trust, world, host, port, token), say)
+    server, bound = prepare(Service(root, file, trust, world, host, port, token, unattended), say)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [bound]})
     thread.start()
     try:

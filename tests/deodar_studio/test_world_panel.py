@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import base64
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +18,8 @@ from deodar.elements.stimuli import Boost
 from deodar.elements.world_ports import Motor
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.zenoh.served_world import ServedWorld
-from tests.deodar_studio.page import Page, page, play, studio
+from deodar_studio.pages import hub
+from tests.deodar_studio.page import WAIT, Page, page, play, studio
 
 LAYOUT: dict[str, Any] = {
     "arena": {"x": [0, 3], "y": [0, 2]},
@@ -322,6 +325,55 @@ def test_the_page_shows_the_link_with_a_robot_in_another_process_and_a_pause_sto
     finally:
         world.close()
         served.close()
+
+
+@pytest.mark.parametrize(
+    ("clock", "unattended", "pauses"), [("live", False, True), ("live", True, False), ("step", False, False)]
+)
+def test_a_run_that_moves_a_robot_pauses_when_its_last_page_has_gone(
+    file: Path, monkeypatch: pytest.MonkeyPatch, clock: Any, unattended: bool, pauses: bool
+) -> None:
+    """A page that is loaded again in time changes nothing; a simulated world is not paused."""
+    monkeypatch.setattr(hub, "ABSENT_SECONDS", 0.5)
+    served = ServedWorld(Arena(LAYOUT), "epuck", clock)
+    world = dd.Zenoh(at=served.endpoint, patience=5.0)
+    counts = served.server.counts
+
+    async def story(p: Page) -> None:
+        await p.runs()
+        await p.do("play")
+        await p.until(lambda: counts["accepted"] > 10)
+        async with page(address) as second:
+            await p.socket.close()
+            await asyncio.sleep(0.7)
+            assert second.clock["running"], "a page is still there"
+        await asyncio.sleep(0.1)
+        async with page(address) as reloaded:
+            await asyncio.sleep(0.7)
+            await reloaded.until(lambda: reloaded.clock["running"])
+        await asyncio.sleep(0.7)
+        await until(lambda: served.server._inbox._newest == {} or not pauses)
+        async with page(address) as late:
+            await late.until(lambda: late.clock["running"] is not pauses)
+            reasons = [problem["what"] for problem in late.clock["failure"]]
+            assert any("no page was open" in reason for reason in reasons) is pauses
+            await late.do("play")
+            accepted = counts["accepted"]
+            await late.until(lambda: counts["accepted"] > accepted + 5 and not late.clock["failure"])
+
+    try:
+        with studio(file.parent, file, world=world, unattended=unattended) as address:
+            play(address, story)
+    finally:
+        world.close()
+        served.close()
+
+
+async def until(holds: Callable[[], bool]) -> None:
+    """Wait until a function returns true."""
+    async with asyncio.timeout(WAIT):
+        while not holds():
+            await asyncio.sleep(0.01)
 
 
 def test_a_world_in_the_same_process_has_no_link(file: Path) -> None:

@@ -35,6 +35,9 @@ def arguments(parser: _options.CommandParser) -> None:
     parser.flag(
         "--no-token", "allow everyone who can connect to use the studio: at least every user of this machine"
     )
+    parser.flag(
+        "--unattended", "a run that moves a robot goes on without a page; without it, it pauses after 5 s"
+    )
     _options.add_world(parser)
     _options.add_cores(parser)
 
@@ -67,7 +70,7 @@ def run(args: argparse.Namespace) -> int:
         print(f"deodar studio: {address}\nStop it with Ctrl-C.", flush=True)
 
     world, token = _options.world(args.world), not args.no_token
-    service = Service(root, file, args.trust, world, args.host, args.port, token)
+    service = Service(root, file, args.trust, world, args.host, args.port, token, args.unattended)
     if not serve(service, not args.no_browser, say):
         return 0
     print("deodar studio: SIGTERM has ended the studio", file=sys.stderr)

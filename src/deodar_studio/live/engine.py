@@ -24,6 +24,7 @@ from deodar.errors import ModelError, NotFinite, ParameterError, Problem, proble
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.session.cost import StepCost, costs
+from deodar.session.exchange import used
 from deodar.session.pace import Pace, require_longest
 from deodar.session.port_reader import PortKey, PortReader, port_reader
 from deodar.session.run import require_step
@@ -62,6 +63,7 @@ class Engine:
     Attributes:
         published: the state published last.
         running: whether the clock advances the session.
+        attended: whether a page is open; without one, a run that moves a robot pauses.
         failure: why the run stopped, and the paths of the elements concerned.
         busy: a phrase for the compilation in progress; empty: none.
         compilation: the compilation in progress, or the last one.
@@ -98,6 +100,7 @@ class Engine:
         self.traces: dict[TraceRequest, Trace] = {}
         self.published = PublishedState(0, 0.0, 0, {})
         self.running = False
+        self.attended = True
         self.failure: tuple[tuple[Problem, ...], tuple[str, ...]] = ((), ())
         self.busy = ""
         self.compilation: Compilation | None = None
@@ -342,6 +345,8 @@ class Engine:
     def _exchange(self) -> float:
         """Take the steps that are due; return the wall time until the next one, in seconds."""
         session = self.session
+        if not self.attended and (self.running or self._steps) and _moves_robot(session):
+            self._leave_robot()
         if session is None or not (self.running or self._steps):
             self._halt()
             return 0.02 if self._stale and self._requested else 0.5
@@ -369,6 +374,14 @@ class Engine:
         if moved is not None:
             with errors_of(moved, "halt"):
                 moved.halt()
+
+    def _leave_robot(self) -> None:
+        """Pause the run, because no page is there by which anybody could stop the robot."""
+        self.play(False)
+        fix = "Start it again; deodar studio --unattended lets it go on without a page"
+        absence = Problem("", "the run that moves a robot has paused, because no page was open", fix)
+        self.failure = ((absence,), ())
+        self._changed()
 
     def _advance(self, session: Session, n: int) -> None:
         self._moved = session.world
@@ -560,6 +573,14 @@ class Engine:
             self.reset()
         session.edit(document)
         self._target = None
+
+
+def _moves_robot(session: Session | None) -> bool:
+    """Return whether a session has motors of a world that follows the wall clock."""
+    world = None if session is None else session.world
+    if session is None or world is None or not world.stage.wall_clock:
+        return False
+    return bool(used(session.document, world)[1])
 
 
 def _found(readers: Sequence[PortReader], program: Any, places: Iterable[PortKey]) -> PortReader | None:

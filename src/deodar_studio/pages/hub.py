@@ -47,6 +47,11 @@ STORE_SECONDS = 3.0
 FOLLOW_SECONDS = 0.5
 """Wall time between two checks whether a record grew, in seconds."""
 
+ABSENT_SECONDS = 5.0
+"""Wall time after which a run that moves a robot pauses when the last page has gone, in seconds; a page that
+is loaded again is back earlier.
+"""
+
 
 class Hub:
     """The project, the engine and the connected pages.
@@ -58,14 +63,24 @@ class Hub:
         trust: whether functions that documents name may be run.
         world: the world that sensors read; None: examples of worlds are used.
         private: whether only the user who started the studio can use it (see `Service.private`).
+        unattended: whether a run that moves a robot goes on while no page is open.
     """
 
-    def __init__(self, root: Path, trust: bool, world: World | None, private: bool = False) -> None:
+    def __init__(
+        self,
+        root: Path,
+        trust: bool,
+        world: World | None,
+        private: bool = False,
+        unattended: bool = False,
+    ) -> None:
         self._loop = asyncio.get_running_loop()
         self._wake_scheduled = False
         self._gallery = Gallery(recent=[], recoveries=[])
         self.pages: set[Page] = set()
         self._connected = 0
+        self._unattended = unattended
+        self._absence: asyncio.TimerHandle | None = None
         self.workspace = Workspace(root)
         self.store = StateStore(state_folder())
         self.embodiment = Embodiment(world)
@@ -226,9 +241,17 @@ class Hub:
     # ----------------------------------------------------------------------------------------------- watching
 
     def new_page(self) -> Page:
-        """Make a page with a new number; its connection adds it to `pages` when the socket is open."""
+        """Make a page with a new number; its connection lets it enter when the socket is open."""
         self._connected += 1
         return Page(self._connected)
+
+    def enter(self, page: Page) -> None:
+        """Add a page whose socket is open."""
+        self.pages.add(page)
+        if self._absence is not None:
+            self._absence.cancel()
+            self._absence = None
+        self.engine.attended = True
 
     def watch(self) -> None:
         """Make the engine publish the ports and time courses that all pages watch."""
@@ -238,13 +261,22 @@ class Hub:
         self.engine.call(lambda: self.engine.show(places, requests))
 
     def leave(self, page: Page) -> None:
-        """Remove a page that disconnected; the run continues, and what the page injects and pushes ends."""
+        """Remove a page that disconnected, and end what it injects and pushes.
+
+        The run continues; one that moves a robot pauses when no page comes within `ABSENT_SECONDS`.
+        """
         self.pages.discard(page)
         if self.engine.injection is not None and page.pushes:
             self.engine.call(lambda: self.engine.inject(None))
         if page.pushed:
             self.engine.call(lambda: self.engine.rearrange(lambda session: _let_go(session, page.pushed)))
         self.watch()
+        if not self.pages and not self._unattended:
+            self._absence = self._loop.call_later(ABSENT_SECONDS, self._miss)
+
+    def _miss(self) -> None:
+        """Let a run that moves a robot pause: no page is there by which anybody could stop it."""
+        self.engine.attended = False
 
     # ------------------------------------------------------------------------------------------------- ending
 
@@ -268,6 +300,8 @@ class Hub:
         """Store unsaved edits and stop the engine."""
         self._storing.cancel()
         self._following.cancel()
+        if self._absence is not None:
+            self._absence.cancel()
         self.project.run.end()
         await self.project.store_edits()
         await self.experiment.store_edits()

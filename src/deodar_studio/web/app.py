@@ -71,7 +71,7 @@ class Studio:
     @contextlib.asynccontextmanager
     async def _life(self, app: Starlette) -> AsyncGenerator[None]:
         service = self._service
-        self._hub = Hub(service.root, service.trust, service.world, service.private)
+        self._hub = Hub(service.root, service.trust, service.world, service.private, service.unattended)
         hub, file = self._hub, service.file
         if file is not None:
             try:

@@ -67,7 +67,7 @@ class PageConnection:
     async def run(self) -> None:
         """Serve the page until it disconnects."""
         await self._socket.accept()
-        self._hub.pages.add(self.page)
+        self._hub.enter(self.page)
         both = [asyncio.create_task(self._receive()), asyncio.create_task(self._send())]
         try:
             done, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
