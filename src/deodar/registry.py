@@ -72,7 +72,8 @@ def _within(paths: Iterable[str], name: str) -> str:
 def kinds(room: str | None = None) -> dict[str, type[Any]]:
     """Return every registered kind by name, or those of one room.
 
-    Kinds of packages belong to the room None, worlds of packages also to `worlds`.
+    Kinds of packages belong to the room None, worlds of packages also to `worlds`; kinds of other modules
+    that were imported belong to the room of the class that they are made from.
     """
     for each in ROOMS:
         _scan(each)
@@ -81,8 +82,14 @@ def kinds(room: str | None = None) -> dict[str, type[Any]]:
     return {
         name: cls
         for name, cls in sorted(_kinds.items())
-        if room is None or f"{cls.__module__}.".startswith(f"deodar.{room}.") or name in taken
+        if room is None or name in taken or _belongs(cls, room)
     }
+
+
+def _belongs(cls: type[Any], room: str) -> bool:
+    """Return whether a class is of a room, or, if it is not deodar's own, of a base class there."""
+    line = (cls,) if own(cls) else cls.__mro__
+    return any(f"{base.__module__}.".startswith(f"deodar.{room}.") for base in line)
 
 
 def kind(name: str) -> type[Any]:

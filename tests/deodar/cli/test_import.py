@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import deodar as dd
+
 OWN = '''
 from dataclasses import dataclass
 from deodar.element import Coupling
@@ -54,6 +56,42 @@ def test_a_custom_element_runs_from_the_command_line(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert "3.0" in (tmp_path / "out" / "record.csv").read_text()
     assert "Twice the input" in call(tmp_path, "--import", "own", "elements", "Doubling").stdout
+
+
+WORLD = '''
+import numpy as np
+import deodar as dd
+
+@dd.register
+class Bulb(dd.World):
+    """A bulb of constant brightness."""
+
+    sensors = {"light": dd.Signal("brightness", (), "lux")}
+    period = 1.0
+
+    def __init__(self, light):
+        self.light = float(light)
+
+    @classmethod
+    def open(cls, argument):
+        return cls(argument)
+
+    def sense(self, sensor, axes, time):
+        return np.asarray(self.light)
+'''
+
+
+def test_a_custom_world_is_named_on_the_command_line(tmp_path: Path) -> None:
+    (tmp_path / "bulb.py").write_text(WORLD)
+    model = dd.Model("seeing")
+    model.add(dd.Sensor("eye", sensor="light"))
+    dd.save(model, tmp_path / "seeing.json")
+    asked = ("run", "seeing.json", "--world", "bulb:7.5", "--duration", "2", "--record", "eye.output")
+    unknown = call(tmp_path, *asked)
+    assert unknown.returncode != 0 and "there is no world 'bulb'" in unknown.stderr
+    done = call(tmp_path, "--import", "bulb", *asked, "--format", "csv", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert "7.5" in (tmp_path / "out" / "record.csv").read_text()
 
 
 def test_a_module_that_raises_at_import_is_an_error_without_traceback(tmp_path: Path) -> None:
