@@ -99,22 +99,21 @@ def sun(model: Any) -> np.ndarray:
 
 
 def picture(
-    model: Any, data: Any, camera: str, size: tuple[int, int], colors: np.ndarray, light: float
+    model: Any, data: Any, camera: int, size: tuple[int, int], colors: np.ndarray, light: float
 ) -> np.ndarray:
     """Return the colours that a camera sees, (columns, rows, 3), from 0 to 1.
 
     A surface of colour c with the normal n shows light * c * (a + (1 - a) * max(0, n . l)), with the share a
     of ambient light and the direction l of the light. `light` changes value, not hue or saturation.
     """
-    index = model.camera(camera).id
-    frame = np.asarray(data.cam_xmat[index]).reshape(3, 3)
-    rays = directions(*size, float(model.cam_fovy[index])) @ frame.T
+    frame = np.asarray(data.cam_xmat[camera]).reshape(3, 3)
+    rays = directions(*size, float(model.cam_fovy[camera])) @ frame.T
     count = len(rays)
     geom, distance, normal = np.full(count, -1, np.int32), np.empty(count), np.zeros(3 * count)
     simulator().mj_multiRay(
         model,
         data,
-        np.asarray(data.cam_xpos[index]).reshape(3, 1),
+        np.asarray(data.cam_xpos[camera]).reshape(3, 1),
         rays.reshape(-1, 1),
         VISIBLE,
         1,
@@ -137,7 +136,7 @@ LIFT = 1e-4
 """Height of these points above the top, m, so that the rays end outside of the object."""
 
 
-def visible(model: Any, data: Any, camera: str, body: str, radius: float, height: float) -> float:
+def visible(model: Any, data: Any, camera: int, body: str, radius: float, height: float) -> float:
     """Return the share of the top of a body that a camera sees, 0 to 1.
 
     The top is a disc around the vertical axis of the body; points cover it evenly, in a golden spiral.
@@ -259,11 +258,11 @@ class Renderer:
         self._options, self._camera = mujoco.MjvOption(), mujoco.MjvCamera()
         self._camera.type = mujoco.mjtCamera.mjCAMERA_FIXED
 
-    def picture(self, data: Any, camera: str, light: float) -> np.ndarray:
+    def picture(self, data: Any, camera: int, light: float) -> np.ndarray:
         """Return the colours that a camera sees, (columns, rows, 3), from 0 to 1, times `light`."""
         mujoco = simulator()
         columns, rows = self.size
-        self._camera.fixedcamid = self._model.camera(camera).id
+        self._camera.fixedcamid = camera
         everything = mujoco.mjtCatBit.mjCAT_ALL
         mujoco.mjv_updateScene(self._model, data, self._options, None, self._camera, everything, self._scene)
         area, pixels = mujoco.MjrRect(0, 0, columns, rows), np.empty((rows, columns, CHANNELS), np.uint8)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import math
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
-from deodar.errors import Problem, UnknownName, WorldError, did_you_mean, instance_of
+from deodar.errors import Problem, RunWarning, UnknownName, WorldError, did_you_mean, instance_of
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import real, show
 from deodar.registry import register
@@ -26,6 +27,10 @@ from deodar_robots.mujoco.cameras import CAMERAS, MuJoCoCameras, Renderer, visib
 from deodar_robots.mujoco.objects import PlacedObject
 from deodar_robots.mujoco.reach import Arm
 from deodar_robots.mujoco.scene_file import ROBOTS, SCENES, SceneFile, is_scalar, simulator
+from deodar_robots.mujoco.scene_names import SceneNames
+
+LONGEST_PERIOD = 10.0
+"""Longest period of a scene that states none, ms, unless its time step is longer."""
 
 CONTROL = 0.01
 """Interval between two commands to the joints, s, if the time step of the scene is shorter."""
@@ -35,6 +40,14 @@ GAP = 0.0005
 
 
 PICTURE = Signal("picture: columns from the left, rows from the top, and red, green, blue", each=True)
+JOINT_SENSORS = {
+    "joint_angles": Signal("position of each hinge and slide", each=True),
+    "joint_velocities": Signal("velocity of each hinge and slide", each=True),
+}
+MOCAP_POSITION = Signal("position of the mocap body: x, y and z", (3,), "m", each=True)
+MOCAP_ORIENTATION = Signal(
+    "orientation of the mocap body: a quaternion, its real part first", (4,), each=True
+)
 TOOL_SENSORS = {
     "tool": Signal("x, y and z of the tool", (3,), "m", each=True),
     "tool_plane": Signal("x and y of the tool", (2,), "m", each=True),
@@ -49,11 +62,16 @@ TOOL_MOTORS = {
 class MuJoCo(World):
     r"""A scene with real physics: any file in the format of MuJoCo (MJCF), and a robot in it.
 
-    Every sensor, camera and actuator of the files is a sensor or a motor of the world, by its name. If the
-    robot has a site called `tool` and velocity actuators, two more motors move this tool: the joints get the
-    velocities that the damped pseudo-inverse of its Jacobian J gives for a wanted velocity v of the tool, and
-    approach their posture q_0 of the start as far as the tool does not move by it. Joints keep their ranges
-    and largest speeds, whatever the command.
+    Every sensor, camera and actuator of the files is a sensor or a motor of the world, by its name. Without a
+    name an actuator has that of what it moves (its joint, tendon, site or body), a sensor that of what it
+    measures and its type (`tip_gyro`), a camera its number (`camera0`); where two would have one name, the
+    second is `hip_2`. A mocap body is a motor for its position, and with `_orientation` one for its
+    orientation.
+
+    If the robot has a site called `tool` and velocity actuators, two more motors move this tool: the joints
+    get the velocities that the damped pseudo-inverse of its Jacobian J gives for a wanted velocity v of the
+    tool, and approach their posture q_0 of the start as far as the tool does not move by it. Joints keep
+    their ranges and largest speeds, whatever the command.
 
     Equation:
         \frac{dq}{dt} = J^{+} v + (I - J^{+} J)\, k\, (q_0 - q),\quad J^{+} = J^T (J J^T + d^2 I)^{-1}
@@ -62,7 +80,8 @@ class MuJoCo(World):
         scene: an MJCF file, or the name of a scene that comes with deodar (table, head).
         robot: an MJCF file of a robot that is attached at the site `robot` of the scene, or the name of one
             that comes with deodar (lwr4, four, six); None: lwr4 on the table of deodar, else none.
-        period: ms between two exchanges with the model; a multiple of the time step of the scene.
+        period: ms between two exchanges with the model; a multiple of the time step of the scene. None: the
+            longest up to 10 ms, at least one step.
         tool_noise: standard deviation of the sensors `tool` and `tool_plane`, m.
         cameras: what cameras see, and how often.
 
@@ -80,8 +99,7 @@ class MuJoCo(World):
     """
 
     sensors: Mapping[str, Signal] = {
-        "joint_angles": Signal("position of each hinge and slide", each=True),
-        "joint_velocities": Signal("velocity of each hinge and slide", each=True),
+        **JOINT_SENSORS,
         "camera": PICTURE,
         **TOOL_SENSORS,
     }
@@ -92,19 +110,22 @@ class MuJoCo(World):
         self,
         scene: str | Path = "table",
         robot: str | Path | None = None,
-        period: float = 10.0,
+        period: float | None = None,
         tool_noise: float = 0.0,
         cameras: MuJoCoCameras = CAMERAS,
     ) -> None:
         self.files = SceneFile.find(scene, robot)
         self.source = str(scene), None if robot is None else str(robot)
-        self.period = number("period", period, above=0.0)
+        self.period = None if period is None else number("period", period, above=0.0)
         self.cameras = instance_of(MuJoCoCameras, cameras, "cameras")
         self.tool_noise = number("tool_noise", tool_noise)
         self.objects: dict[str, PlacedObject] = {}
         self._seed, self._trials, self._tick = 0, (0,), 0
         self._build()
         self.sensors, self.motors = self._signals()
+        self._urdf = self.files.urdf()
+        if self._urdf is not None:
+            warnings.warn(str(self._urdf), RunWarning, stacklevel=2)
 
     # ----------------------------------------------------------------------------------------- the simulation
 
@@ -113,19 +134,13 @@ class MuJoCo(World):
         model, self._home = self.files.compiled(thing.body() for thing in self.objects.values())
         self.model = model
         model.opt.disableflags |= int(simulator().mjtDisableBit.mjDSBL_AUTORESET)
-        period = float(self.period or 0)
-        steps = period / (1000 * model.opt.timestep)
-        if not math.isclose(steps, round(steps), rel_tol=1e-6) or round(steps) < 1:
-            raise WorldError(
-                f"the period {period:g} ms is not a multiple of the time step of the scene,"
-                f" {1000 * model.opt.timestep:g} ms",
-                where=str(self.files.scene),
-                fix=f"For example period={1000 * model.opt.timestep * max(1, round(steps)):g}",
-            )
-        self._steps = round(steps)
+        self._steps = self._steps_of_period(1000 * float(model.opt.timestep))
         self._control = max(1, round(CONTROL / model.opt.timestep))
         self._joints = [k for k in range(model.njnt) if is_scalar(model, k)]
         self.arm = Arm.find(model, self._home)
+        tool = self.arm is not None
+        read = [*(JOINT_SENSORS if self._joints else ()), *(TOOL_SENSORS if tool else ())]
+        self._scene_names = SceneNames.of(model, read, TOOL_MOTORS if tool else ())
         self._colors, self._shown = pictures.shades(model), simulator().MjData(model)
         self._renderers: dict[tuple[int, int], Renderer] = {}
         self._geoms = solids.shown(model)
@@ -133,6 +148,20 @@ class MuJoCo(World):
         self._copies = [self._started() for _ in self._trials]
         self._height = 0.0 if self.arm is None else float(self._copies[0].site_xpos[self.arm.site][2])
         self._take_frames()
+
+    def _steps_of_period(self, timestep: float) -> int:
+        """Return the number of time steps (ms) of a period, and choose a period if none was stated."""
+        if self.period is None:
+            self.period = round(max(1, math.floor(LONGEST_PERIOD / timestep + 1e-6)) * timestep, 9)
+        steps = self.period / timestep
+        if not math.isclose(steps, round(steps), rel_tol=1e-6) or round(steps) < 1:
+            raise WorldError(
+                f"the period {self.period:g} ms is not a multiple of the time step of the scene,"
+                f" {timestep:g} ms",
+                where=str(self.files.scene),
+                fix=f"For example period={timestep * max(1, round(steps)):g}",
+            )
+        return round(steps)
 
     def _take_frames(self) -> None:
         """Keep the state that the cameras show until their next picture."""
@@ -163,36 +192,45 @@ class MuJoCo(World):
         self._take_frames()
 
     def _signals(self) -> tuple[dict[str, Signal], dict[str, Signal]]:
-        model = self.model
-        joints, dims = len(self._joints), model.sensor_dim
         sensors = {
-            model.sensor(k).name: Signal(
-                "sensor of the scene", () if dims[k] == 1 else (int(dims[k]),), each=True
-            )
-            for k in range(model.nsensor)
-            if model.sensor(k).name
+            name: dataclasses.replace(signal, shape=(len(self._joints),))
+            for name, signal in JOINT_SENSORS.items()
+            if self._joints
         }
-        if joints:
-            sensors["joint_angles"] = Signal("position of each hinge and slide", (joints,), "", each=True)
-            sensors["joint_velocities"] = Signal("velocity of each hinge and slide", (joints,), each=True)
         every = self.cameras.camera_every
         frame = every * float(self.period or 0) if every > 1 else None
-        for k in range(model.ncam):
-            sensors[model.camera(k).name] = dataclasses.replace(PICTURE, period=frame)
-        motors = {
-            model.actuator(k).name: Signal(
-                "actuator of the scene",
-                (),
-                each=True,
-                bounds=(_pair(model.actuator_ctrlrange[k]),) if model.actuator_ctrllimited[k] else None,
-            )
-            for k in range(model.nu)
-            if model.actuator(k).name
-        }
+        sensors |= {name: dataclasses.replace(PICTURE, period=frame) for name in self._scene_names.cameras}
+        for name, k in self._scene_names.sensors.items():
+            size = int(self.model.sensor_dim[k])
+            sensors[name] = Signal("sensor of the scene", () if size == 1 else (size,), each=True)
+        motors = {name: self._actuator(k) for name, k in self._scene_names.actuators.items()}
+        motors |= dict.fromkeys(self._scene_names.positions, MOCAP_POSITION)
+        motors |= dict.fromkeys(self._scene_names.orientations, MOCAP_ORIENTATION)
         if self.arm is not None:
             sensors |= TOOL_SENSORS
             motors |= TOOL_MOTORS
         return sensors, motors
+
+    def _actuator(self, number: int) -> Signal:
+        rows = self._controls(number)
+        size = rows.stop - rows.start
+        ranges = tuple(_pair(row) for row in self.model.actuator_ctrlrange[rows])
+        limited = all(self.model.actuator_ctrllimited[rows])
+        shape = () if size == 1 else (size,)
+        return Signal("actuator of the scene", shape, each=True, bounds=ranges if limited else None)
+
+    def _controls(self, actuator: int) -> slice:
+        """Return the places of an actuator's commands among those of all."""
+        first = int(self.model.actuator_ctrladr[actuator])
+        return slice(first, first + int(self.model.actuator_ctrlnum[actuator]))
+
+    def require_motor(self, motor: str) -> None:
+        try:
+            super().require_motor(motor)
+        except WorldError as error:
+            if self._urdf is None:
+                raise
+            raise WorldError([*error.problems, dataclasses.replace(self._urdf, severity="problem")]) from None
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
         self._seed, self._trials, self._tick = seed, tuple(trials), 0
@@ -216,9 +254,14 @@ class MuJoCo(World):
 
     def _command(self, data: Any, commands: Mapping[str, np.ndarray]) -> None:
         data.ctrl[:] = 0.0
+        names = self._scene_names
         for name, value in commands.items():
-            if name not in ("tool_velocity", "tool_plane"):
-                data.ctrl[self.model.actuator(name).id] = float(value)
+            if name in names.actuators:
+                data.ctrl[self._controls(names.actuators[name])] = value
+            elif name in names.positions:
+                data.mocap_pos[names.positions[name]] = value
+            elif name in names.orientations:
+                data.mocap_quat[names.orientations[name]] = value
         arm = self.arm
         if arm is None:
             return
@@ -265,10 +308,10 @@ class MuJoCo(World):
             if self.tool_noise:
                 place += self.tool_noise * self._random(k, sensor, self._tick).standard_normal(len(place))
             return place
-        if sensor in (model.camera(c).name for c in range(model.ncam)):
+        if sensor in self._scene_names.cameras:
             return self._picture(k, sensor, axes)
-        found = np.array(data.sensor(sensor).data)
-        return found[0] if len(found) == 1 else found
+        reading = np.array(data.sensor(self._scene_names.sensors[sensor]).data)
+        return reading[0] if len(reading) == 1 else reading
 
     def _picture(self, k: int, sensor: str, axes: Axes) -> np.ndarray:
         pictures.require_picture(sensor, axes)
@@ -287,11 +330,12 @@ class MuJoCo(World):
 
     def _seen(self, camera: str, size: tuple[int, int]) -> np.ndarray:
         """Return the picture of a camera without noise, as `render` states."""
+        number = self._scene_names.cameras[camera]
         if self.cameras.render == "rays":
-            return pictures.picture(self.model, self._shown, camera, size, self._colors, self.cameras.light)
+            return pictures.picture(self.model, self._shown, number, size, self._colors, self.cameras.light)
         if size not in self._renderers:
             self._renderers[size] = Renderer(self.model, size)
-        return self._renderers[size].picture(self._shown, camera, self.cameras.light)
+        return self._renderers[size].picture(self._shown, number, self.cameras.light)
 
     def _random(self, k: int, sensor: str, count: int) -> np.random.Generator:
         """Return the noise of a sensor in one period; it depends on seed, trial, sensor and period alone."""
@@ -385,7 +429,8 @@ class MuJoCo(World):
         """Return the share of the top of an object that a camera of the first copy sees, 0 to 1."""
         self._require_object(name)
         thing, data = self.objects[name], self._copies[0]
-        return visible(self.model, data, camera, name, min(thing.size) / 2, thing.height)
+        number = self._scene_names.cameras[camera]
+        return visible(self.model, data, number, name, min(thing.size) / 2, thing.height)
 
     def push(self, body: str, force: Sequence[float]) -> None:
         """Push a body, such as a link of an arm, with a force along x, y and z (N) until the next call.
@@ -429,7 +474,7 @@ class MuJoCo(World):
             places.append([x, y])
         elif self.model.nbody > 1:
             x, y = (float(v) for v in data.xpos[1][:2])
-            bodies = (SceneBody(self.model.body(1).name or "body", (x, y), 0.0, 0.05),)
+            bodies = (SceneBody(self.model.body(1).name, (x, y), 0.0, 0.05),)
             places.append([x, y])
         inside = np.array([*self._border(), *places])
         left, low, right, high = (float(v) for v in (*inside.min(axis=0), *inside.max(axis=0)))
@@ -455,6 +500,7 @@ class MuJoCo(World):
             "qvel": np.array([data.qvel for data in self._copies]),
             "act": np.array([data.act for data in self._copies]),
             "warmstart": np.array([data.qacc_warmstart for data in self._copies]),
+            "mocap": np.array([np.hstack([data.mocap_pos, data.mocap_quat]) for data in self._copies]),
             "pushes": np.array([data.xfrc_applied for data in self._copies]),
             "frames": np.array(self._frames),
         }
@@ -465,6 +511,7 @@ class MuJoCo(World):
             data.time = float(kept["time"][k])
             data.qpos[:], data.qvel[:] = kept["qpos"][k], kept["qvel"][k]
             data.act[:] = kept["act"][k]
+            data.mocap_pos[:], data.mocap_quat[:] = np.split(kept["mocap"][k], [3], axis=1)
             data.xfrc_applied[:] = kept["pushes"][k]
             simulator().mj_forward(self.model, data)
             # which `mj_forward` changes
@@ -547,6 +594,9 @@ def _carry_over(before: Any, old: Any, model: Any, new: Any) -> None:
         at = mujoco.mj_name2id(before, mujoco.mjtObj.mjOBJ_BODY, model.body(k).name)
         if at > 0:
             new.xfrc_applied[k] = old.xfrc_applied[at]
+            mocap, was = int(model.body_mocapid[k]), int(before.body_mocapid[at])
+            if mocap >= 0:
+                new.mocap_pos[mocap], new.mocap_quat[mocap] = old.mocap_pos[was], old.mocap_quat[was]
     new.time = old.time
     mujoco.mj_forward(model, new)
 

@@ -31,7 +31,7 @@ class Arm:
 
     Attributes:
         site: number of the tool's site.
-        actuators: numbers of the actuators.
+        actuators: places of the actuators' commands among those of all.
         dofs, places: index of each joint in velocities and in positions.
         lower, upper: range of each joint.
         fastest: largest speed of each joint.
@@ -53,12 +53,12 @@ class Arm:
         mujoco = simulator()
         site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, TOOL)
         joints: dict[int, int] = {}
-        for k in range(model.nu):
+        for k in range(model.nactuator):
             joint = int(model.actuator_trnid[k, 0])
             of_joint = int(model.actuator_trntype[k]) == int(mujoco.mjtTrn.mjTRN_JOINT)
             gain, bias = model.actuator_gainprm[k, 0], model.actuator_biasprm[k]
             if of_joint and is_scalar(model, joint) and bias[1] == 0 and gain > 0 and bias[2] == -gain:
-                joints.setdefault(joint, k)
+                joints.setdefault(joint, int(model.actuator_ctrladr[k]))
         if site < 0 or not joints:
             return None
         numbers, actuators = list(joints), list(joints.values())

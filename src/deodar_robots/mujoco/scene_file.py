@@ -1,12 +1,17 @@
 """Scene and robot files in the format of MuJoCo (MJCF), and the model that they give together.
 
 MuJoCo trusts the sizes in a file, so a child compiles it (`compile_files`) and hands back the compiled model.
+Each body and joint of the compiled model has a name.
 """
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
+import io
+import itertools
 import warnings
+import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +20,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from deodar import regular_file
-from deodar.errors import MissingExtra, WorldError, did_you_mean, first_line
+from deodar.errors import MissingExtra, Problem, WorldError, did_you_mean, first_line
 from deodar.guarded.guarded_file import GuardedFile
 
 FOLDER = Path(__file__).parent
@@ -90,6 +95,20 @@ class SceneFile:
         name = "compiled.mjb"
         return simulator().MjModel.from_binary_path(name, {name: compiled["model"]}), compiled["home"]
 
+    def urdf(self) -> Problem | None:
+        """Return what a file in the format URDF lacks; None if neither file is one."""
+        for file in (self.scene, self.robot):
+            if file is not None and GuardedFile(WorldError, str(file)).call(is_urdf, str(file)):
+                return Problem(
+                    str(file),
+                    "is a URDF file, which states no motors and no sensors",
+                    f"Convert it, add an <actuator> for each joint that moves, and open robot.xml: python -c"
+                    f" \"import mujoco; spec = mujoco.MjSpec.from_file('{file.name}'); spec.compile();"
+                    " spec.to_file('robot.xml')\"",
+                    "warning",
+                )
+        return None
+
     def digest(self) -> str:
         """Return a digest of both files."""
         files = [self.scene] if self.robot is None else [self.scene, self.robot]
@@ -150,6 +169,14 @@ def has_mount(scene: str) -> bool:
     return _specification(scene).site(MOUNT) is not None
 
 
+def is_urdf(path: str) -> bool:
+    """Return whether a file is in the format URDF: its outermost element is `robot`."""
+    with contextlib.suppress(ET.ParseError):
+        for _, element in ET.iterparse(io.BytesIO(regular_file.read_bytes(path)), ["start"]):
+            return element.tag == "robot"
+    return False
+
+
 def compile_files(scene: str, robot: str | None, bodies: list[FreeBody]) -> CompiledFiles:
     """Return the model of a scene, of a robot that is attached to it, and of bodies that are added.
 
@@ -158,6 +185,10 @@ def compile_files(scene: str, robot: str | None, bodies: list[FreeBody]) -> Comp
     """
     mujoco = simulator()
     spec = _specification(scene)
+    attached = None if robot is None else _specification(robot)
+    for kind in ("body", "joint"):
+        _name_all(kind, spec, *([] if attached is None else [attached]))
+    home: dict[str, float] | None = None
     if robot is not None:
         if spec.site(MOUNT) is None:
             raise WorldError(
@@ -165,17 +196,17 @@ def compile_files(scene: str, robot: str | None, bodies: list[FreeBody]) -> Comp
                 where=scene,
                 fix=f'Add <site name="{MOUNT}" pos="0 0 0"/> to the scene, or open it without a robot',
             )
+        home = _home(_compiled(attached, robot))
         with warnings.catch_warnings():
             # names of the robot stay as they are in its file; a clash of names is an error of `compile`
             warnings.simplefilter("ignore")
-            spec.attach(_specification(robot), site=MOUNT, prefix="")
+            spec.attach(attached, site=MOUNT, prefix="")
     for body in bodies:
         _add(spec, body)
     model = _compiled(spec, scene)
     content = np.empty(mujoco.mj_sizeModel(model), np.uint8)
     mujoco.mj_saveModel(model, None, content)
-    home = _home(model if robot is None else _compiled(_specification(robot), robot))
-    return {"model": content.tobytes(), "home": home}
+    return {"model": content.tobytes(), "home": _home(model) if home is None else home}
 
 
 def _specification(path: str) -> Any:
@@ -186,6 +217,20 @@ def _specification(path: str) -> Any:
         raise MemoryError from None
     except ValueError as error:
         raise WorldError(f"is not a valid MJCF file: {first_line(error)}", where=path) from None
+
+
+def _name_all(kind: str, *specs: Any) -> None:
+    """Name the bodies or joints without a name by the kind and a number, `joint2`, in files that are joined.
+
+    The state is carried over by name where an object is placed, and so is the start of a robot.
+    """
+    objects = [each for spec in specs for each in getattr(spec, {"body": "bodies", "joint": "joints"}[kind])]
+    used = {each.name for each in objects}
+    for number, each in enumerate(objects):
+        if not each.name:
+            numbered = (f"{kind}{k}" for k in itertools.count(number))
+            each.name = next(name for name in numbered if name not in used)
+            used.add(each.name)
 
 
 def _add(spec: Any, body: FreeBody) -> None:

@@ -11,9 +11,6 @@ from deodar.worlds._scene import Mesh, Solid, SolidShape
 from deodar_robots.mujoco.cameras import VISIBLE
 from deodar_robots.mujoco.scene_file import simulator
 
-UNNAMED = "body"
-"""Name of a body that has none."""
-
 
 def shown(model: Any) -> list[int]:
     """Return the geoms that are drawn: of a visible group and a known shape, and not fully transparent."""
@@ -37,7 +34,7 @@ def solids(model: Any, shades: np.ndarray, things: Container[str]) -> tuple[Soli
     out: list[Solid] = []
     for k in shown(model):
         body = int(model.geom_bodyid[k])
-        name, shape = model.body(body).name or UNNAMED, known[int(model.geom_type[k])]
+        name, shape = model.body(body).name, known[int(model.geom_type[k])]
         x, y, z = (float(v) for v in model.geom_size[k])
         red, green, blue = (float(v) for v in shades[k])
         thing = name if name in things else ""
@@ -49,7 +46,7 @@ def solids(model: Any, shades: np.ndarray, things: Container[str]) -> tuple[Soli
                 (red, green, blue, float(model.geom_rgba[k][3])),
                 thing,
                 # what is welded to the world cannot move
-                not thing and bool(model.body(body).name) and int(model.body_weldid[body]) != 0,
+                not thing and int(model.body_weldid[body]) != 0,
                 _mesh(model, int(model.geom_dataid[k])) if shape == "mesh" else None,
             )
         )
