@@ -14,9 +14,29 @@ from typing import Any
 
 import numpy as np
 
-from deodar.errors import MissingExtra, WorldError
+from deodar.errors import Fix, MissingExtra, WorldError
 from deodar.guarded.guarded_file import GuardedFile
 from deodar.numerics.axes import Axes, Axis
+
+VIDEO_ENDINGS = (".mp4", ".avi", ".mov", ".mkv", ".webm", ".m4v", ".mpg", ".mpeg")
+"""Endings of the files that are offered as videos."""
+
+NAME_A_VIDEO = Fix(
+    f"Name a video: {', '.join(VIDEO_ENDINGS)}. A picture is opened by dd.Picture",
+    f"Name a video: {', '.join(VIDEO_ENDINGS)}. A picture is opened by --world picture:FILE",
+    f"Name a video: {', '.join(VIDEO_ENDINGS)}. A picture is another world",
+)
+
+VIDEO_FORMATS = (
+    *("avi", "matroska", "mov", "mpeg", "mpegts", "mpegvideo", "m4v", "h264", "hevc", "ivf", "flv", "asf"),
+    *("ogg", "mxf", "gif", "apng", "mjpeg", "yuv4mpegpipe"),
+)
+"""Formats of FFmpeg that are read. Among its others are text, which it shows as pictures of letters, files
+without a format, and playlists, which name other files and addresses.
+"""
+
+FILE_OPTIONS = f"protocol_whitelist;file|format_whitelist;{','.join(VIDEO_FORMATS)}"
+"""Options with which a file is opened, in the form of OpenCV."""
 
 RATE = 5
 """OpenCV's number of the property for pictures per second (CAP_PROP_FPS)."""
@@ -67,6 +87,7 @@ def capture(file: str, purpose: str) -> Any:
 
 def pictures_of(file: str) -> Generator[np.ndarray]:
     """Yield pictures per second (0: no video), and each picture (height, width, 3); in a child process."""
+    os.environ["OPENCV_FFMPEG_CAPTURE_OPTIONS"] = FILE_OPTIONS
     opened = capture(file, "reading a video")
     yield np.array([opened.get(RATE) if opened.isOpened() else 0.0])
     cv2 = opencv("reading a video")
@@ -90,7 +111,7 @@ class VideoReader:
             raise WorldError(
                 "there is no such video",
                 where=str(path),
-                fix="Name a file that OpenCV can read, such as an .mp4 or .avi",
+                fix=NAME_A_VIDEO,
             )
         self.path = path
         self._pictures = self._read()
@@ -104,7 +125,7 @@ class VideoReader:
         self.rate = next(self._pictures, np.zeros(())).item()
         first = self._next()
         if first is None or not self.rate > 0:
-            raise WorldError("cannot be read as a video", where=str(self.path))
+            raise WorldError("cannot be read as a video", where=str(self.path), fix=NAME_A_VIDEO)
         self._shown, self._number = first, 0
 
     def picture(self, moment: float, again: bool) -> np.ndarray:

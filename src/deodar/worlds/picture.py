@@ -30,6 +30,12 @@ DEEPEST = 65535.0
 MOST_PIXELS = 100_000_000
 
 
+PICTURE_ENDINGS = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".tif", ".tiff")
+"""Endings of the files that are offered as pictures."""
+
+NAME_A_PICTURE = f"Name a picture: {', '.join(PICTURE_ENDINGS)}"
+
+
 @register
 class Picture(World):
     r"""A constant picture: one sensor, `picture`, over two dimensions and the channels red, green and blue.
@@ -53,7 +59,7 @@ class Picture(World):
     """
 
     sensors: Mapping[str, Signal] = {"picture": PICTURE}
-    opens = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".tif", ".tiff")
+    opens = PICTURE_ENDINGS
 
     def __init__(self, file: str | Path | np.ndarray) -> None:
         if not isinstance(file, (str, Path, np.ndarray)):
@@ -109,7 +115,7 @@ def _read(path: Path) -> np.ndarray:
         raise WorldError(
             "there is no such picture",
             where=str(path),
-            fix="Name a file that Pillow can read, such as a .jpg or .png",
+            fix=NAME_A_PICTURE,
         )
     pixels = GuardedFile(WorldError, str(path)).call(pixels_of, str(path))
     with reading(path, WorldError):
@@ -139,7 +145,7 @@ def pixels_of(path: str) -> np.ndarray:
             return _channels(picture)
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, struct.error, EOFError) as error:
         raise WorldError(
-            f"cannot be read as a picture ({type(error).__name__}: {error})", where=path
+            f"cannot be read as a picture ({type(error).__name__}: {error})", where=path, fix=NAME_A_PICTURE
         ) from None
     except Image.DecompressionBombError:
         raise WorldError("has too many pixels", where=path) from None

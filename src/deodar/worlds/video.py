@@ -32,7 +32,7 @@ class Video(World):
         y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
     Parameters:
-        file: path of a video file that OpenCV can read.
+        file: path of a video file, such as .mp4, .avi, .mov, .mkv or .webm.
         period: ms between two readings; a whole number of steps of the model. The video may have another
             rate.
         loop: whether the video starts again after its end.
@@ -47,7 +47,7 @@ class Video(World):
 
     sensors: Mapping[str, Signal] = {"picture": PICTURE}
     stands_in = False
-    opens = (".mp4", ".avi", ".mov", ".mkv", ".webm", ".m4v", ".mpg", ".mpeg")
+    opens = _capture.VIDEO_ENDINGS
 
     def __init__(self, file: str | Path, period: float = 40.0, loop: bool = False) -> None:
         parsed = real(period)

@@ -44,7 +44,7 @@ def _claims(width: int, height: int) -> bytes:
 def test_a_missing_picture_is_an_error(tmp_path: Path) -> None:
     path = tmp_path / "photo.jpg"
     refused(
-        lambda: Picture(path), WorldError, str(path), "there is no such picture", "such as a .jpg or .png"
+        lambda: Picture(path), WorldError, str(path), "there is no such picture", "Name a picture: .png, .jpg"
     )
 
 

@@ -1,0 +1,88 @@
+"""What is read as a video, and that files of other formats are refused under any name."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import imageio_ffmpeg
+import numpy as np
+import pytest
+from PIL import Image
+
+import deodar as dd
+from deodar.errors import WorldError
+from deodar.worlds import _capture
+
+SQUARE = _capture.example()
+
+LETTERS = "deodar\n" * 200
+SHORT_PLAYLIST = "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\n{video}\n#EXT-X-ENDLIST\n"
+
+NO_VIDEOS = {
+    "letters.txt": LETTERS.encode(),
+    "letters.nfo": LETTERS.encode(),
+    "letters.mp4": LETTERS.encode(),
+    "events.txt": b"0.1 1 2 1\n" * 200,
+    "page.html": b"<html><body>deodar</body></html>",
+    "data.json": json.dumps({"a": [1, 2, 3]}).encode(),
+    "bytes.bin": bytes(range(256)) * 100,
+    "script.py": b"print('deodar')\n" * 50,
+    "empty.mp4": b"",
+}
+
+
+def written(path: Path, *options: str) -> Path:
+    """Write the video of a red square in the format of a file's ending."""
+    program = imageio_ffmpeg.get_ffmpeg_exe()
+    subprocess.run([program, "-loglevel", "error", "-i", str(SQUARE), *options, str(path)], check=True)
+    return path
+
+
+@pytest.mark.parametrize("name", NO_VIDEOS)
+def test_a_file_of_another_format_is_no_video(name: str, tmp_path: Path):
+    file = tmp_path / name
+    file.write_bytes(NO_VIDEOS[name])
+    says = rf"{file.name}: cannot be read as a video\. Name a video: .*\.mp4, .*\.avi.* dd\.Picture"
+    with pytest.raises(WorldError, match=says):
+        dd.Video(file)
+
+
+@pytest.mark.parametrize("ending", ["png", "jpg", "bmp", "tif", "webp"])
+def test_a_picture_is_no_video(ending: str, tmp_path: Path):
+    file = tmp_path / f"picture.{ending}"
+    Image.fromarray(np.zeros((48, 64, 3), np.uint8)).save(file)
+    assert dd.Picture(file).size == (64, 48)
+    with pytest.raises(WorldError, match="cannot be read as a video"):
+        dd.Video(file)
+
+
+@pytest.mark.parametrize("name", ["list.m3u8", "list.ffconcat"])
+def test_a_playlist_reads_no_other_file(name: str, tmp_path: Path):
+    video = written(tmp_path / "part.ts")
+    assert dd.Video(video).size == (64, 48)
+    lists = {
+        "list.m3u8": SHORT_PLAYLIST.format(video=video),
+        "list.ffconcat": f"ffconcat version 1.0\nfile {video.name}\n",
+    }
+    file = tmp_path / name
+    file.write_text(lists[name])
+    with pytest.raises(WorldError, match="cannot be read as a video"):
+        dd.Video(file)
+
+
+@pytest.mark.parametrize("ending", [*dd.Video.opens, ".ts", ".flv", ".ogv", ".wmv", ".gif", ".y4m"])
+def test_formats_of_videos_are_read(ending: str, tmp_path: Path):
+    world = dd.Video(written(tmp_path / f"square{ending}"))
+    assert world.size == (64, 48)
+    first, later = world.picture(0.0), world.picture(400.0)
+    assert np.argmax(first[24, :, 0]) < 17 and np.argmax(later[24, :, 0]) > 17
+
+
+@pytest.mark.parametrize("content", [LETTERS.encode(), b"", bytes(range(256)) * 100])
+def test_an_error_of_a_picture_names_formats(content: bytes, tmp_path: Path):
+    file = tmp_path / "letters.png"
+    file.write_bytes(content)
+    with pytest.raises(WorldError, match=r"cannot be read as a picture.*Name a picture: .*\.png, .*\.jpg"):
+        dd.Picture(file)
