@@ -178,6 +178,17 @@ class ModelError(DeodarError):
     """Raised when a model is invalid: duplicate names, ports that do not match, loops without a state."""
 
 
+class KindError(ModelError):
+    """Raised when the code of a kind that a package or script defines raises any other exception or returns
+    what its contract does not allow; names the class (`kind`), the file and the line. Worlds raise
+    WorldError.
+    """
+
+    def __init__(self, what: str | Sequence[Problem], where: str = "", fix: str = "", kind: str = "") -> None:
+        self.kind = kind
+        super().__init__(what, where, fix)
+
+
 class DocumentError(DeodarError):
     """Raised when a document file cannot be read: not JSON, unknown version or kind, or an array file of
     another document.

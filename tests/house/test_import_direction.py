@@ -19,7 +19,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "errors",
         "plugins docstring declarations file_version",
         "names registry extensions part_type family codec",
-        "credentials sealed npz regular_file private_file",
+        "credentials sealed npz regular_file private_file kind_errors",
         "parameters guarded",
         "leaves part_data",
         "numerics",

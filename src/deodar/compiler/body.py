@@ -14,6 +14,8 @@ from jax import Array, lax
 from deodar.compiler.arguments import BodyState
 from deodar.element import Arrays
 from deodar.elements.world_ports import Motor, Sensor
+from deodar.errors import WorldError
+from deodar.kind_errors import position
 from deodar.numerics.pytree import PyTree
 from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
@@ -99,11 +101,19 @@ class Body:
         def advanced() -> tuple[PyTree, Arrays]:
             with errors_of(self.world, "advance"):
                 now = self.world.advance(shared, own, before[0], _copy(state["commands"]))
+                self._require(now, before[0])
             now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, before[0])
             return now, self._sensed(shared, own, now, before[1])
 
         now, sensed = lax.cond(tick % period == 0, advanced, lambda: before)
         return {"now": _rows(now), "sensed": _rows(sensed), "commands": state["commands"]}
+
+    def _require(self, new: PyTree, old: PyTree) -> None:
+        """Raise WorldError if a state of the world has not the form of the one before."""
+        forms = [jax.tree.map(lambda a: list(jnp.shape(a)), tree) for tree in (new, old)]
+        if forms[0] != forms[1]:
+            subject = position(type(self.world), "advance")
+            raise WorldError(f"{subject} returns a state of the shapes {forms[0]}; it began with {forms[1]}")
 
     def _sensed(self, shared: Arrays, own: PyTree, now: PyTree, before: Arrays) -> Arrays:
         """Return the readings of the sensors; `before` are the last ones, which may be held."""

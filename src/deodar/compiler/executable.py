@@ -17,6 +17,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
+from jax.core import Tracer
 from jax.sharding import Sharding
 from jax.stages import Compiled, Traced
 
@@ -42,9 +43,11 @@ from deodar.compiler.program import BEGUN, Chunk, Port, Program, precision_conte
 from deodar.compiler.shard import DividedFields
 from deodar.element import Arrays
 from deodar.errors import Fix, Untrusted
+from deodar.kind_errors import leaked
 from deodar.leaves import parameter_values
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
+from deodar.model.kind_contract import errors_in
 from deodar.model.model import Model
 from deodar.numerics import native
 from deodar.numerics.axes import Axes, shape
@@ -491,7 +494,11 @@ class Executable:
         self.traced += 1
         # unused arguments stay: two programs that differ in which argument they use must not look alike to
         # the cache
-        return jax.jit(function, keep_unused=True).trace(*args)
+        traced = jax.jit(function, keep_unused=True).trace(*args)
+        # JAX finds a traced value of an earlier program when the program is called, and not whose it is
+        if any(isinstance(constant, Tracer) for constant in getattr(traced, "_consts", ())):
+            raise leaked({group.like.path: group.like.element for group in self.plan.groups})
+        return traced
 
     def _compiled(
         self, traced: Traced, options: cache.CompilerOptions | None, places: Sequence[Device]
@@ -558,6 +565,11 @@ def executable(model: Model, build: Build) -> Executable:
     if build.doc is model.document:
         model.require()  # which names the lines of a script
     graph(build.doc).required()
+    with errors_in(build.doc):
+        return _executable(model, build)
+
+
+def _executable(model: Model, build: Build) -> Executable:
     program = model.programs.get(build.key)
     if program is None:
         while len(model.programs) >= MOST_KEPT:

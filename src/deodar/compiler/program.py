@@ -26,6 +26,7 @@ from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.compiler.traffic import scope
 from deodar.element import BEFORE, Arrays, Element, Setting, Time
+from deodar.kind_errors import KindNames, NotHere, errors_of_kind, require_arrays
 from deodar.leaves import bind, leaves, parameter_values
 from deodar.numerics.axes import shape
 from deodar.numerics.derivatives import without_derivative
@@ -57,20 +58,6 @@ class Port:
 
 BEGUN = "begun"
 """Key of the tick at which a copy began, among the keys of noise."""
-
-
-class _NotHere:
-    """The placeholder of a live parameter inside `prepare`, which must not use it: any arithmetic raises.
-
-    Negation is allowed: `prepare` also lists a kernel's terms, whose amplitudes may be negated and are not
-    used.
-    """
-
-    def __neg__(self) -> _NotHere:
-        return self
-
-    def __repr__(self) -> str:
-        return "a live parameter (prepare may use only what rebuilds)"
 
 
 def precision_context(precision: str) -> contextlib.AbstractContextManager[None]:
@@ -193,7 +180,7 @@ class Program:
 
     def begin(self, values: ProgramValues) -> ProgramState:
         """Return the state at the start."""
-        groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
+        groups = [self._each(g, _initial, values) for g in range(len(self.plan.groups))]
         return {"groups": groups, "held": {str(g): groups[g] for g in self.slow_groups}}
 
     def keys(self, seed: Array, trial: Array) -> NoiseKeys:
@@ -469,7 +456,7 @@ class Program:
             inputs[port] = jnp.asarray(chunk.sensed[group.like.id], self.dtype)[None]
         noise = None if group.like.element.stateful else self._noise(g, chunk.keys, tick)
         read = self._reading(g, chunk, state, inputs, noise)
-        out = self._each(g, self.functions[g].output, chunk.values, read, time)
+        out = self._each(g, functools.partial(self._outputs, g), chunk.values, read, time)
         for port, axes in group.like.outs.items():
             buffers[g, port, call.instant] = jnp.broadcast_to(
                 jnp.asarray(out[port], self.dtype), (group.rows, *shape(axes))
@@ -479,8 +466,22 @@ class Program:
         self, g: int, chunk: Chunk, state: Arrays, inputs: Arrays, noise: Array | None, time: Time
     ) -> Arrays:
         read = self._reading(g, chunk, state, inputs, noise)
-        new = self._each(g, self.functions[g].advance, chunk.values, read, time)
+        new = self._each(g, functools.partial(self._advanced, g), chunk.values, read, time)
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read["state"])
+
+    def _outputs(self, g: int, element: Element, at: Setting) -> Arrays:
+        """Return the outputs of one row, which have the declared shapes."""
+        out, ports = self.functions[g].output(element, at), self.plan.groups[g].like.outs
+        shapes = {port: shape(axes) for port, axes in ports.items()}
+        require_arrays(element, "output", out, shapes)
+        return out
+
+    def _advanced(self, g: int, element: Element, at: Setting) -> Arrays:
+        """Return the new state of one row, which has the shapes of the state."""
+        new = self.functions[g].advance(element, at)
+        shapes = {name: array.shape for name, array in at.state.items()}
+        require_arrays(element, "advance", new, shapes)
+        return new
 
     def _reading(
         self, g: int, chunk: Chunk, state: Arrays, inputs: Arrays, noise: Array | None
@@ -590,7 +591,8 @@ class Program:
 
         def of_row(parameters: Arrays, read: Mapping[str, Any]) -> T:
             element = bind(group.like.element, self._value(g, parameters, only))
-            return fn(element, dc.replace(at, **read))
+            with errors_of_kind(element, group.like.path, _names(element, read)):
+                return fn(element, dc.replace(at, **read))
 
         if group.rows == 1:
             out = of_row(*jax.tree.map(lambda a: a[0], (parameters, read or {})))
@@ -599,13 +601,13 @@ class Program:
 
     def _value(
         self, g: int, leaves_of_row: Arrays, only: str = ""
-    ) -> Callable[[str], Array | Exact | _NotHere | None]:
+    ) -> Callable[[str], Array | Exact | NotHere | None]:
         """Return the function that gives the value of a leaf of a row by its path."""
         group = self.plan.groups[g]
 
-        def value(path: str) -> Array | Exact | _NotHere | None:
+        def value(path: str) -> Array | Exact | NotHere | None:
             if only and path in group.cost and group.cost[path] != only:
-                return _NotHere()
+                return NotHere(path)
             leaf = leaves_of_row.get(path)
             return Exact(leaf, leaves_of_row[path + LOW]) if path in group.exact else leaf
 
@@ -665,6 +667,18 @@ def gather(x: Array, read: Read) -> Array:
 
         total = total.at[rows].set(lax.fori_loop(0, blocks.shape[0], add, total[rows]))
     return total
+
+
+def _initial(element: Element, at: Setting) -> Arrays:
+    """Return the state of one row at the start."""
+    state = element.init(at)
+    require_arrays(element, "init", state, None)
+    return state
+
+
+def _names(element: Element, read: Mapping[str, Any]) -> KindNames:
+    """Return the names that a method of an element may read."""
+    return KindNames(element.ports(), tuple(read.get("inputs", ())), tuple(read.get("state", ())))
 
 
 def _jumps(group: RowGroup) -> frozenset[str]:

@@ -7,10 +7,11 @@ from graphlib import CycleError, TopologicalSorter
 
 import numpy as np
 
-from deodar.errors import ParameterError, UnknownName, did_you_mean
+from deodar.errors import KindError, ParameterError, UnknownName, did_you_mean, show
 from deodar.experiments.events import Event, Samples
 from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.observable import Observable
+from deodar.kind_errors import errors_of_kind, position
 from deodar.numerics.axes import Axes
 
 TIME = "time"
@@ -153,13 +154,26 @@ class Observations:
         out: dict[str, float | list[float] | None] = {}
         for m, values in zip(self.measures, self.measured, strict=True):
             samples = values[row]
-            measured = None if samples is None else m.value(samples, axes[m.view])
-            out[m.name] = None if measured is None else np.asarray(measured).astype(float).tolist()
+            out[m.name] = None if samples is None else _measured(m, samples, axes[m.view])
         return out
 
     def _end(self, rows: Sequence[int], which: np.ndarray, name: str) -> None:
         for i in np.flatnonzero(which).tolist():
             self.outcome[rows[i]] = name
+
+
+def _measured(measure: BaseMeasure, samples: np.ndarray, axes: Axes | None) -> float | list[float] | None:
+    """Return the value of a measure as plain numbers."""
+    with errors_of_kind(measure, f"measures.{measure.name}"):
+        value = measure.value(samples, axes)
+        if value is None:
+            return None
+        numbers = np.asarray(value)
+        if numbers.dtype.kind not in "biuf":
+            kind = type(measure)
+            what = f"{position(kind, 'value')} returns {show(value)}; expected a number, several, or None"
+            raise KindError(what, kind=kind.__name__)
+        return numbers.astype(float).tolist()
 
 
 def require(events: Sequence[Event], measures: Sequence[BaseMeasure] = ()) -> None:

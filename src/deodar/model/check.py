@@ -4,19 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from deodar.errors import Problem
+from deodar.errors import KindError, Problem
+from deodar.model import kind_contract
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
+from deodar.model.kind_contract import errors_in
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring
 from deodar.registry import imported
 
 
 def check(doc: Document) -> list[Problem]:
-    """Return all problems of the structure; without any, the warnings and the problems of the document's own
-    step.
+    """Return all problems of the structure; without any, those of the classes of users' kinds, the warnings,
+    and the problems of the document's own step.
     """
-    return problems(doc) or judge(doc, graph(doc).nodes)
+    if structural := problems(doc):
+        return structural
+    nodes = graph(doc).nodes
+    try:
+        with errors_in(doc):
+            of_kinds = list(kind_contract.broken(nodes))
+            return [*of_kinds, *judge(doc, nodes)]
+    except KindError as error:
+        return list(error.problems)
 
 
 def problems(doc: Document) -> list[Problem]:

@@ -6,15 +6,17 @@ only connections between equal axes.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses as dc
 import math
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Sequence
 from typing import Any, Literal, TypeVar
 
 from deodar.couplings.delays import Delay
 from deodar.couplings.projections import Project
 from deodar.element import Element
-from deodar.errors import Problem
+from deodar.errors import KindError, Problem
+from deodar.kind_errors import errors_of_kind
 from deodar.leaves import leaves
 from deodar.model.document import Connection, Document, Entry
 from deodar.numerics.axes import Axes, describe, shape
@@ -102,7 +104,8 @@ class _Resolver:
         for entry in self.doc.entries:
             node = self.nodes.get(entry.id)
             if node is not None and not node.deferred:
-                self.wire(node)
+                with self.problems_of(entry):
+                    self.wire(node)
         for node, port, c in self.later:
             if c.source in self.nodes and node.id not in self.failed:
                 slot = self.slot(self.nodes[c.source], c, node)
@@ -111,7 +114,8 @@ class _Resolver:
         for entry in self.doc.entries:
             node = self.nodes.get(entry.id)
             if node is not None:
-                self.inspect(entry, node)
+                with self.problems_of(entry):
+                    self.inspect(entry, node)
         return list(self.nodes.values())
 
     def upstream_first(self) -> list[str]:
@@ -164,6 +168,13 @@ class _Resolver:
                     "Put a field, or a connection with reads='delayed', into it",
                 )
             return None
+        with self.problems_of(entry):
+            return self.resolved(entry)
+        return None
+
+    def resolved(self, entry: Entry) -> Node | None:
+        """Return the node of an element, with the axes at its ports."""
+        ident = entry.id
         node = Node(
             ident,
             entry.path,
@@ -182,7 +193,9 @@ class _Resolver:
                 return None
         try:
             node.outs.update(entry.element.outputs(node.ins))
-        except KeyError:
+        except KeyError as error:
+            if error.args[0] not in node.reads:  # not for lack of a source
+                raise
             return None
         self.nodes[ident] = node
         if deferred:
@@ -409,6 +422,18 @@ class _Resolver:
                 )
                 good = False
         return good
+
+    @contextlib.contextmanager
+    def problems_of(self, entry: Entry) -> Generator[None]:
+        """Report an exception of the class of an element as a problem."""
+        try:
+            with errors_of_kind(entry.element):
+                yield
+        except KindError as error:
+            if entry.id in self.visiting:
+                del self.visiting[self.visiting.index(entry.id) :]
+            for p in error.problems:
+                self.problem(entry.id, p.what, p.fix)
 
     def problem(self, ident: str, fault: str, fix: str = "") -> None:
         self.failed.add(ident)

@@ -11,11 +11,13 @@ import jax
 import numpy as np
 from jax.typing import DTypeLike
 
+from deodar import registry
 from deodar.compiler.body import Body
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import TrialNumbers
 from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import NotFinite, WorldError, option
+from deodar.kind_errors import position
 from deodar.model.document import Document
 from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import Axes, shape
@@ -262,8 +264,11 @@ class Exchange:
         if self._each(sensor) and reading.ndim:
             reading = reading[0]
         if reading.shape != tuple(a.samples for a in axes) or not np.isfinite(reading).all():
+            kind = type(self.world)
+            method = "read" if isinstance(self.world, PureWorld) else "sense"
+            world = "the world" if registry.own(kind) else f"the world {position(kind, method)}"
             raise WorldError(
-                f"the world gave an array of shape {list(reading.shape)}, finite:"
+                f"{world} gave an array of shape {list(reading.shape)}, finite:"
                 f" {bool(np.isfinite(reading).all())}; it needs {[a.samples for a in axes]}, finite",
                 where=sensor.sensor,
             )

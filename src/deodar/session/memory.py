@@ -10,6 +10,7 @@ import psutil
 
 from deodar.compiler.strategies import acted_axes
 from deodar.errors import TooLarge
+from deodar.kind_errors import errors_of_kind
 from deodar.leaves import is_neutral, leaves
 from deodar.model.resolve import Node
 from deodar.numerics import interaction
@@ -74,7 +75,10 @@ def run_bytes(nodes: Sequence[Node], precision: str, copies: int, rebuilt: Colle
     Kernels count as the planner applies them; those of elements in `rebuilt` as matrices.
     """
     cells = copies * COPIES * sum(_cells(n) for n in nodes)
-    constants = sum(_constants(n, _by_matrices(n, precision, rebuilt)) for n in nodes)
+    constants = 0
+    for n in nodes:
+        with errors_of_kind(n.element, n.path):
+            constants += _constants(n, _by_matrices(n, precision, rebuilt))
     return _size(precision) * (cells + constants)
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from deodar import registry
 from deodar.credentials import masked
 from deodar.errors import DeodarError, WorldError, first_line, show
+from deodar.kind_errors import problem_of, rule_of
 from deodar.worlds._base import World
 
 
@@ -34,6 +35,9 @@ def errors_of(world: World | type[World], method: str, argument: str = "") -> Ge
     except Exception as error:  # a method may raise any exception
         if registry.own(kind):
             raise
+        if rule_of(error) is not None or isinstance(error, NotImplementedError):
+            problem = problem_of(error, kind)
+            raise WorldError(problem.what, fix=problem.fix) from error
         name, line = _position(kind, error)
         package = registry.package(kind.__name__)
         origin = f"package {package}" if package else f"module {kind.__module__}"

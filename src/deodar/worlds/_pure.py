@@ -18,6 +18,7 @@ from jax.typing import DTypeLike
 
 from deodar.element import Arrays
 from deodar.errors import WorldError
+from deodar.kind_errors import position
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.copies import any_copy
 from deodar.numerics.noise import element_keys
@@ -101,9 +102,11 @@ class PureWorld(World):
 
         def read() -> Array:
             dtype = None if before is None else before.dtype
-            return jnp.broadcast_to(
-                jnp.asarray(self.read(shared, own, state, sensor, axes), dtype), shape(axes)
-            )
+            array = jnp.asarray(self.read(shared, own, state, sensor, axes), dtype)
+            if array.ndim and array.shape != shape(axes):
+                what = f"{position(type(self), 'read')} returns an array of shape {list(array.shape)}"
+                raise WorldError(f"{what} in place of {list(shape(axes))}", where=sensor)
+            return jnp.broadcast_to(array, shape(axes))
 
         if before is None or signal is None or signal.period is None:
             return read()
@@ -120,8 +123,11 @@ class PureWorld(World):
         numbers = np.asarray([number(name) for name in self.noises], np.uint32)
         words = self.call("keys", _keys, np.uint32(seed), np.asarray(trials, np.uint32), numbers)
         self._keys = {name: np.asarray(words)[:, k] for k, name in enumerate(self.noises)}
+        copies = len(self._trials)  # a world may have no array of a copy
         self._state: PyTree = self.call(
-            "start", lambda world: jax.vmap(world.start, in_axes=(None, 0)), *self._values()
+            ("start", copies),
+            lambda world: jax.vmap(world.start, in_axes=(None, 0), axis_size=copies),
+            *self._values(),
         )
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
