@@ -106,10 +106,9 @@ def test_trials_run_one_by_one_give_the_same_rows() -> None:
 
 
 def test_a_sampled_coupling_that_diverges_gives_equal_rows_in_trials_and_batches() -> None:
-    diverging = experiment([0.1, 1e6], 1, measures=[Measure("gain", "g.output", "max")])
+    study = experiment([0.1, 1e6], 1, measures=[Measure("gain", "g.output", "max")])
     one, many = (
-        finished(changed(diverging, actions=actions), says="1 of 2 trials diverged")
-        for actions in (APART, [])
+        finished(changed(study, actions=actions), says="1 of 2 trials diverged") for actions in (APART, [])
     )
     assert (
         one["diverged"].values.tolist()
@@ -186,18 +185,18 @@ def test_rows_are_equal_with_workers_after_an_interruption_and_from_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
-    diverging = experiment([0.1, 1e6, 0.3], watch=["u.activation"])
-    data = finished(diverging, tmp_path / "whole")
+    study = experiment([0.1, 1e6, 0.3], watch=["u.activation"])
+    data = finished(study, tmp_path / "whole")
 
     def stop(standing: object) -> None:
         if standing >= 3:  # type: ignore[attr-defined]
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        diverging.run(tmp_path / "part", on=dd.Resources(progress=stop))
-    assert finished(diverging, tmp_path / "part").identical(data) and load_results(
-        tmp_path / "part"
-    ).identical(data)
+        study.run(tmp_path / "part", on=dd.Resources(progress=stop))
+    assert finished(study, tmp_path / "part").identical(data) and load_results(tmp_path / "part").identical(
+        data
+    )
     assert (tmp_path / "part" / ROWS).read_bytes() == (tmp_path / "whole" / ROWS).read_bytes()
     table = (tmp_path / "whole" / "trials.csv").read_text()
     assert table.splitlines()[0] == "trial,factor,outcome,awaited,diverged,duration,late,risen,last,risen to"
