@@ -102,6 +102,7 @@ CLASSES = [
         "Element",
         "Coupling",
         "Kernel",
+        "Term",
         "SigmoidFunction",
         "World",
         "PureWorld",
@@ -115,7 +116,7 @@ CLASSES = [
         "Event",
         "BaseMeasure",
     ),
-    *("register", "needed", "euler"),
+    *("register", "needed", "euler", "on_axis"),
 ]
 """What a script derives its own kinds from, under `dd`, with what their methods get."""
 
@@ -123,6 +124,7 @@ DECLARATIONS = ["Live", "Rebuild", "Recompile"]
 ALIASES = {
     "Arrays": "arrays by name: a state, inputs, outputs",
     "Axes": "a tuple of `dd.Axis`, () for a single number",
+    "PerAxis": "one number for all axes, or a tuple with one for each",
     "Interval": "lowest and highest value, two numbers",
     "PositionUnits": "a tuple: for each sample a `dd.PositionUnit`, or None for a number that is no position",
 }

@@ -181,6 +181,7 @@ from deodar.gradients.step_functions import dynamics as dynamics
 from deodar.importers.opening import load as load
 from deodar.importers.opening import read as read
 from deodar.importers.presets import apply_preset as apply_preset
+from deodar.leaves import on_axis as on_axis
 from deodar.model.draw import draw as draw
 from deodar.model.model import Model as Model
 from deodar.model.model import save as save
@@ -190,6 +191,7 @@ from deodar.numerics.axes import Axis as Axis
 from deodar.numerics.integrators import euler as euler
 from deodar.numerics.intervals import Interval as Interval
 from deodar.numerics.kernels._base import Kernel as Kernel
+from deodar.numerics.kernels._base import Term as Term
 from deodar.numerics.kernels.custom import Custom as Custom
 from deodar.numerics.kernels.separable import Box as Box
 from deodar.numerics.kernels.separable import Gaussian as Gaussian
@@ -209,6 +211,7 @@ from deodar.numerics.windows import Window as Window
 from deodar.packing.packing import contents as contents
 from deodar.packing.packing import pack as pack
 from deodar.packing.packing import unpack as unpack
+from deodar.parameters import PerAxis as PerAxis
 from deodar.recording.files import load_record as load_record
 from deodar.recording.files import open_record as open_record
 from deodar.recording.files import save_record as save_record

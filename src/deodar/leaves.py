@@ -209,7 +209,12 @@ def per_axis(value: PerAxis, axes: Sized) -> tuple[float, ...]:
 
 
 def on_axis(value: PerAxis, d: int) -> float:
-    """Return the value for axis number `d`, from one value for all axes or one for each."""
+    """Return the value for axis number `d`, from one value for all axes or one for each.
+
+    Args:
+        value: a parameter of the type `dd.PerAxis`.
+        d: number of the axis, from 0.
+    """
     return value[d] if isinstance(value, Sequence) else value
 
 

@@ -13,7 +13,6 @@ import jax.numpy as jnp
 import numpy as np
 
 import deodar as dd
-from deodar.numerics.kernels._base import Term
 
 X = dd.Axis("x", 0, 20, samples=21)
 DIRECT: Mapping[str, tuple[str, ...]] = {"output": ("input",)}
@@ -166,13 +165,13 @@ class Ramp(dd.Kernel):
     amplitude: Annotated[float, dd.Live("activation")] = 1.0
     width: Annotated[float, dd.Rebuild("axis", lower=1e-6)] = 3.0
 
-    def terms(self) -> Sequence[Term]:
+    def terms(self) -> Sequence[dd.Term]:
         def along(d: int, lag: Any, period: float | None, step: float) -> Any:
             if abs(lag).max() > self.width:
                 return jnp.zeros_like(lag)
             return lag
 
-        return (Term(self.amplitude, along),)
+        return (dd.Term(self.amplitude, along),)
 
 
 @dataclass(frozen=True)
@@ -180,19 +179,19 @@ class LiveWidth(dd.Kernel):
     amplitude: Annotated[float, dd.Live("activation")] = 1.0
     width: Annotated[float, dd.Live("axis", lower=1e-6)] = 3.0
 
-    def terms(self) -> Sequence[Term]:
+    def terms(self) -> Sequence[dd.Term]:
         def along(d: int, lag: Any, period: float | None, step: float) -> Any:
             return jnp.exp(-abs(lag) / self.width)
 
-        return (Term(2 * self.amplitude, along),)
+        return (dd.Term(2 * self.amplitude, along),)
 
 
 @dataclass(frozen=True)
 class Short(dd.Kernel):
     amplitude: Annotated[float, dd.Live("activation")] = 1.0
 
-    def terms(self) -> Sequence[Term]:
-        return (Term(self.amplitude, lambda d, lag, period, step: lag[:2]),)
+    def terms(self) -> Sequence[dd.Term]:
+        return (dd.Term(self.amplitude, lambda d, lag, period, step: lag[:2]),)
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,20 @@ above any use).
 class Term:
     """A separable part of a kernel: amplitude times the product over axes of `along(d, lag, period, step)`.
 
-    `period` is the length after which the lag wraps, or None; `step` is the grid step of axis d.
+    `along` is computed when the kernel changes, not in each step. It uses `jax.numpy`, and parameters that
+    rebuild (`dd.Rebuild`), not live ones. Its arguments:
+
+    * `d`: number of the axis. A parameter of the type `dd.PerAxis` is one number for all axes or one for
+      each: `dd.on_axis(self.width, d)` returns the one of axis d.
+    * `lag`: distances to the centre of the kernel along axis d, in axis units, negative on one side; an array
+      of any shape.
+    * `period`: length after which the lag wraps, in axis units; None: it does not. The weight then has this
+      period in the lag.
+    * `step`: grid step of axis d, in axis units; a kernel that is narrower integrates over it.
+
+    Attributes:
+        amplitude: factor; a number, a live parameter, or a multiple of one.
+        along: function that returns the weight at each lag; an array of the shape of `lag`, per axis unit.
     """
 
     amplitude: Scalar
