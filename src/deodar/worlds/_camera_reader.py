@@ -1,4 +1,7 @@
-"""The newest picture of a camera, which a thread reads by OpenCV (extra `vision`)."""
+"""The newest picture of a camera, which a thread reads by OpenCV (extra `vision`).
+
+A video file is read by a child (`_capture`); devices and streams are read in this process.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ import time
 import weakref
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 import numpy as np
 
@@ -83,8 +86,8 @@ class CameraReader:
         weakref.finalize(self, self._stream.closing.set)
         weakref.finalize(self._stream, _leave, self._thread, self._stream.closing)
         began = time.monotonic()
-        # the last tenth is for the question why no picture came
-        answered = self._stream.ready.wait(0.9 * times.opening)
+        # the last tenth is for the question why no picture came; the reader of a file has a limit of its own
+        answered = self._stream.ready.wait(None if source.form == "file" else 0.9 * times.opening)
         if self._stream.newest is None:
             self._stream.closing.set()
             raise self._failed(answered, max(times.opening - (time.monotonic() - began), 0.1))
@@ -107,9 +110,12 @@ class CameraReader:
         """Return the newest picture (height, width, 3).
 
         Raises:
-            WorldError: the camera has delivered no picture for `patience` seconds.
+            WorldError: the camera has delivered no picture for `patience` seconds, or the reader of a file
+                has ended.
         """
         stream = self._stream
+        if stream.error is not None:
+            raise stream.error
         silent = time.monotonic() - stream.since
         if silent > self.times.patience or stream.newest is None:
             ended = "has ended, and " if stream.ended else ""
@@ -132,6 +138,8 @@ class CameraReader:
     def _failed(self, answered: bool, seconds: float) -> WorldError:
         """Return why no picture came."""
         where = self.source.where
+        if self._stream.error is not None:
+            return self._stream.error
         if self.source.address is not None:
             reason = unreachable(self.source.address, seconds)
             if reason is None and not answered:
@@ -143,7 +151,7 @@ class CameraReader:
                 reason = Unreachable("sends nothing that OpenCV reads as pictures", fix)
             return WorldError(reason.what, where=where, fix=reason.fix)
         if self.source.form == "file":
-            return WorldError("cannot be read as a video", where=where, fix="Name an .mp4 or .avi file")
+            return WorldError("cannot be read as a video", where=where, fix=_capture.NAME_A_VIDEO)
         fault = "there is no camera, or another program uses it"
         if not answered:
             fault = f"sends no picture within {self.times.opening:g} s"
@@ -152,6 +160,59 @@ class CameraReader:
             where=where,
             fix=Fix("Try another number: Camera(1)", "Try another number: --world camera:1"),
         )
+
+
+class _Pictures(Protocol):
+    """Pictures one after another.
+
+    Attributes:
+        rate: pictures per second at which they are played; 0: they come by themselves.
+        is_open: whether there may be a picture.
+    """
+
+    rate: float
+    is_open: bool
+
+    def read(self) -> np.ndarray | None:
+        """Return the next picture, (height, width, 3), blue first; None: there is none."""
+        ...
+
+    def release(self) -> None:
+        """Leave the device or file."""
+        ...
+
+
+class _Device:
+    """Pictures of a device or an address."""
+
+    rate = 0.0
+
+    def __init__(self, source: CameraSource, times: CameraTimes, size: tuple[int, int] | None) -> None:
+        self._opened = _opened(source, times, size)
+        self.is_open = bool(self._opened.isOpened())
+
+    def read(self) -> np.ndarray | None:
+        has_picture, picture = self._opened.read()
+        return picture if has_picture else None
+
+    def release(self) -> None:
+        self._opened.release()
+
+
+class _File:
+    """Pictures of a video file, which a child reads."""
+
+    def __init__(self, source: CameraSource) -> None:
+        self._pictures = _capture.video_pictures(Path(str(source.opened)), source.where)
+        self.rate = float(next(self._pictures, np.zeros(())).item())
+        self.is_open = self.rate > 0
+
+    def read(self) -> np.ndarray | None:
+        picture = next(self._pictures, None)
+        return None if picture is None else picture[:, :, ::-1]
+
+    def release(self) -> None:
+        self._pictures.close()
 
 
 class _Stream:
@@ -164,6 +225,7 @@ class _Stream:
     def __init__(self, source: CameraSource, times: CameraTimes, size: tuple[int, int] | None) -> None:
         self.source, self.times, self.size = source, times, size
         self.newest: np.ndarray | None = None
+        self.error: WorldError | None = None
         self.since = time.monotonic()
         self.ended = False
         self.closing, self.ready = threading.Event(), threading.Event()
@@ -171,28 +233,30 @@ class _Stream:
     def run(self) -> None:
         """Open the camera and read pictures until closed, or until none arrives for `patience` seconds."""
         with _capture.silence():
-            opened: Any = None
+            pictures: _Pictures | None = None
             try:
-                opened = _opened(self.source, self.times, self.size)
-                if opened.isOpened():
-                    self._watch(opened)
+                in_file = self.source.form == "file"
+                pictures = _File(self.source) if in_file else _Device(self.source, self.times, self.size)
+                if pictures.is_open:
+                    self._watch(pictures)
+            except WorldError as error:
+                self.error = error
             except _capture.opencv("a camera").error:
                 pass  # as a camera that is not there
             finally:
-                if opened is not None:
-                    opened.release()
+                if pictures is not None:
+                    pictures.release()
                 self.ready.set()
 
-    def _watch(self, opened: Any) -> None:
-        pace = float(opened.get(_capture.RATE)) if self.source.form == "file" else 0.0
+    def _watch(self, pictures: _Pictures) -> None:
         least, next_kept, due = 1.0 / (self.times.rate or np.inf), 0.0, time.monotonic()
         while not self.closing.is_set():
-            has_picture, picture = opened.read()
+            picture = pictures.read()
             moment = time.monotonic()
-            if has_picture and moment >= next_kept:
+            if picture is not None and moment >= next_kept:
                 self.newest = np.ascontiguousarray(picture[:, :, ::-1])
                 next_kept = moment + least if self.times.rate else 0.0
-            if has_picture:
+            if picture is not None:
                 self.since = moment
                 self.ready.set()
             elif self.source.form != "device" or moment - self.since > self.times.patience:
@@ -201,8 +265,8 @@ class _Stream:
                 return
             else:
                 self.closing.wait(0.02)
-            if pace > 0:
-                due += 1.0 / pace
+            if pictures.rate > 0:
+                due += 1.0 / pictures.rate
                 self.closing.wait(max(0.0, due - time.monotonic()))
 
 
@@ -217,14 +281,12 @@ def _leave(thread: threading.Thread, closing: threading.Event) -> None:
 
 
 def _opened(source: CameraSource, times: CameraTimes, size: tuple[int, int] | None) -> Any:
-    """Open what a camera names."""
+    """Open the device or address that a camera names."""
     cv2 = _capture.opencv("a camera")
     if source.address is not None:
         limits = [cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, max(1, round(900 * times.opening))]
         limits += [cv2.CAP_PROP_READ_TIMEOUT_MSEC, max(1, round(1000 * times.patience))]
         return cv2.VideoCapture(source.address.full, cv2.CAP_FFMPEG, limits)
-    if source.form == "file":
-        return _capture.capture(str(source.opened), "a camera")
     opened = cv2.VideoCapture(source.opened, cv2.CAP_ANY if isinstance(source.opened, int) else cv2.CAP_V4L2)
     if size is not None:
         opened.set(cv2.CAP_PROP_FRAME_WIDTH, size[0])

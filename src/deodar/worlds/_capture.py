@@ -38,6 +38,9 @@ without a format, and playlists, which name other files and addresses.
 FILE_OPTIONS = f"protocol_whitelist;file|format_whitelist;{','.join(VIDEO_FORMATS)}"
 """Options with which a file is opened, in the form of OpenCV."""
 
+NO_MEMORY = -4
+"""OpenCV's number of the error of an allocation that failed."""
+
 RATE = 5
 """OpenCV's number of the property for pictures per second (CAP_PROP_FPS)."""
 
@@ -77,23 +80,30 @@ def silence() -> Generator[None]:
                 log.setLogLevel(level)
 
 
-def capture(file: str, purpose: str) -> Any:
-    """Open a video file, by FFmpeg if OpenCV has it: other readers of OpenCV write to the terminal."""
-    cv2 = opencv(purpose)
+def pictures_of(file: str) -> Generator[np.ndarray]:
+    """Yield pictures per second (0: no video), and each picture (height, width, 3); in a child process.
+
+    Raises:
+        MemoryError: a picture does not fit into the memory of the child.
+    """
+    cv2 = opencv("reading a video")
+    os.environ["OPENCV_FFMPEG_CAPTURE_OPTIONS"] = FILE_OPTIONS
+    # other readers of OpenCV know formats besides these
     reader = cv2.CAP_FFMPEG if cv2.CAP_FFMPEG in cv2.videoio_registry.getStreamBackends() else cv2.CAP_ANY
     with silence():
-        return cv2.VideoCapture(file, reader)
-
-
-def pictures_of(file: str) -> Generator[np.ndarray]:
-    """Yield pictures per second (0: no video), and each picture (height, width, 3); in a child process."""
-    os.environ["OPENCV_FFMPEG_CAPTURE_OPTIONS"] = FILE_OPTIONS
-    opened = capture(file, "reading a video")
+        opened = cv2.VideoCapture(file, reader)
     yield np.array([opened.get(RATE) if opened.isOpened() else 0.0])
-    cv2 = opencv("reading a video")
-    while (read := opened.read())[0]:
-        yield cv2.cvtColor(read[1], cv2.COLOR_BGR2RGB)
+    try:
+        while (read := opened.read())[0]:
+            yield cv2.cvtColor(read[1], cv2.COLOR_BGR2RGB)
+    except cv2.error as error:
+        raise MemoryError if error.code == NO_MEMORY else error from None
     opened.release()
+
+
+def video_pictures(path: Path, where: str) -> Generator[np.ndarray]:
+    """Yield what `pictures_of` yields; errors name `where`."""
+    return GuardedFile(WorldError, where).items(pictures_of, str(path))
 
 
 class VideoReader:
@@ -150,7 +160,7 @@ class VideoReader:
         return next(self._pictures, None)
 
     def _read(self) -> Generator[np.ndarray]:
-        return GuardedFile(WorldError, str(self.path)).items(pictures_of, str(self.path))
+        return video_pictures(self.path, str(self.path))
 
     def __getstate__(self) -> dict[str, Any]:
         return {"path": self.path}

@@ -41,7 +41,7 @@ class Camera(World):
             the host.
         period: ms between two readings; a whole number of steps of the model.
         patience: s without a new picture after which a reading raises an error.
-        open_timeout: s in which the first picture has to come.
+        open_timeout: s in which the first picture of a device or an address has to come.
         size: width and height in pixels. A device is asked for it; pictures of another size are an error.
             None: any.
         rate: most pictures per second that are kept. A device is asked for it. None: all.

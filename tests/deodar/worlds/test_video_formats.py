@@ -86,3 +86,12 @@ def test_an_error_of_a_picture_names_formats(content: bytes, tmp_path: Path):
     file.write_bytes(content)
     with pytest.raises(WorldError, match=r"cannot be read as a picture.*Name a picture: .*\.png, .*\.jpg"):
         dd.Picture(file)
+
+
+@pytest.mark.parametrize("name", NO_VIDEOS)
+def test_a_file_of_another_format_is_no_camera(name: str, tmp_path: Path):
+    file = tmp_path / name
+    file.write_bytes(NO_VIDEOS[name])
+    says = rf"camera .*{file.name}: cannot be read as a video\. Name a video: .*\.mp4"
+    with pytest.raises(WorldError, match=says):
+        dd.Camera(str(file)).reset(0)
