@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar
@@ -10,9 +9,11 @@ from typing import Any, ClassVar
 import numpy as np
 
 from deodar.errors import WorldError
+from deodar.guarded.guarded_file import GuardedFile
 from deodar.numerics.axes import Axes
 from deodar.worlds._base import Signal
 from deodar.worlds._image import PICTURE, sampled
+from deodar_robots.ros2 import compressed
 from deodar_robots.ros2.message_types import MOST_BYTES, Unreadable, full_name
 from deodar_robots.ros2.reading import Reading, TopicSensor, chosen_fields, entries, finite
 from deodar_robots.ros2.wire import require_topic
@@ -230,7 +231,11 @@ COLOURS = {
 DEPTHS = {"32FC1": (np.dtype(np.float32), 1.0), "16UC1": (np.dtype(np.uint16), 0.001)}
 """Type of a depth, and its unit in m."""
 
-COMPRESSED = ("JPEG", "PNG")
+PICTURE_MEMORY = 2**29
+"""Bytes that a child may take for a picture of MOST_BYTES, which it holds several times."""
+
+PICTURE_SECONDS = 20.0
+"""Longest time for a picture, s, with the start of the child."""
 
 
 class PictureReading(Reading):
@@ -281,24 +286,18 @@ class PictureReading(Reading):
 
 
 class CompressedReading(Reading):
-    """The colours of a sensor_msgs/CompressedImage, a JPEG or PNG file."""
+    """The colours of a sensor_msgs/CompressedImage, a JPEG or PNG file, which a child process reads."""
 
     def declared(self) -> Signal:
         return Signal(PICTURE.meaning, None, period=self.entry.period)
 
     def take(self, message: Any) -> np.ndarray:
-        # start-up time
-        from PIL import Image
-
+        guard = GuardedFile(WorldError, self.entry.topic, PICTURE_MEMORY, PICTURE_SECONDS)
         try:
-            with Image.open(io.BytesIO(message.data.tobytes()), formats=COMPRESSED) as picture:
-                if picture.width * picture.height * 3 > MOST_BYTES:
-                    raise Unreadable(f"its picture has {picture.width} x {picture.height} pixels")
-                return np.asarray(picture.convert("RGB"))
-        except Unreadable:
-            raise
-        except Exception:  # damaged files may raise any exception
-            raise Unreadable(f"it is no JPEG or PNG file; it says {message.format!r}") from None
+            return guard.call(compressed.pixels_of, message.data.tobytes(), MOST_BYTES)
+        except WorldError as error:
+            problem = error.problems[0]
+            raise Unreadable(f"its picture {problem.what}; it says {message.format!r}") from None
 
     def sampled(self, taken: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
         return sampled(taken, axes, sensor)
