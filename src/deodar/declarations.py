@@ -55,6 +55,8 @@ class Declaration:
             parameter, or the name of an event of the experiment; empty: anything.
         section: the section of a form that lists it; None: the one that follows from its type and role
             (`deodar.kinds`).
+        if_none: what None means, in a word for forms, such as `always`; empty: that there is none.
+        if_empty: what an empty list means, in a word for forms, such as `never`; empty: that there is none.
     """
 
     unit: str = ""
@@ -67,6 +69,8 @@ class Declaration:
     exact: bool = dc.field(default=False, kw_only=True)
     names: Names = dc.field(default="", kw_only=True)
     section: FormSection | None = dc.field(default=None, kw_only=True)
+    if_none: str = dc.field(default="", kw_only=True)
+    if_empty: str = dc.field(default="", kw_only=True)
     cost: Cost = dc.field(default="recompile", init=False)
 
 

@@ -180,6 +180,23 @@ test("windows of a stimulus are added and removed", async () => {
   await observer.until(() => (observer.value("left", "windows") as unknown[]).length === 1);
 });
 
+test("a stimulus without windows is never on, and always is a choice", async () => {
+  const { page } = studio;
+  await select(page, "left");
+  const choice = page.getByRole("combobox", { name: "Choice of windows" });
+  expect(await choice.inputValue()).toBe("as listed");
+  await choose(page, "More for windows.0", "Remove");
+  await comes("left", "windows", []);
+  expect(await choice.inputValue()).toBe("never");
+  await choice.click();
+  await page.getByRole("option", { name: "always" }).click();
+  await comes("left", "windows", null);
+  expect(await choice.inputValue()).toBe("always");
+  await shot(page, "tune-always");
+  await choose(page, "Add to windows", "Window");
+  await observer.until(() => (observer.value("left", "windows") as unknown[] | null)?.length === 1);
+});
+
 test("a parameter returns to its default", async () => {
   const { page } = studio;
   await group("noise").getByRole("img", { name: "not the default" }).waitFor();

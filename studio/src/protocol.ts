@@ -903,7 +903,8 @@ export type Opened = {
 //
 // `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX;
 // `names` is what a text names, so that the form can list the names. `section` is the section of the form
-// that lists it; empty: its head.
+// that lists it; empty: its head. `if_none` and `if_empty` are words for null and for an empty list; empty:
+// none.
 export type ParameterForm = {
   name: string;
   form:
@@ -934,6 +935,8 @@ export type ParameterForm = {
   of: string[];
   names?: "" | "element" | "event" | "parameter" | "port";
   section?: "" | "axes" | "interaction" | "noise" | "time course";
+  if_none?: string;
+  if_empty?: string;
 };
 
 // Add the content of a document, given as text, to a group; the answer has the new ids in `made`.

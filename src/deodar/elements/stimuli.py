@@ -18,7 +18,7 @@ from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.intervals import ANY, ZERO, Interval, hull, signed, times
 from deodar.numerics.windows import Window, gate
-from deodar.parameters import ArrayLike, FrozenArray, Live, PeakBoundary, PerAxis, Rebuild
+from deodar.parameters import ArrayLike, FrozenArray, Live, PeakBoundary, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 NOTHING = 3.0
@@ -34,7 +34,9 @@ class Stimulus(Element):
 
     name: str = ""
     axes: Sequence[Axis] = ()
-    windows: Sequence[Window] | None = dc.field(default=None, kw_only=True)
+    windows: Annotated[Sequence[Window] | None, Recompile(if_none="always", if_empty="never")] = dc.field(
+        default=None, kw_only=True
+    )
 
     inputs: ClassVar[tuple[str, ...]] = ()
 

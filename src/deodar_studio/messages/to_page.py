@@ -34,7 +34,8 @@ class ParameterForm(Data, frozen=True):
 
     `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX;
     `names` is what a text names, so that the form can list the names. `section` is the section of the form
-    that lists it; empty: its head.
+    that lists it; empty: its head. `if_none` and `if_empty` are words for null and for an empty list; empty:
+    none.
     """
 
     name: str
@@ -52,6 +53,8 @@ class ParameterForm(Data, frozen=True):
     of: list[str]
     names: Names = ""
     section: FormSection = ""
+    if_none: str = ""
+    if_empty: str = ""
 
 
 class WorldSettingView(Data, frozen=True):

@@ -16,4 +16,5 @@ test("windows have a start and a stop, and one of the default lasts", () => {
 test("an element without windows has none", () => {
   expect(timeWindows({})).toEqual([]);
   expect(timeWindows({ windows: [] })).toEqual([]);
+  expect(timeWindows({ windows: null })).toEqual([]);
 });

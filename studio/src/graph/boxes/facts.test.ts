@@ -29,6 +29,18 @@ test("an element shows its main values with units, numbers first", () => {
   expect(said.map((fact) => fact.value)).toEqual(["20 ms", "1, −2.5 deg", "max", "Gaussian kernel, Own"]);
 });
 
+test("a stimulus that is always or never on says so", () => {
+  const kind = fakeKind("Boost", "elements", {
+    parameters: [fakeForm("windows", "parts", { optional: true, if_none: "always", if_empty: "never" })],
+  });
+  const said = (windows: unknown) =>
+    facts(fakeElement("s", "Boost", { values: { windows } }), kind, KINDS, fakeDocument([]));
+  expect([null, []].map((windows) => said(windows).map((fact) => fact.value))).toEqual([
+    ["always"],
+    ["never"],
+  ]);
+});
+
 test("a number that a document parameter drives shows its value", () => {
   const document = fakeDocument([ELEMENT], [], {
     axes: AXES,

@@ -86,7 +86,9 @@ function said(
     case "part":
       return title(value, kinds);
     case "parts":
-      return Array.isArray(value) ? value.map((part) => title(part, kinds)).join(", ") : "";
+      return Array.isArray(value)
+        ? value.map((part) => title(part, kinds)).join(", ") || (form.if_empty ?? "")
+        : (form.if_none ?? "");
     default:
       return "";
   }

@@ -1,8 +1,10 @@
-// A list of parts, such as kernels: add, remove, move, and the parameters of each below its line.
+// A list of parts, such as kernels: add, remove, move, and the parameters of each below its line. Where no
+// list and an empty one differ, as always and never, both are choices.
 
 import { Menu } from "@mantine/core";
 import { useState } from "react";
 
+import type { ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
 import { AddButton } from "../../widgets/AddButton";
@@ -12,6 +14,8 @@ import { usePlace } from "../place";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { ParameterRow } from "../parameters/ParameterRow";
 import { useSetting } from "../parameters/setting";
+import { ChoiceBox } from "./ChoiceBox";
+import { listChoices, listState } from "./listState";
 import { PartItem } from "./PartItem";
 import type { FormProps } from "./props";
 
@@ -21,7 +25,7 @@ export function PartsForm({ form, path, value }: FormProps) {
   const kinds = useStudio((state) => state.kinds);
   const [folded, setFolded] = useState<number[]>([]);
   const parts = Array.isArray(value) ? (value as Values[]) : [];
-  const commit = (next: unknown[]) => void setting.commit(next);
+  const commit = (next: unknown[] | null) => void setting.commit(next);
   const fold = (i: number) =>
     setFolded((old) => (old.includes(i) ? old.filter((k) => k !== i) : [...old, i]));
   return (
@@ -33,7 +37,7 @@ export function PartsForm({ form, path, value }: FormProps) {
         inline
         onReset={(standard) => void setting.commit(standard)}
       >
-        <span className="dim grow">{parts.length === 0 ? "none" : ""}</span>
+        <ListChoice form={form} path={path} value={value} onCommit={commit} />
         <Menu position="bottom-end" shadow="md" classNames={{ dropdown: "compact-menu" }}>
           <Menu.Target>
             <AddButton aria-label={`Add to ${words(path)}`} />
@@ -66,5 +70,32 @@ export function PartsForm({ form, path, value }: FormProps) {
       ))}
       <ProblemLine problem={setting.problem} />
     </>
+  );
+}
+
+type ListChoiceProps = {
+  form: ParameterForm;
+  path: string;
+  value: unknown;
+  onCommit: (next: [] | null) => void;
+};
+
+function ListChoice({ form, path, value, onCommit }: ListChoiceProps) {
+  const state = listState(value);
+  const choices = listChoices(form, state);
+  if (choices.length === 0) {
+    return <span className="dim grow">{state === "listed" ? "" : "none"}</span>;
+  }
+  return (
+    <ChoiceBox
+      label={`Choice of ${words(path)}`}
+      value={state}
+      choices={choices}
+      onCommit={(next) => {
+        if (next === "absent" || next === "empty") {
+          onCommit(next === "absent" ? null : []);
+        }
+      }}
+    />
   );
 }

@@ -112,7 +112,7 @@ export function ParameterRow({
             element={element}
             path={path}
             driver={driver}
-            byDefault={<DefaultText value={standard} />}
+            byDefault={<DefaultText form={form} value={standard} />}
             atDefault={atDefault}
             onReset={resettable ? () => onReset(standard) : undefined}
             pinnable={pinnable}
@@ -147,7 +147,7 @@ function Meaning({ form, path }: { form: ParameterForm; path: string }) {
 }
 
 // A default as short text; empty if it would be long.
-function DefaultText({ value }: { value: unknown }) {
+function DefaultText({ form, value }: { form: ParameterForm; value: unknown }) {
   const kinds = useStudio((state) => state.kinds);
   switch (typeof value) {
     case "number":
@@ -157,6 +157,6 @@ function DefaultText({ value }: { value: unknown }) {
     case "string":
       return value;
     default:
-      return value === null ? "none" : (kindOf(kinds, value)?.title ?? "");
+      return value === null ? form.if_none || "none" : (kindOf(kinds, value)?.title ?? "");
   }
 }
