@@ -181,11 +181,7 @@ def isolate(
         )
     field = dc.replace(entry.element, name="field", noise=0.0, noise_length=0.0)
     axes = tuple(field.axes)
-    center = (
-        tuple(float(c) for c in center)
-        if center is not None
-        else tuple(float(a.points[a.samples // 2]) for a in axes)
-    )
+    center = _center(field, center)
     widths = _widths(field, sigma)
     small = Model(doc.name, time_unit=doc.time_unit, trusted=model.trusted)
     target = small.add(field)
@@ -238,6 +234,17 @@ def _keep(small: Model, doc: Document, field: Entry, entries: Sequence[Entry]) -
 
 def _port(model: Model, path: str, port: str) -> Handle:
     return model[path][port]
+
+
+def _center(field: Field, center: Sequence[float] | None) -> tuple[float, ...]:
+    """Return the position of the input along each axis: `center`, or the middle."""
+    axes = tuple(field.axes)
+    if center is None:
+        return tuple(float(a.points[a.samples // 2]) for a in axes)
+    position = tuple(float(c) for c in center)
+    if len(position) != len(axes):
+        raise ParameterError(f"center is {center!r}; expected a position for each of the {len(axes)} axes")
+    return position
 
 
 def _widths(field: Field, sigma: Any) -> tuple[float, ...]:

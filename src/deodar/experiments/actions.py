@@ -367,9 +367,11 @@ def require(actions: Sequence[Action], events: Sequence[str], doc: Document, wor
 
 
 def targets(action: Action, doc: Document) -> None:
-    """Refuse an action that names an element, port or parameter that the document lacks."""
-    for path, _ in action.sets():
-        find.target(doc, path)
+    """Refuse an action that names an element, port or parameter that the document lacks, or a value that the
+    parameter cannot have.
+    """
+    for path, value in action.sets():
+        edit.change(doc, path, value)
     for path in action.ports():
         find.shown(doc, path)
     if isinstance(action, Push):

@@ -14,7 +14,7 @@ from deodar.experiments.actions import Action, Push
 from deodar.leaves import leaves
 from deodar.model import find
 from deodar.model.document import Document
-from deodar.parameters import real
+from deodar.parameters import real, show
 
 
 def acted(
@@ -38,6 +38,11 @@ def acted(
         ParameterError: an action sets a parameter that cannot change in one copy of a batch.
     """
     columns = {path: np.array(numbers, float) for path, numbers in values.items()}
+    for path, column in columns.items():
+        if column.shape != (trials,):
+            raise ParameterError(
+                f"needs a number for each of the {trials} trials, not {show(values[path])}", where=path
+            )
     for path, numbers in set_values(actions).items():
         if not swept(doc, path, [*columns.get(path, [find.value(doc, path)]), *numbers]):
             raise ParameterError(
