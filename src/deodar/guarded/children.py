@@ -10,9 +10,9 @@ import signal
 import subprocess
 import sys
 import sysconfig
-import threading
 import time
 import weakref
+from collections import deque
 from collections.abc import Generator
 from io import BufferedReader, FileIO
 from typing import BinaryIO, cast
@@ -129,28 +129,39 @@ class Child:
 
 
 class Children:
-    """The children of one process that wait for work; several threads may take one each."""
+    """The children of one process that wait for work; several threads may take one each.
+
+    There is no lock: the garbage collector may delete a generator that holds a child, and so bring the child
+    back, while this thread is inside any of these lines. Each operation on the queue is one by itself, and it
+    drops, and so ends, the child that has waited longest if there are too many.
+    """
 
     def __init__(self) -> None:
-        self._waiting: list[Child] = []
-        self._lock = threading.Lock()
+        self._waiting: deque[Child] = deque(maxlen=MOST_IDLE)
 
     @contextlib.contextmanager
     def child(self, function: str) -> Generator[Child]:
         """Return a child, preferably one that has called a function; it is kept if it is still useful."""
-        with self._lock:
-            self._waiting.sort(key=lambda child: function in child.functions)
-            child = self._waiting.pop() if self._waiting else None
-        child = child or Child()
+        child = self._take(function) or Child()
         try:
             yield child
         finally:
-            with self._lock:
-                stays = child.useful and len(self._waiting) < MOST_IDLE
-                if stays:
-                    self._waiting.append(child)
-            if not stays:
+            if child.useful:
+                self._waiting.append(child)
+            else:
                 child.end()
+
+    def _take(self, function: str) -> Child | None:
+        """Return a child that waits, preferably one that has called a function; None: none waits."""
+        others: list[Child] = []
+        with contextlib.suppress(IndexError):
+            while function not in (child := self._waiting.pop()).functions:
+                others.append(child)
+            self._waiting.extendleft(others)
+            return child
+        child = others.pop(0) if others else None
+        self._waiting.extendleft(others)
+        return child
 
 
 def children() -> Children:

@@ -226,3 +226,51 @@ def test_what_python_prints_at_its_start_is_no_message(tmp_path: Path) -> None:
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     assert done.stdout.endswith("(3, 4, 3)\n"), done.stderr
+
+
+BROUGHT_BACK = """
+import gc, sys
+from deodar.errors import WorldError
+from deodar.guarded import children
+from deodar.guarded.guarded_file import GuardedFile
+from tests.deodar.guarded import foreign
+
+guard = GuardedFile(WorldError, "file")
+lines = [0]
+
+
+def collect(frame, event, argument):
+    # as the garbage collector may, at each line of the module
+    if frame.f_code.co_filename == children.__file__ and event == "line" and held:
+        lines[0] += 1
+        held.pop().close()
+    return collect
+
+
+for line in range(60):
+    items = guard.items(foreign.count, 3)
+    next(items)
+    held = []
+    sys.settrace(collect)
+    gate = line
+
+    class Later(list):
+        def __bool__(self):
+            global gate
+            gate -= 1
+            return gate < 0 and len(self) > 0
+
+    held = Later([items])
+    assert guard.call(foreign.same, line) == line
+    sys.settrace(None)
+    items.close()
+assert lines[0] > 5
+print("ended", len(children.children()._waiting) <= children.MOST_IDLE)
+"""
+
+
+def test_a_reader_that_the_garbage_collector_brings_back_stops_no_other() -> None:
+    root = Path(__file__).parents[3]
+    command = [sys.executable, "-c", BROUGHT_BACK]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=root, timeout=120, check=False)
+    assert done.stdout == "ended True\n", done.stderr
