@@ -36,12 +36,27 @@ PIPE_BYTES = 2**20
 """Size of the pipes, where the system can change it: pictures of a video pass faster."""
 
 
+DAMAGED = "It is damaged, or larger than what is read; use another file"
+"""What to do where the cause is not known."""
+
+
 class EndedChild(Exception):
-    """Raised if a child ended before it answered; the message says by what."""
+    """Raised if a child ended before it answered, or is that of another process; the message says by what.
+
+    Attributes:
+        fix: what to do.
+    """
+
+    def __init__(self, why: str, fix: str = DAMAGED) -> None:
+        super().__init__(why)
+        self.fix = fix
 
 
 class Child:
-    """One child, which one thread uses at a time.
+    """One child, which one thread of the process that started it uses at a time.
+
+    A fork of this process has the same pipes. It neither writes to them nor reads from them, because both
+    would get a part of each message.
 
     Attributes:
         functions: names of the functions that it has called.
@@ -75,7 +90,8 @@ class Child:
             _enlarge(pipe.fileno())
         self._lent: list[ParentFunction] = []
         self._channel = Channel(source, sink, mark, self._lent)
-        self.end = weakref.finalize(self, _end, self._process, os.getpid())
+        self._parent = os.getpid()
+        self.end = weakref.finalize(self, _end, self._process, self._parent)
 
     def request(self, request: ChildRequest) -> None:
         """Ask the child to call a function."""
@@ -87,8 +103,9 @@ class Child:
 
     def say(self, word: str, content: PlainData = None) -> None:
         """Send a message; that a child has ended is found when its answer is read."""
-        with contextlib.suppress(BrokenChannel):
-            self._channel.send(word, content)
+        if os.getpid() == self._parent:
+            with contextlib.suppress(BrokenChannel):
+                self._channel.send(word, content)
 
     def answer(self) -> ChildMessage:
         """Return the next item, or what the function returned or raised.
@@ -97,6 +114,8 @@ class Child:
             EndedChild: the child ended, or was ended after the longest time.
         """
         self.yields = False
+        if os.getpid() != self._parent:
+            raise EndedChild("the process was forked after it was opened", "Open it again in the new process")
         self._channel.deadline = time.monotonic() + self._seconds
         try:
             word, content = self._channel.receive()

@@ -17,7 +17,7 @@ from typing import ParamSpec, TypeVar, cast
 from deodar.errors import DeodarError
 from deodar.guarded.channel import PlainData, error_of
 from deodar.guarded.child import TAKEN, ChildRequest
-from deodar.guarded.children import Child, EndedChild, children
+from deodar.guarded.children import DAMAGED, Child, EndedChild, children
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -86,7 +86,7 @@ class GuardedFile:
             try:
                 yield child
             except EndedChild as error:
-                raise self._error(str(error)) from None
+                raise self._error(str(error), error.fix) from None
 
     def _content(self, word: str, content: PlainData) -> PlainData:
         if word == "error":
@@ -97,12 +97,8 @@ class GuardedFile:
             raise self._error(str(content))
         return content
 
-    def _error(self, why: str) -> DeodarError:
-        return self.kind(
-            f"cannot be read: {why}",
-            where=self.where,
-            fix="It is damaged, or larger than what is read; use another file",
-        )
+    def _error(self, why: str, fix: str = DAMAGED) -> DeodarError:
+        return self.kind(f"cannot be read: {why}", where=self.where, fix=fix)
 
 
 def _working_folder() -> str:

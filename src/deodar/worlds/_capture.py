@@ -131,7 +131,7 @@ class VideoReader:
     def rewind(self) -> None:
         """Return to the first picture."""
         self._pictures.close()
-        self._pictures = self._read()
+        self._pictures, self._process = self._read(), os.getpid()
         self.rate = next(self._pictures, np.zeros(())).item()
         first = self._next()
         if first is None or not self.rate > 0:
@@ -146,7 +146,8 @@ class VideoReader:
         number = int(moment * self.rate / 1000 + 1e-6)
         if again and self.pictures is not None:
             number %= self.pictures
-        if number < self._number:
+        # the reader of a process does not read for its forks
+        if number < self._number or os.getpid() != self._process:
             self.rewind()
         while self._number < number:
             picture = self._next()

@@ -274,3 +274,40 @@ def test_a_reader_that_the_garbage_collector_brings_back_stops_no_other() -> Non
     command = [sys.executable, "-c", BROUGHT_BACK]
     done = subprocess.run(command, capture_output=True, text=True, cwd=root, timeout=120, check=False)
     assert done.stdout == "ended True\n", done.stderr
+
+
+FORKED = """
+import os, sys
+import numpy as np
+import deodar as dd
+from deodar.errors import WorldError
+from deodar.guarded.guarded_file import GuardedFile
+from deodar.worlds import _capture
+from tests.deodar.guarded import foreign
+
+expected = dd.Video(_capture.example())
+pictures = [expected.picture(40.0 * k).copy() for k in range(25)]
+video = dd.Video(_capture.example())
+assert np.array_equal(video.picture(120.0), pictures[3])
+items = GuardedFile(WorldError, "file").items(foreign.count, 100)
+assert [next(items) for _ in range(3)] == [0, 1, 2]
+forked = not os.fork()
+assert all(np.array_equal(video.picture(40.0 * k), pictures[k]) for k in range(3, 25))
+if forked:
+    try:
+        next(items)
+    except WorldError as error:
+        assert str(error).startswith("file: cannot be read: the process was forked after it was"), error
+        os._exit(7)
+    os._exit(1)
+assert os.waitstatus_to_exitcode(os.wait()[1]) == 7
+assert list(items) == list(range(3, 100))
+print("read")
+"""
+
+
+def test_a_fork_reads_from_no_child_of_its_parent() -> None:
+    root = Path(__file__).parents[3]
+    command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", FORKED]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=root, timeout=120, check=False)
+    assert done.stdout == "read\n", done.stderr
