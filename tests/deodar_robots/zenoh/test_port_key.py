@@ -20,7 +20,7 @@ from deodar_robots.zenoh.inboxes import AHEAD, CommandInbox
 from deodar_robots.zenoh.served_world import ServedWorld
 from deodar_robots.zenoh.zenoh import Zenoh
 from tests.command_line import typed
-from tests.deodar_robots.zenoh.test_tls import Relay
+from tests.deodar_robots.zenoh.relay import Relay
 from tests.deodar_robots.zenoh.wheel import Wheel
 
 STRANGER = """

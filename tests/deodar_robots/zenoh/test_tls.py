@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import shutil
 import socket
-import threading
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,7 @@ from deodar_robots.zenoh.link import TlsFiles
 from deodar_robots.zenoh.served_world import ServedWorld, free_endpoint
 from deodar_robots.zenoh.zenoh import Zenoh
 from tests.command_line import typed
+from tests.deodar_robots.zenoh.relay import Relay
 from tests.deodar_robots.zenoh.wheel import Wheel
 
 FILES = Path(__file__).parent / "certificates"
@@ -173,39 +173,3 @@ def test_the_command_line_names_certificates(served):
     assert keyless.status != 0 and "needs a certificate and its private key" in keyless.err
     absent = typed("serve arena:blocks --at tls/0.0.0.0:1 --certificate none.pem --key none.key")
     assert absent.status != 0 and "none.pem: there is no such file of the certificate" in absent.err
-
-
-class Relay:
-    """A relay of one connection to an endpoint; `seen` holds all bytes that passed."""
-
-    def __init__(self, to: str) -> None:
-        self.seen = bytearray()
-        host, _, port = to.partition("/")[2].rpartition(":")
-        self._to = (host, int(port))
-        self._listening = socket.create_server(("127.0.0.1", 0))
-        self.port = int(self._listening.getsockname()[1])
-        self._ends: list[socket.socket] = []
-        threading.Thread(target=self._accept, daemon=True).start()
-
-    def _accept(self) -> None:
-        try:
-            while True:
-                one, _ = self._listening.accept()
-                other = socket.create_connection(self._to)
-                self._ends += [one, other]
-                for ends in ((one, other), (other, one)):
-                    threading.Thread(target=self._pass, args=ends, daemon=True).start()
-        except OSError:
-            return
-
-    def _pass(self, source: socket.socket, target: socket.socket) -> None:
-        try:
-            while data := source.recv(65536):
-                self.seen += data
-                target.sendall(data)
-        except OSError:
-            return
-
-    def close(self) -> None:
-        for each in (self._listening, *self._ends):
-            each.close()
