@@ -111,6 +111,9 @@ class FakeServer:
         self.ready(self.address)
         self.ended()
 
+    def working(self) -> bool:
+        return False
+
 
 def opened_at(
     address: str, browser: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, opens: Callable[[str], None]
@@ -253,7 +256,7 @@ def test_the_studio_opens_an_example_as_a_copy_without_a_file(
     """The studio writes below the working folder, never into the folder of the examples."""
     monkeypatch.setenv("DEODAR_STATE", str(workspace / "state"))
     served: list[Any] = []
-    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: served.extend(args))
+    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: served.extend(args) or 0)
     assert main(["studio", "example:node", "--no-browser"]) == 0
     service = served[0]
     assert service.root == workspace
@@ -283,7 +286,7 @@ def test_an_example_is_opened_by_the_command_that_opens_documents(
     workspace: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     served: list[Any] = []
-    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: served.extend(args))
+    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: served.extend(args) or 0)
     assert main(["examples", "open", "node"]) == 0
     assert served[0].root == workspace and served[0].file == examples.file("node")
 

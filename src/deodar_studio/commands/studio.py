@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import signal
-import sys
 from pathlib import Path
 
 from deodar.cli import _options
@@ -71,10 +69,7 @@ def run(args: argparse.Namespace) -> int:
 
     world, token = _options.world(args.world), not args.no_token
     service = Service(root, file, args.trust, world, args.host, args.port, token, args.unattended)
-    if not serve(service, not args.no_browser, say):
-        return 0
-    print("deodar studio: SIGTERM has ended the studio", file=sys.stderr)
-    return 128 + signal.SIGTERM  # what a shell reports of a process that SIGTERM has ended
+    return serve(service, not args.no_browser, say)
 
 
 def open_document(path: str) -> int:

@@ -14,7 +14,7 @@ import queue
 import threading
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -38,6 +38,7 @@ from deodar_studio.live.published import CostReport, PublishedState
 from deodar_studio.live.ring import StateRing
 from deodar_studio.live.trace import Trace, TraceRequest
 from deodar_studio.live.track import Track
+from deodar_studio.live.unwaited import UnwaitedThreads
 
 T = TypeVar("T")
 FRAME = 0.022
@@ -47,6 +48,11 @@ SAMPLES = 4
 """Number of samples of a time course in one exchange; more would slow a fast run without being visible."""
 
 MOST_LOOKS = 8
+
+PARTING_SECONDS = 1.0
+"""Longest wall time for which the end of the studio waits for the engine, in seconds; the world of a session
+may itself wait for a robot.
+"""
 
 
 @dc.dataclass
@@ -93,7 +99,7 @@ class Engine:
         self._steps = 0
         self._uncompiled = False
         self._moved: World | None = None
-        self._compiler = ThreadPoolExecutor(2, "deodar-compiler")  # one to compile, one to measure
+        self._compiler = UnwaitedThreads(2, "deodar-compiler")  # one to compile, one to measure
         self._thread = threading.Thread(target=self._loop, name="deodar-engine", daemon=True)
         self.session: Session | None = None
         self.injection: Injection | None = None
@@ -127,13 +133,21 @@ class Engine:
         self._wake.set()
 
     def close(self) -> None:
-        """Stop the engine's thread and the compiler's threads."""
+        """Stop the engine's thread, put motors to rest, and leave a compilation unfinished.
+
+        A record whose session does not stop in time is left as a killed run leaves it.
+        """
         self._closed = True
         self._wake.set()
-        self._thread.join()
+        self._compiler.shutdown()
+        self._thread.join(PARTING_SECONDS)
         self._halt()
-        self.stop_record()
-        self._compiler.shutdown(cancel_futures=True)
+        if not self._thread.is_alive():
+            self.stop_record()
+
+    def working(self) -> bool:
+        """Return whether a thread still works after `close`."""
+        return self._compiler.working(0.1) or self._thread.is_alive()
 
     # ----------------------------------------------------------------- in the engine's thread, through `call`
 

@@ -24,6 +24,7 @@ from deodar_studio.files.state_store import StateStore, state_folder
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.live.compilation import CompileTimes
 from deodar_studio.live.engine import Engine
+from deodar_studio.live.unwaited import UnwaitedThreads
 from deodar_studio.messages.message import Message, made_of
 from deodar_studio.messages.to_page import (
     CompilingView,
@@ -75,6 +76,8 @@ class Hub:
         unattended: bool = False,
     ) -> None:
         self._loop = asyncio.get_running_loop()
+        self._threads = UnwaitedThreads()
+        self._loop.set_default_executor(self._threads)
         self._wake_scheduled = False
         self._gallery = Gallery(recent=[], recoveries=[])
         self.pages: set[Page] = set()
@@ -310,6 +313,10 @@ class Hub:
         await asyncio.to_thread(self.field_tuning.end)
         await asyncio.to_thread(self.engine.close)
         self.embodiment.close()
+
+    def working(self) -> bool:
+        """Return whether a thread still works after the event loop has ended, such as one that compiles."""
+        return self._threads.working(0.1) or self.engine.working()
 
 
 async def _repeat(work: Callable[[], Awaitable[None]], seconds: float) -> None:

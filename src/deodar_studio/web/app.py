@@ -85,6 +85,10 @@ class Studio:
         finally:
             self._ended()
 
+    def working(self) -> bool:
+        """Return whether a thread still works after the application has closed."""
+        return self._hub is not None and self._hub.working()
+
     async def _page(self, request: Request) -> Response:
         index = STATIC / "index.html"
         if not index.is_file():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
+import signal
 import socket
 import sys
 import webbrowser
@@ -36,14 +37,24 @@ MOST_MESSAGE = 64 * 2**20
 """Longest message from a page, in bytes: a dropped document, or a picture as base64."""
 
 
-def serve(service: Service, browser: bool, say: Callable[[str], None]) -> bool:
+class StudioServer(uvicorn.Server):
+    """A server of a studio."""
+
+    def __init__(self, config: uvicorn.Config, studio: Studio) -> None:
+        super().__init__(config)
+        self.working = studio.working
+
+
+def serve(service: Service, browser: bool, say: Callable[[str], None]) -> int:
     """Serve until Ctrl-C or SIGTERM, and open the page in a browser if `browser` is true.
 
     `say` is called with the address when the server is ready. An address with a token is passed to the
-    browser in a file of this user, which is removed when the studio ends.
+    browser in a file of this user, which is removed when the studio ends. If a thread still compiles then,
+    this process ends at once: a compilation cannot be interrupted, and Python would wait for it.
 
     Returns:
-        whether SIGTERM has ended it.
+        the status of the command: 0 after Ctrl-C, after SIGTERM what a shell reports of a process that it has
+        ended.
     """
     redirects: list[RedirectFile] = []
 
@@ -71,7 +82,14 @@ def serve(service: Service, browser: bool, say: Callable[[str], None]) -> bool:
     # the server passes a signal on after it has closed; Ctrl-C is the normal end
     with interrupted_by_sigterm() as received, contextlib.suppress(KeyboardInterrupt), short_turns():
         server.run(sockets=[bound])
-    return bool(received)
+    if received:
+        sys.stderr.write("deodar studio: SIGTERM has ended the studio\n")
+    status = 128 + signal.SIGTERM if received else 0
+    if server.working():
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+    return status
 
 
 @contextlib.contextmanager
@@ -93,7 +111,7 @@ def prepare(
     service: Service,
     ready: Callable[[str], None],
     ended: Callable[[], None] = lambda: None,
-) -> tuple[uvicorn.Server, socket.socket]:
+) -> tuple[StudioServer, socket.socket]:
     """Return a server that is not started yet, and the socket for it.
 
     `ready` is called with the address when the server is ready. `ended` is called when the server stops,
@@ -117,10 +135,10 @@ def prepare(
         ws_per_message_deflate=False,
         ws_max_size=MOST_MESSAGE,
         lifespan="on",
-        timeout_graceful_shutdown=2,
+        timeout_graceful_shutdown=1,
         server_header=False,
     )
-    return uvicorn.Server(config), bound
+    return StudioServer(config, studio), bound
 
 
 def bind(host: str, port: int | None) -> socket.socket:

@@ -1,0 +1,94 @@
+"""The studio ends although a compilation, a check or a world goes on: nothing interrupts them."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from deodar_studio.live.unwaited import UnwaitedThreads
+from deodar_studio.project import run
+from deodar_studio.web import app, serve
+from deodar_studio.web.service import Service
+from tests.deodar_studio.page import Page, play, studio
+
+SOON = 30.0
+"""Wall time in seconds that a busy machine may need; the work of these tests does not end by itself."""
+
+
+def test_a_studio_ends_while_a_document_is_compiled(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    begun, ended = threading.Event(), threading.Event()
+
+    def compiled(*arguments: Any, **options: Any) -> Any:
+        begun.set()
+        ended.wait()
+        raise RuntimeError("nothing is left that takes it")
+
+    monkeypatch.setattr(run, "Session", compiled)
+    try:
+        with studio(root, root / "node.json"):
+            assert begun.wait(SOON)
+            since = time.monotonic()
+        assert time.monotonic() - since < SOON
+    finally:
+        ended.set()
+
+
+def test_a_studio_ends_while_a_change_is_compiled_or_a_world_waits(root: Path) -> None:
+    ended = threading.Event()
+
+    async def story(p: Page) -> None:
+        await p.runs()
+        # as a step of a session whose world waits for a robot
+        hubs[0].engine.call(ended.wait)
+        hubs[0].engine._compiler.submit(ended.wait)
+
+    hubs: list[Any] = []
+    hub_class = app.Hub
+    try:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(app, "Hub", lambda *words: hubs.append(hub_class(*words)) or hubs[0])
+            with studio(root, root / "node.json") as address:
+                play(address, story)
+                since = time.monotonic()
+        assert time.monotonic() - since < SOON
+        assert hubs[0].working()
+    finally:
+        ended.set()
+    while hubs[0].working():
+        assert time.monotonic() - since < 2 * SOON
+
+
+def test_threads_that_work_are_told_from_those_that_have_ended() -> None:
+    threads, ended = UnwaitedThreads(2), threading.Event()
+    assert not threads.working(0.0)
+    work = threads.submit(ended.wait)
+    waiting = [threads.submit(ended.wait) for _ in range(3)]
+    threads.shutdown(wait=True)
+    assert threads.working(0.0) and waiting[-1].cancelled()
+    ended.set()
+    assert work.result(SOON) and not threads.working(SOON)
+
+
+class WorkingServer:
+    """A server that was ended by Ctrl-C while a thread works."""
+
+    def run(self, sockets: list[Any]) -> None:
+        pass
+
+    def working(self) -> bool:
+        return True
+
+
+def test_the_process_of_a_studio_does_not_wait_for_a_thread(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    left: list[int] = []
+    monkeypatch.setattr(serve, "prepare", lambda *arguments: (WorkingServer(), None))
+    monkeypatch.setattr(os, "_exit", left.append)
+    serve.serve(Service(tmp_path), False, print)
+    assert left == [0]
