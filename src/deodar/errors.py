@@ -9,20 +9,17 @@ from __future__ import annotations
 
 import contextlib
 import difflib
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeVar
 
+from deodar.proposed_edit import EditValue, Medium, ProposedEdit, SetValues
 from deodar.short_traceback import short_traceback
 from deodar.summary import Summarised, Summary
 
 T = TypeVar("T")
 
 Severity = Literal["problem", "warning"]
-
-
-Medium = Literal["script", "shell", "page"]
-"""Where a message is read: a script or notebook, a shell that ran `deodar`, or the page of the studio."""
 
 MEDIA: tuple[Medium, ...] = ("script", "shell", "page")
 
@@ -56,6 +53,58 @@ class Fix(str):
         """Return this fix and another one, at each place."""
         second = text if isinstance(text, Fix) else Fix(text)
         return Fix(*(joined(self.at(place), second.at(place)) for place in MEDIA))
+
+
+class EditFix(Fix):
+    """A fix that is an edit of the document; its text follows from the edit.
+
+    Args:
+        advice: what the edit does.
+        edits: the edits, made together.
+        otherwise: what else would help.
+
+    >>> fix = EditFix("Change the sign", [SetValues((("resting_level", -5),), "u")])
+    >>> fix, fix.at("shell")
+    ('Change the sign: model.set("u.resting_level", -5)', 'Change the sign: --set u.resting_level=-5')
+    """
+
+    advice: str
+    edits: tuple[ProposedEdit, ...]
+    otherwise: str
+
+    def __new__(cls, advice: str, edits: Iterable[ProposedEdit], otherwise: str = "") -> EditFix:
+        edits = tuple(edits)
+        texts = [f"{advice}: {' and '.join(edit.at(place) for edit in edits)}" for place in MEDIA]
+        fix = str.__new__(cls, joined(texts[0], otherwise))
+        fix.shell, fix.page = joined(texts[1], otherwise), joined(texts[2], otherwise)
+        fix.advice, fix.edits, fix.otherwise = advice, edits, otherwise
+        return fix
+
+    def __getnewargs__(self) -> Any:
+        """Return the arguments, for copies and pickles."""
+        return self.advice, self.edits, self.otherwise
+
+    def with_edits(self, edits: Iterable[ProposedEdit]) -> EditFix:
+        """Return the fix with other edits, such as the same ones of a certain element."""
+        return EditFix(self.advice, edits, self.otherwise)
+
+    def then(self, text: str) -> EditFix:
+        """Return this fix and another one, as text."""
+        return EditFix(self.advice, self.edits, joined(self.otherwise, text))
+
+
+def assign(advice: str, values: Mapping[str, EditValue], otherwise: str = "") -> EditFix:
+    """Return a fix that sets parameters of the element that has the problem.
+
+    Args:
+        advice: what the edit does.
+        values: the new values, by the paths of parameters inside the element.
+        otherwise: what else would help.
+
+    >>> assign("Change the sign", {"resting_level": -5}).edits
+    (SetValues(values=(('resting_level', -5),), element=None),)
+    """
+    return EditFix(advice, [SetValues(tuple(values.items()))], otherwise)
 
 
 def option(advice: str, name: str, text: str, argument: str = "", page: str = "") -> Fix:
@@ -103,6 +152,11 @@ class Problem(Summarised):
     def fix_at(self, place: Medium) -> str:
         """Return what to do at a place."""
         return self.fix.at(place) if isinstance(self.fix, Fix) else self.fix
+
+    @property
+    def edits(self) -> tuple[ProposedEdit, ...]:
+        """The edits of the document that solve it; empty where the user has to decide."""
+        return self.fix.edits if isinstance(self.fix, EditFix) else ()
 
     def _summary(self) -> Summary:
         return Summary(f"{self.severity}: {self}")

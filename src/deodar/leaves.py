@@ -218,6 +218,17 @@ def on_axis(value: PerAxis, d: int) -> float:
     return value[d] if isinstance(value, Sequence) else value
 
 
+def one_axis(values: Sequence[float]) -> float | tuple[float, ...]:
+    """Return one value for each axis in their short form: one value where all are equal."""
+    return values[0] if values and all(v == values[0] for v in values) else tuple(values)
+
+
+def with_entry(per_axes: PerAxis, axes: Sized, d: int, new: float) -> float | tuple[float, ...]:
+    """Return the values for some axes with another one for axis number `d`."""
+    values = per_axis(per_axes, axes)
+    return one_axis((*values[:d], new, *values[d + 1 :]))
+
+
 # -------------------------------------------------------------------------------------- one value by its path
 
 

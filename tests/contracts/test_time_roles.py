@@ -107,7 +107,9 @@ def test_a_longer_step_is_refused_at_check_and_at_run_with_one_sentence(
         assert problem.severity == "problem" and message in problem.what and name in problem.fix
         with pytest.raises(TimeError) as caught:
             require_step(model.document, step)
-        assert caught.value.problems == (problem,)
+        (refused,) = caught.value.problems
+        assert (refused.where, refused.what) == (problem.where, problem.what)
+        assert problem.fix.endswith(refused.fix)  # the check of a document proposes an edit of it, too
 
 
 def test_a_run_and_a_session_refuse_every_role() -> None:

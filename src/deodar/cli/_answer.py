@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from deodar import codec
 
@@ -37,8 +37,10 @@ class CommandAnswer:
         return self.status
 
 
-def problem_data(problems: Sequence[Problem]) -> list[dict[str, str]]:
-    """Return problems as plain data, with what to type in a shell."""
+def problem_data(problems: Sequence[Problem]) -> list[dict[str, Any]]:
+    """Return problems as plain data, with what to type in a shell, and as edits of the document."""
     return [
-        {"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix_at("shell")} for p in problems
+        {"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix_at("shell")}
+        | ({"edits": [e.data() for e in p.edits]} if p.edits else {})
+        for p in problems
     ]

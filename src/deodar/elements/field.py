@@ -12,7 +12,8 @@ import numpy as np
 from jax import Array
 
 from deodar.element import Arrays, Convolution, Element, PortAxes, PortBounds, Setting
-from deodar.leaves import is_neutral, per_axis
+from deodar.errors import assign
+from deodar.leaves import is_neutral, per_axis, with_entry
 from deodar.numerics import noise as noises
 from deodar.numerics import quadrature, starting
 from deodar.numerics.axes import Axes, Axis, cell
@@ -111,14 +112,19 @@ class Field(Element):
             yield "noise_length is 0 on one axis and not on another; give all of them or none"
 
     def warnings(self, ins: PortAxes) -> Iterator[tuple[str, str]]:
-        for axis, length in zip(self.axes, per_axis(self.noise_length, self.axes), strict=True):
+        lengths = per_axis(self.noise_length, self.axes)
+        for d, (axis, length) in enumerate(zip(self.axes, lengths, strict=True)):
             if 0 < float(length) < 0.5 * axis.step:
                 yield (
                     (
                         f"its noise_length {float(length):g} is below the step {axis.step:g} of the axis"
                         f" {axis.name!r}: the noise is white"
                     ),
-                    f"Use {axis.step:g} or more, or 0 for white noise",
+                    assign(
+                        f"Use {axis.step:g} or more",
+                        {"noise_length": with_entry(self.noise_length, self.axes, d, 2 * axis.step)},
+                        "Or write 0 for white noise",
+                    ),
                 )
             elif float(length) > axis.range:
                 yield (
@@ -126,7 +132,10 @@ class Field(Element):
                         f"its noise_length {float(length):g} is longer than the axis {axis.name!r}"
                         f" ({axis.range:g}): the noise is the same everywhere"
                     ),
-                    f"Use a length far below {axis.range:g}",
+                    assign(
+                        f"Use a length far below {axis.range:g}",
+                        {"noise_length": with_entry(self.noise_length, self.axes, d, axis.range / 10)},
+                    ),
                 )
 
     def bounds(self, ins: PortAxes, inputs: PortBounds, before: PortBounds) -> PortBounds:

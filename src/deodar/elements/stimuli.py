@@ -12,7 +12,8 @@ from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Element, PortAxes, PortBounds, Setting
-from deodar.leaves import per_axis
+from deodar.errors import assign
+from deodar.leaves import per_axis, with_entry
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.convolution import boundaries
@@ -77,13 +78,14 @@ class Stimulus(Element):
     def placed(self, width: str, ends: Sequence[str]) -> Iterator[tuple[str, str]]:
         """Warn about a center outside the axes, and about a width too small or too large for them."""
         sizes: PerAxis = getattr(self, width)
-        for axis, center, size, end in zip(
+        every = zip(
             self.axes,
             per_axis(self.center, self.axes),  # type: ignore[attr-defined]
             per_axis(sizes, self.axes),
             ends,
             strict=True,
-        ):
+        )
+        for d, (axis, center, size, end) in enumerate(every):
             c, s = float(center), float(size)
             far = NOTHING * s if width == "sigma" else s / 2
             if (
@@ -103,7 +105,11 @@ class Stimulus(Element):
                         f"its {width} {s:g} is smaller than the step {axis.step:g} of the axis {axis.name!r}:"
                         " how strong it is depends on where it lies"
                     ),
-                    f"Use a {width} of {axis.step:g} or more, or more samples",
+                    assign(
+                        f"Use a {width} of {axis.step:g} or more",
+                        {width: with_entry(sizes, self.axes, d, axis.step)},
+                        "Or take more samples",
+                    ),
                 )
             elif width == "sigma" and s > axis.range:
                 yield (
@@ -111,7 +117,11 @@ class Stimulus(Element):
                         f"its sigma {s:g} is larger than the axis {axis.name!r} ({axis.range:g}), so it is"
                         " nearly the same everywhere"
                     ),
-                    f"Use a sigma far below {axis.range:g}, or a Boost",
+                    assign(
+                        f"Use a sigma far below {axis.range:g}",
+                        {width: with_entry(sizes, self.axes, d, axis.range / 10)},
+                        "Or take a Boost",
+                    ),
                 )
 
     def steady(self) -> bool:

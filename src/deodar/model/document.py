@@ -90,15 +90,17 @@ class Entry(Summarised):
             dt: Euler step of the model.
             unit: unit of time of the document.
         """
-        for limit in self.limits:
-            if dt * self.every > limit.longest * (1 + 1e-9):
-                better = "smaller" if limit.role == "rate" else "larger"
-                yield Problem(
-                    self.path,
-                    f"the step of {dt * self.every:g} {unit} is longer than {limit}",
-                    f"Use dt <= {limit.longest / self.every:g}, better a tenth of it, or a {better}"
-                    f" {limit.path}",
-                )
+        for limit in self.exceeded(dt):
+            better = "smaller" if limit.role == "rate" else "larger"
+            yield Problem(
+                self.path,
+                f"the step of {dt * self.every:g} {unit} is longer than {limit}",
+                f"Use dt <= {limit.longest / self.every:g}, better a tenth of it, or a {better} {limit.path}",
+            )
+
+    def exceeded(self, dt: float) -> list[StepLimit]:
+        """Return the limits that an Euler step of the model exceeds."""
+        return [limit for limit in self.limits if dt * self.every > limit.longest * (1 + 1e-9)]
 
     def _summary(self) -> Summary:
         return Summary(f"{type(self.element).__name__} {self.path}")

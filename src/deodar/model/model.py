@@ -11,7 +11,7 @@ from typing import Any
 
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, Problem, UnknownName
-from deodar.model import document_files, edit, find, uses
+from deodar.model import document_files, edit, find, proposed, uses
 from deodar.model.check import check, problems
 from deodar.model.document import Document, Entry
 from deodar.model.handle import Handle as Handle
@@ -208,6 +208,29 @@ class Model(Summarised):
     def get(self, path: str) -> Any:
         """Return the value of a parameter."""
         return find.value(self.document, path)
+
+    def set_axis(self, axis: str, **values: Any) -> None:
+        """Change an axis in every element that has it: `model.set_axis("x", samples=201, periodic=True)`.
+
+        Args:
+            axis: its key in the document, which is its name unless several axes have this name.
+            values: arguments of `Axis` with their new values.
+
+        Raises:
+            UnknownName: no element has the axis.
+            ParameterError: an element cannot have the new axis, such as one with an array of the old length.
+        """
+        self.commit(proposed.change_axis(self.document, axis, values))
+
+    def apply_fix(self, problem: Problem) -> None:
+        """Make the edits that the fix of a problem proposes (`problem.edits`), as one step of the history.
+
+        Raises:
+            ModelError: the fix is not an edit: it needs a decision, which its text states.
+        """
+        if not problem.edits:
+            raise ModelError("its fix needs a decision", where=problem.where, fix=problem.fix)
+        self.commit(proposed.apply(self.document, problem.edits))
 
     def set_ticks(self, what: Handle | str, ticks: int) -> None:
         """Set the step of an element, in ticks of the model."""

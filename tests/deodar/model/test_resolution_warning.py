@@ -33,7 +33,7 @@ def test_a_memory_on_a_coarse_grid_gets_a_warning_with_the_line_to_type(
     dimensions: int, strength: float
 ) -> None:
     (problem,) = warned(memory(dimensions=dimensions, strength=strength, samples=51))
-    assert 'quadrature="cell"' in problem and "samples=" in problem and "'x'" in problem
+    assert 'model.set("u.quadrature", "cell")' in problem and "samples=" in problem and "'x'" in problem
 
 
 def test_the_suggested_fix_removes_the_warning() -> None:
@@ -45,7 +45,7 @@ def test_the_suggested_fix_removes_the_warning() -> None:
 
 def test_for_a_step_sigmoid_the_warning_suggests_no_number_of_samples() -> None:
     (problem,) = warned(memory(sigmoid=Step(), samples=4001))
-    assert 'quadrature="cell"' in problem and "samples=" not in problem
+    assert 'model.set("u.quadrature", "cell")' in problem and "samples=" not in problem
 
 
 @pytest.mark.parametrize(

@@ -64,7 +64,7 @@ def test_a_periodic_axis_that_counts_its_end_twice_is_found_at_any_round_step(
 ) -> None:
     """With one sample less the step is a number that a person would choose."""
     doubled = [p for p in _ring(70 * step * tenth, 71).check() if "counts its end twice" in p.what]
-    assert [p.fix for p in doubled] == ["Write samples=70"]
+    assert [p.fix for p in doubled] == ['Leave the second end out: model.set_axis("x", samples=70)']
     for samples in (70, 69):
         assert not any("end twice" in p.what for p in _ring(70 * step * tenth, samples).check())
 
@@ -151,6 +151,8 @@ def test_a_resting_level_whose_sign_slipped_is_a_warning() -> None:
         return [p for p in model.check() if "without any input" in p.what]
 
     (problem,) = finding(3.0)
-    assert problem.severity == "warning" and problem.fix == "Change the sign: resting_level=-3"
+    assert (
+        problem.severity == "warning" and problem.fix == 'Change the sign: model.set("u.resting_level", -3)'
+    )
     assert not finding(-3.0), "what the fix writes"
     assert not finding(3.0, -6.0), "an input may keep it silent"

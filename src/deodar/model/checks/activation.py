@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 from collections.abc import Iterator
+from typing import Any
 
 from deodar.couplings.arithmetic import Threshold
 from deodar.couplings.hebbian import Hebbian
@@ -12,11 +13,12 @@ from deodar.couplings.positions import PeakPosition, RateCode
 from deodar.elements.field import Field
 from deodar.elements.memories import MemoryTrace
 from deodar.elements.populations import RateNode
-from deodar.errors import Problem
+from deodar.errors import EditFix, Problem, assign, joined
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import cell
 from deodar.numerics.sigmoids import Linear, Logistic
+from deodar.proposed_edit import SetValues, rounded
 
 SILENT = 0.25
 """Output below which a field counts as silent (a guess: half of the output at its threshold)."""
@@ -28,6 +30,12 @@ may reach it with a small input (a guess).
 
 AT_REST = 0.2
 """Output at the resting level from which a sigmoid counts as too flat (a guess)."""
+
+WINDOWS = "windows=[(start, stop)]"
+"""What a constant input gets: with any other resting level it leaves a field always on, or never."""
+
+UNREACHED = "Make its input stronger"
+"""What helps where no level lies below the input."""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
@@ -56,17 +64,37 @@ class InputLevels:
     high: float
     most: float
 
+    @property
+    def spans(self) -> bool:
+        """Whether a resting level exists at which the inputs alone decide between on and off."""
+        return -math.inf < self.low < self.high < math.inf
+
+    def off(self, level: float) -> bool:
+        """Return whether a field at a resting level is off with its weakest input, and on with its
+        strongest.
+        """
+        return level + self.low < self.threshold < level + self.high and level < self.threshold
+
 
 def _field(wiring: Wiring, n: Node, e: Field | RateNode) -> Iterator[Problem]:
-    threshold: float = getattr(e.sigmoid, "threshold", 0.0)
-    _, most = wiring.bounds[n.id].get("activation", (-math.inf, math.inf))
-    at = InputLevels(e.resting_level, threshold, *wiring.arriving(n), most)
+    at = _input_levels(wiring, n, e)
     yield from _never_on(wiring, n, e, at)
     yield from _always_on(wiring, n, e, at)
-    if at.rest < threshold and isinstance(e.sigmoid, Logistic):
+    if at.rest < at.threshold and isinstance(e.sigmoid, Logistic):
         yield from _flat(n, e.sigmoid, at)
     if isinstance(e, Field):
         yield from _noisy(n, e, at)
+
+
+def _input_levels(wiring: Wiring, n: Node, e: Field | RateNode) -> InputLevels:
+    _, most = wiring.bounds[n.id].get("activation", (-math.inf, math.inf))
+    return InputLevels(e.resting_level, getattr(e.sigmoid, "threshold", 0.0), *wiring.arriving(n), most)
+
+
+def off_at_rest(wiring: Wiring, n: Node, e: Field | RateNode) -> dict[str, float]:
+    """Return values with which a field that is on at rest is off; empty where its input never changes."""
+    at = _input_levels(wiring, n, e)
+    return _levels(e, at) if at.rest >= at.threshold and at.spans else {}
 
 
 def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> Iterator[Problem]:
@@ -85,15 +113,38 @@ def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> 
             f"gets only inhibition (at most {at.high:g}), and its resting level {h:g} lies below its"
             f" threshold {threshold:g}: it is never on"
         )
-        yield warning(n, sentence, "Change the sign of what should excite it, or connect what does")
+        yield warning(n, sentence, _excite(wiring, n, at))
     elif n.id in wiring.driven:
         sentence = (
             f"never reaches its threshold {threshold:g}: its resting level is {h:g}, its inputs add at most"
             f" {at.high:.3g}, and its own excitation does not help below the threshold; activation stays"
             f" below {at.most:.3g}"
         )
+        stronger = f"Make its inputs stronger than {threshold - h:g}"
         raised = f"raise resting_level above {threshold - at.high:.3g}"
-        yield warning(n, sentence, f"Make its inputs stronger than {threshold - h:g}, or {raised}")
+        fix = assign("Raise its resting level", _levels(e, at), f"Or m{stronger[1:]}") if at.spans else ""
+        if at.low == at.high:
+            yield warning(n, sentence, f"{stronger}, in a window of time: {WINDOWS}")
+        else:
+            yield warning(n, sentence, fix or f"{stronger}, or {raised}")
+
+
+def _excite(wiring: Wiring, n: Node, at: InputLevels) -> str:
+    """Return the fix for a field that gets only inhibition: the other sign of its only source.
+
+    A source that is always on would keep the field on then, so it is not proposed.
+    """
+    advice, connect = "Change the sign of what should excite it", "Or connect what does"
+    sources = wiring.sources(n)
+    if len(sources) == 1 and at.rest - at.high < at.threshold < at.rest - at.low:
+        e = sources[0].element
+        for name in ("factor", "amplitude"):
+            strength: Any = getattr(e, name, None)
+            if isinstance(strength, float) and strength < 0:
+                return EditFix(advice, [SetValues(((name, -strength),), sources[0].path)], connect)
+    if sources and at.low == at.high:
+        return f"{advice}, and let it be on in a window of time: {WINDOWS}"
+    return joined(advice, connect)
 
 
 def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> Iterator[Problem]:
@@ -107,15 +158,34 @@ def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) ->
             f" weakest input ({at.low:g}) activation stays at {least:g} or above"
         )
         fix = f"Use a resting_level below {at.threshold - at.low:g}; resting levels are usually negative (-5)"
-        yield warning(n, sentence, fix)
+        if at.low == at.high:
+            yield warning(n, sentence, f"Let its input be on in a window of time: {WINDOWS}")
+        else:
+            yield warning(n, sentence, assign(_lower(at), _levels(e, at)) if at.spans else fix)
     elif at.rest > at.threshold + CLEAR and at.rest + at.low > at.threshold + CLEAR and n.reads["input"]:
         sentence = (
             f"is on without any input: its resting level {at.rest:g} lies above its threshold"
             f" {at.threshold:g}, and only its own inhibition can silence it"
         )
-        slipped = f"Change the sign: resting_level={-at.rest:g}"
         lower = f"Use a resting_level below {at.threshold:g}"
-        yield warning(n, sentence, slipped if -at.rest < at.threshold else lower)
+        yield warning(n, sentence, assign(_lower(at), _levels(e, at)) if at.spans else lower)
+
+
+def _lower(at: InputLevels) -> str:
+    return "Change the sign" if at.off(-at.rest) else "Lower its resting level"
+
+
+def _levels(e: Field | RateNode, at: InputLevels) -> dict[str, float]:
+    """Return a resting level at which a field is off with its weakest input and on with its strongest.
+
+    A smaller distance than a flat sigmoid resolves needs a steeper one.
+    """
+    level = -at.rest if at.off(-at.rest) else rounded(at.threshold - (at.low + at.high) / 2)
+    values = {"resting_level": level}
+    missing = at.threshold - level
+    if isinstance(e.sigmoid, Logistic) and e.sigmoid.bounds((level, level))[1] > AT_REST and missing > 0:
+        values["sigmoid.beta"] = rounded(4 / missing)
+    return values
 
 
 def _flat(n: Node, sigmoid: Logistic, at: InputLevels) -> Iterator[Problem]:
@@ -126,7 +196,8 @@ def _flat(n: Node, sigmoid: Logistic, at: InputLevels) -> Iterator[Problem]:
             f" for a resting level of {at.rest:g}"
         )
         steeper = 4 / (at.threshold - at.rest)
-        yield warning(n, sentence, f"Use beta of {steeper:.2g} or more, or a lower resting_level")
+        steepened = {"sigmoid.beta": rounded(steeper)}
+        yield warning(n, sentence, assign("Make it steeper", steepened, "Or lower its resting_level"))
 
 
 def _noisy(n: Node, e: Field, at: InputLevels) -> Iterator[Problem]:
@@ -138,7 +209,8 @@ def _noisy(n: Node, e: Field, at: InputLevels) -> Iterator[Problem]:
             "its noise alone brings it above its threshold: activation has a standard deviation of"
             f" {deviation:.2g}, and its resting level lies {missing:g} below the threshold"
         )
-        yield warning(n, sentence, f"Use noise below {e.noise * missing / deviation / 4:.2g}")
+        calmer = {"noise": rounded(e.noise * missing / deviation / 4)}
+        yield warning(n, sentence, assign("Use less noise", calmer))
 
 
 def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
@@ -154,13 +226,13 @@ def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
         yield warning(
             n,
             f"learns nothing: its threshold is {e.threshold:g}, and what arrives is at most {most:g}",
-            "Use a threshold of 0.5",
+            assign("Lower it", {"threshold": rounded(min(0.5, most / 2))}) if most > 0 else UNREACHED,
         )
     if isinstance(e, Threshold) and most <= e.level:
         yield warning(
             n,
             f"its input never exceeds its level {e.level:g}: it is at most {most:g}",
-            f"Use a level below {most:g}",
+            assign("Lower it", {"level": rounded(most / 2)}) if most > 0 else UNREACHED,
         )
     if isinstance(e, (PeakPosition, RateCode)):
         axes = n.ins["input"] if isinstance(e, PeakPosition) else tuple(e.axes)
@@ -173,6 +245,10 @@ def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:
             yield warning(
                 n,
                 sentence,
-                "Use least far below the integral of one peak (its width times its height), such as"
-                f" {whole / 100:.2g}",
+                assign(
+                    "Use a value far below the integral of one peak (its width times its height)",
+                    {"least": rounded(whole / 100)},
+                )
+                if whole > 0
+                else UNREACHED,
             )

@@ -7,9 +7,11 @@ from collections.abc import Iterator
 from deodar.couplings.arithmetic import Gain
 from deodar.elements.placeholder import Placeholder
 from deodar.elements.world_ports import Motor
-from deodar.errors import Problem
+from deodar.errors import EditFix, Problem
+from deodar.model.paths import quote
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
+from deodar.proposed_edit import Disconnect
 
 NEEDED = {
     "gate": "it never learns",
@@ -83,5 +85,7 @@ def _twice(wiring: Wiring, n: Node) -> Iterator[Problem]:
             ):
                 sentence = f"gets {source[0].path} twice: directly, and through {g.path}"
                 yield warning(
-                    n, sentence, f"Disconnect one: model.disconnect({source[0].path!r}, {n.path!r})"
+                    n,
+                    sentence,
+                    EditFix("Disconnect one", [Disconnect(source[0].path, f"{n.path}.{quote(port)}")]),
                 )

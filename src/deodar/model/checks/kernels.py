@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from deodar.errors import Problem
-from deodar.leaves import per_axis
+from deodar.elements.field import Field
+from deodar.errors import EditFix, Problem, assign
+from deodar.leaves import one_axis, per_axis, with_entry
+from deodar.model.checks.resolution import with_cells
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import Axes
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.separable import Gaussian, MexicanHat, Shifted
+from deodar.parameters import parameters
+from deodar.proposed_edit import SetValues, rounded
 
 Fault = tuple[str, str]
 """What is wrong with a kernel, and what to write."""
@@ -25,6 +29,9 @@ WIDE = 2.0
 """Width, in lengths of the axis, from which a Gaussian is nearly flat: at least 88 % of its height everywhere
 (a guess).
 """
+
+LOCAL = 0.1
+"""Width, in lengths of the axis, that replaces one that is too large (a guess)."""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
@@ -42,26 +49,31 @@ def check(wiring: Wiring) -> Iterator[Problem]:
                     f"{name} is {inhibition:g}: it is counted positive and subtracted, so a negative one"
                     " excites everything that is on"
                 )
-                yield warning(n, sentence, f"Write {name}={-inhibition:g}")
+                yield warning(n, sentence, assign("Change the sign", {name: -inhibition}))
 
 
 def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
     element_axes: Any = getattr(n.element, "axes", None)
     axes = tuple(element_axes) if element_axes is not None else n.ins.get("input", ())
-    for fault, fix in _faults(kernel, axes):
+    for fault, fix in _faults(where, kernel, axes):
+        if isinstance(n.element, Field) and isinstance(fix, EditFix):
+            values = {
+                path: number for e in fix.edits if isinstance(e, SetValues) for path, number in e.values
+            }
+            fix = assign(fix.advice, with_cells(n.element, values), fix.otherwise)
         yield warning(n, f"{where}: {fault}", fix)
 
 
-def _faults(kernel: Kernel, axes: Axes) -> Iterator[Fault]:
+def _faults(where: str, kernel: Kernel, axes: Axes) -> Iterator[Fault]:
     match kernel:
         case Shifted():
             yield from _beyond(kernel, axes)
         case MexicanHat():
-            yield from _signs(kernel)
-            yield from _order(kernel, axes)
-            yield from _width(kernel, axes, True)
+            yield from _signs(where, kernel)
+            yield from _order(where, kernel, axes)
+            yield from _width(where, kernel, axes, True)
         case Gaussian():
-            yield from _width(kernel, axes, kernel.amplitude > 0)
+            yield from _width(where, kernel, axes, kernel.amplitude > 0)
         case _:
             pass
 
@@ -76,35 +88,68 @@ def _beyond(kernel: Shifted, axes: Axes) -> Iterator[Fault]:
             )
 
 
-def _signs(kernel: MexicanHat) -> Iterator[Fault]:
+def _signs(where: str, kernel: MexicanHat) -> Iterator[Fault]:
     if kernel.inhibition < 0 or kernel.excitation < 0:
         name, does = ("inhibition", "excites") if kernel.inhibition < 0 else ("excitation", "inhibits")
         strength: float = getattr(kernel, name)
         yield (
             f"{name} is {strength:g}, and both are counted positive, so it {does}",
-            f"Write {name}={-strength:g}",
+            assign("Change the sign", {f"{where}.{name}": -strength}),
         )
     elif kernel.inhibition > kernel.excitation and not kernel.normalized:
         yield (
             f"inhibits at its centre, since inhibition {kernel.inhibition:g} is larger than excitation"
             f" {kernel.excitation:g}",
-            "Exchange the two, or make the excitation the larger one",
+            assign(
+                "Exchange the two",
+                {f"{where}.excitation": kernel.inhibition, f"{where}.inhibition": kernel.excitation},
+                "Or make the excitation the larger one",
+            ),
         )
 
 
-def _order(kernel: MexicanHat, axes: Axes) -> Iterator[Fault]:
+def _order(where: str, kernel: MexicanHat, axes: Axes) -> Iterator[Fault]:
     near, far = per_axis(kernel.sigma_excitation, axes), per_axis(kernel.sigma_inhibition, axes)
     if kernel.inhibition > 0 and axes and all(float(b) <= float(a) for a, b in zip(near, far, strict=True)):
         yield (
             "sigma_inhibition is not larger than sigma_excitation, so near positions inhibit and distant ones"
             " excite",
-            "Make sigma_inhibition the larger one",
+            _wider(where, kernel),
         )
 
 
-def _width(kernel: Gaussian | MexicanHat, axes: Axes, excites: bool) -> Iterator[Fault]:
+def _widened(where: str, kernel: Gaussian | MexicanHat, axes: Axes) -> EditFix:
+    """Return the fix for a narrow kernel: all its widths in the same proportion, none below the step."""
+    widths = dict(zip(_widths(kernel), kernel.widths(), strict=True))
+    finer = [
+        (a.step, float(s)) for w in widths.values() for a, s in zip(axes, per_axis(w, axes), strict=True)
+    ]
+    factor = max(step / s for step, s in finer)
+    wider = {
+        f"{where}.{name}": one_axis([rounded(factor * float(s), 3) for s in per_axis(w, axes)])
+        for name, w in widths.items()
+    }
+    advice = "Make it wider; widths are in units of the axis"
+    return assign(advice, wider, "Or take more samples")
+
+
+def _widths(kernel: Gaussian | MexicanHat) -> list[str]:
+    return [p.name for p in parameters(type(kernel)) if p.name.startswith("sigma")]
+
+
+def _wider(where: str, kernel: MexicanHat) -> EditFix:
+    """Return the fix for a surround that is not wider than the centre: exchange the two, or double it."""
+    near, far = kernel.sigma_excitation, kernel.sigma_inhibition
+    if near != far and not (isinstance(near, Sequence) or isinstance(far, Sequence)):
+        values = {f"{where}.sigma_excitation": far, f"{where}.sigma_inhibition": near}
+        return assign("Exchange the two widths", values)
+    double = tuple(2 * s for s in near) if isinstance(near, Sequence) else 2 * near
+    return assign("Make sigma_inhibition the larger one", {f"{where}.sigma_inhibition": double})
+
+
+def _width(where: str, kernel: Gaussian | MexicanHat, axes: Axes, excites: bool) -> Iterator[Fault]:
     """Yield the first width that is too small, or too large for a kernel that excites."""
-    for width in kernel.widths():
+    for name, width in zip(_widths(kernel), kernel.widths(), strict=True):
         pairs = [(axis, float(s)) for axis, s in zip(axes, per_axis(width, axes), strict=True)]
         # a kernel that is narrow on one of several axes may be intended: no blur along hue
         if pairs and all(s < NARROW * axis.step for axis, s in pairs):
@@ -112,14 +157,17 @@ def _width(kernel: Gaussian | MexicanHat, axes: Axes, excites: bool) -> Iterator
             yield (
                 f"a sigma of {s:g} is narrower than the step {axis.step:g} of the axis {axis.name!r}: no"
                 " sample reaches its neighbours",
-                f"Use a sigma of {axis.step:g} or more, or more samples; widths are in units of the axis",
+                _widened(where, kernel, axes),
             )
             return
-        for axis, s in pairs if excites else ():
+        for d, (axis, s) in enumerate(pairs) if excites else ():
             if s >= WIDE * axis.range:
                 yield (
                     f"a sigma of {s:g} is wider than the axis {axis.name!r} ({axis.range:g}), so the kernel"
                     " is the same everywhere",
-                    f"Use a sigma far below {axis.range:g}",
+                    assign(
+                        f"Use a sigma far below {axis.range:g}",
+                        {f"{where}.{name}": with_entry(width, axes, d, rounded(LOCAL * axis.range))},
+                    ),
                 )
                 return

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from deodar.elements.field import Field
-from deodar.errors import Problem
-from deodar.leaves import per_axis
+from deodar.errors import Problem, assign
+from deodar.leaves import per_axis, replace
 from deodar.model.wiring import Wiring, warning
+from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.separable import Gaussian, MexicanHat, TruncatedGaussian
 from deodar.numerics.sigmoids import Absolute, Logistic, Step
+from deodar.proposed_edit import EditValue
 
 STEEP, STEEP_BEYOND = 5.0, 10.0
 """Change of beta u over one sample at the edge of a peak from which sums over points depend on the grid: over
@@ -34,12 +36,9 @@ def check(wiring: Wiring) -> Iterator[Problem]:
     """Check fields with Gaussian kernels of their own that hold peaks without input."""
     for n in wiring.declared:
         e = n.element
-        if not isinstance(e, Field) or not e.axes or e.quadrature != "point":
+        if not isinstance(e, Field) or not (steep := _steep(e)):
             continue
-        limit = STEEP if len(e.axes) == 1 else STEEP_BEYOND
-        steep = [(s, axis) for s, axis in zip(steepness(e), e.axes, strict=False) if s > limit]
-        if not steep:
-            continue
+        limit = _limit(e)
         most, at = max(steep, key=lambda pair: pair[0])
         finite = math.isfinite(most)
         edge = (
@@ -58,7 +57,30 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             if finite
             else ""
         )
-        yield warning(n, sentence, 'Write quadrature="cell"' + (f"; or {finer}" if finer else ""))
+        advice = "Average the output over cells"
+        yield warning(
+            n, sentence, assign(advice, {"quadrature": "cell"}, f"Or write {finer}" if finer else "")
+        )
+
+
+def with_cells(field: Field, values: Mapping[str, EditValue]) -> dict[str, EditValue]:
+    """Return new values for a field, with the mean over cells where its peaks need it then."""
+    new = field
+    for path, setting in values.items():
+        new = replace(new, path, setting)
+    return {**values, "quadrature": "cell"} if _steep(new) else dict(values)
+
+
+def _limit(field: Field) -> float:
+    return STEEP if len(field.axes) == 1 else STEEP_BEYOND
+
+
+def _steep(field: Field) -> list[tuple[float, Axis]]:
+    """Return the steepness along each axis on which the edges of peaks are narrower than a sample."""
+    if not field.axes or field.quadrature != "point":
+        return []
+    pairs = zip(steepness(field), field.axes, strict=False)
+    return [(s, axis) for s, axis in pairs if s > _limit(field)]
 
 
 def steepness(field: Field) -> list[float]:

@@ -9,13 +9,19 @@ from collections.abc import Iterator
 from deodar.couplings.arithmetic import Gain, Sum
 from deodar.elements.field import Field
 from deodar.elements.stimuli import BoxStimulus, GaussianStimulus
-from deodar.errors import Problem
+from deodar.errors import EditFix, Problem, assign, joined
+from deodar.model.checks.activation import off_at_rest
+from deodar.model.checks.resolution import with_cells
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.sigmoids import Linear, SemiLinear
+from deodar.proposed_edit import SetValues, rounded
 
 LONGEST = 12
 """Largest number of elements of a linear loop."""
+
+CALM = 0.9
+"""Product of the gains of a loop after its fix (a guess)."""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
@@ -32,12 +38,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
                 sentence = (
                     f"grows without bound: once round the loop {names} a signal is multiplied by {gain:.3g}"
                 )
-                yield warning(
-                    n,
-                    sentence,
-                    "Make the product of its gains smaller than 1, or take a sigmoid that saturates:"
-                    " Logistic()",
-                )
+                yield warning(n, sentence, _weaker(loop, gain))
         if isinstance(e, Field) and e.axes:
             yield from _spread(wiring, n, e)
             yield from _tie(wiring, n, e)
@@ -78,6 +79,25 @@ def _growing(wiring: Wiring, start: Node) -> list[tuple[Node, float]]:
     return []
 
 
+def _weaker(loop: list[tuple[Node, float]], gain: float) -> str:
+    """Return the fix for a loop that grows: a smaller factor of one of its elements."""
+    advice = "Make the product of its gains smaller than 1"
+    saturate = "Or take a sigmoid that saturates: Logistic()"
+    for n, _ in loop:
+        e = n.element
+        path, factor = (
+            ("factor", e.factor)
+            if isinstance(e, Gain)
+            else ("sigmoid.slope", e.sigmoid.slope)
+            if isinstance(e, Field) and isinstance(e.sigmoid, (Linear, SemiLinear))
+            else ("", 0.0)
+        )
+        if path:
+            smaller = SetValues(((path, rounded(CALM * factor / gain)),), n.path)
+            return EditFix(advice, [smaller], saturate)
+    return joined(advice, saturate)
+
+
 def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
     """Report a wide peak that spreads.
 
@@ -100,8 +120,20 @@ def _spread(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
     yield warning(
         n,
         sentence,
-        f"Give it global_inhibition (about {edge / (0.2 * whole):.2g}), a MexicanHat, or a weaker kernel",
+        _inhibited(wiring, n, e, edge),
     )
+
+
+def _inhibited(wiring: Wiring, n: Node, e: Field, edge: float) -> str:
+    """Return the fix for a peak that spreads: global inhibition, and a resting level that ends it."""
+    advice, otherwise = "Give it global inhibition", "Or give it a MexicanHat or a weaker kernel"
+    values = off_at_rest(wiring, n, e)
+    if e.resting_level >= getattr(e.sigmoid, "threshold", 0.0) and not values:
+        return joined(f"{advice}, and a resting level below its threshold", otherwise)
+    edge += values.get("resting_level", e.resting_level) - e.resting_level
+    if edge > 0:
+        values["global_inhibition"] = rounded(edge / (0.2 * math.prod(a.step * a.samples for a in e.axes)))
+    return assign(advice, with_cells(e, values), otherwise)
 
 
 def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
@@ -122,4 +154,4 @@ def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
             f"its inputs {' and '.join(m.path for m in inputs)} are equal, they compete, and noise is 0:"
             " rounding decides which one wins"
         )
-        yield warning(n, sentence, "Give it noise, such as noise=0.1, or make one input stronger")
+        yield warning(n, sentence, assign("Give it noise", {"noise": 0.1}, "Or make one input stronger"))

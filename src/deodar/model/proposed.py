@@ -1,0 +1,91 @@
+"""The edits that the fix of a problem proposes: bound to a document, and made in it."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Iterable, Iterator, Sequence
+
+from deodar.errors import DeodarError, EditFix, Fix, Problem, UnknownName, did_you_mean
+from deodar.model import document_files, edit, find
+from deodar.model.document import Document
+from deodar.model.document_graph import graph
+from deodar.numerics.axes import Axis
+from deodar.proposed_edit import Disconnect, ProposedEdit, SetAxis, SetStep, SetValues
+
+
+def bound(doc: Document, problem: Problem) -> Problem:
+    """Return a problem whose edits name the element that has it.
+
+    An edit of a parameter that a document parameter drives becomes one of the document parameter. An edit
+    that the document cannot have becomes text, with the reason.
+    """
+    if not isinstance(problem.fix, EditFix):
+        return problem
+    edits = [new for e in problem.fix.edits for new in _bound(doc, problem.where, e)]
+    fix = problem.fix.with_edits(edits)
+    refused = _refused(doc, edits)
+    if refused:
+        return dc.replace(problem, fix=Fix(fix, fix.shell, fix.page).then(f"First change {refused[0]}"))
+    return dc.replace(problem, fix=fix)
+
+
+def _refused(doc: Document, edits: Sequence[ProposedEdit]) -> Sequence[Problem]:
+    """Return why edits cannot be made, or what prevents a run after them."""
+    try:
+        new = apply(doc, edits)
+    except DeodarError as error:
+        return error.problems
+    # another axis may not fit arrays and connections
+    return graph(new).problems if any(isinstance(e, SetAxis) for e in edits) else ()
+
+
+def _bound(doc: Document, where: str, proposed: ProposedEdit) -> Iterator[ProposedEdit]:
+    if not isinstance(proposed, SetValues):
+        yield proposed
+        return
+    proposed = proposed.inside(where)
+    idents = [e.id for e in doc.entries if e.path == proposed.element]
+    links = {leaf: name for (ident, leaf), name in doc.links().items() if ident in idents}
+    shared = tuple((links[path], setting) for path, setting in proposed.values if path in links)
+    alone = tuple((path, setting) for path, setting in proposed.values if path not in links)
+    if alone:
+        yield dc.replace(proposed, values=alone)
+    if shared:
+        yield SetValues(shared, "")
+
+
+def apply(doc: Document, edits: Iterable[ProposedEdit]) -> Document:
+    """Return a document in which edits of a problem are made.
+
+    Raises:
+        DeodarError: the document does not have what an edit changes.
+    """
+    for proposed in edits:
+        match proposed:
+            case SetValues():
+                doc = edit.change_all(doc, proposed.paths())
+            case SetAxis():
+                doc = change_axis(doc, proposed.axis, dict(proposed.values))
+            case SetStep():
+                doc = edit.describe(doc, dt=proposed.dt)
+            case Disconnect():
+                source, source_port = find.port(doc, proposed.source)
+                target, target_port = find.port(doc, proposed.target, "")
+                target_port = target_port or target.element.ports()[0]
+                doc = edit.disconnect(doc, source.id, source_port, target.id, target_port)
+            case _:
+                raise TypeError(f"{type(proposed).__name__} is no edit of a document")
+    return doc
+
+
+def change_axis(doc: Document, key: str, values: dict[str, object]) -> Document:
+    """Return a document in which an axis has other values, in every element that has it.
+
+    Raises:
+        UnknownName: the document has no axis of this key.
+    """
+    axes = document_files.axes(doc)
+    if key not in axes:
+        raise UnknownName(f"the document has no axis {key!r}", fix=did_you_mean(key, axes))
+    old: Axis = axes[key]
+    return edit.replace_axis(doc, old, dc.replace(old, **values))  # type: ignore[arg-type]

@@ -1,0 +1,194 @@
+"""Every fix that is an edit is proven, and every other one states the decision that it needs."""
+
+from __future__ import annotations
+
+import ast
+import copy
+import pickle
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+import pytest
+
+import deodar as dd
+from deodar.errors import EditFix, ModelError, Problem
+from deodar.model.check import check
+from tests.deodar.model.proven_fix import faults
+from tests.deodar.model.test_mistakes import KINDS, document
+
+SOURCES = Path(dd.__file__).parent
+X = dd.Axis("x", 0, 100, samples=101)
+
+
+def is_labelled(case: dict[str, Any], problem: Problem) -> bool:
+    """Return whether a problem is the mistake that a case is about."""
+    return (
+        (problem.where, problem.severity) == (case["where"], case["severity"])
+        and all(word in f"{problem.what} {problem.fix}" for word in case["words"])
+    )  # fmt: skip
+
+
+HEADING = dd.Axis("heading", 0, 360, samples=361, unit="deg")
+
+
+def _model(field: dd.Field, stimulus: dd.GaussianStimulus | None = None) -> dd.Model:
+    model = dd.Model("m")
+    model.add(stimulus or dd.GaussianStimulus("s", field.axes, center=50, amplitude=6)) >> model.add(field)
+    return model
+
+
+def _linked() -> dd.Model:
+    """The sign of a resting level that a document parameter drives, together with that of another field."""
+    model = _model(dd.Field("u", [X], resting_level=5))
+    model.add(dd.Field("v", [X], resting_level=5))
+    model.connect("s", "v")
+    model.parameter("rest", 5)
+    for path in ("u.resting_level", "v.resting_level"):
+        model.link(path, "rest")
+    return model
+
+
+def _two_grids() -> dd.Model:
+    """A circle that is open on two grids, which a connection resamples."""
+    coarse = dd.Axis("heading", 0, 360, samples=73, unit="deg")
+    stimulus = dd.GaussianStimulus("s", [coarse], center=50, sigma=20, amplitude=6)
+    return _model(dd.Field("u", [HEADING]), stimulus)
+
+
+FURTHER = {
+    "on without any input": _model(dd.Field("u", [X], resting_level=5, global_inhibition=1)),
+    "below the rounding": _model(dd.Field("u", [X], tau=1e9)),
+    "a linked parameter": _linked(),
+    "two grids": _two_grids(),
+    "a hat of equal widths": _model(dd.Field("u", [X], kernel=[dd.MexicanHat(10, 5, 4, 5)])),
+}
+CASES = [case for group in KINDS.values() for case in group["cases"]]
+DOCUMENTS = {case["document"]["name"]: document(case) for case in CASES}
+EDITS = [
+    pytest.param(name, problem, is_labelled(case, problem), id=f"{name}: {problem.what[:40]}")
+    for case in CASES
+    if (name := case["document"]["name"])
+    for problem in check(DOCUMENTS[name])
+    if problem.edits
+]
+
+FURTHER_EDITS = [
+    pytest.param(name, problem, id=f"{name}: {problem.where}")
+    for name, model in FURTHER.items()
+    for problem in check(model.document)
+    if problem.edits
+]
+
+
+@pytest.mark.parametrize(("name", "problem"), FURTHER_EDITS)
+def test_the_fix_of_a_further_document_is_proven(name: str, problem: Problem) -> None:
+    assert faults(FURTHER[name].document, problem) == []
+
+
+@pytest.mark.parametrize(("name", "problem", "labelled"), EDITS)
+def test_an_edit_solves_its_problem_without_another_one_and_the_signal_arrives(
+    name: str, problem: Problem, labelled: bool
+) -> None:
+    assert faults(DOCUMENTS[name], problem, labelled) == []
+
+
+def test_what_is_no_edit_states_the_decision_that_it_needs() -> None:
+    """The reasons are beside the documents: `decision`."""
+    edits: list[str] = []
+    for case in CASES:
+        problem = next(p for p in check(DOCUMENTS[case["document"]["name"]]) if is_labelled(case, p))
+        assert bool(problem.edits) != bool(case.get("decision")), problem
+        edits += [case["document"]["name"]] if problem.edits else []
+    assert (len(edits), len(CASES) - len(edits)) == (68, 32)
+
+
+def yields(path: Path, functions: frozenset[str]) -> Iterator[int]:
+    """Yield the lines of `yield` in functions of a file, in all functions without names."""
+    for f in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(f, ast.FunctionDef) and (not functions or f.name in functions):
+            yield from (n.lineno for n in ast.walk(f) if isinstance(n, ast.Yield))
+
+
+def test_every_line_that_reports_a_mistake_reports_it_in_one_of_the_documents() -> None:
+    """So a new check needs a document, and with it a proven fix or a reason."""
+    everywhere, in_kinds = frozenset[str](), frozenset(("warnings", "placed"))
+    folders = {"model/checks": everywhere, "elements": in_kinds, "couplings": in_kinds}
+    lines = {
+        (str(path), line)
+        for folder, functions in folders.items()
+        for path in (SOURCES / folder).glob("*.py")
+        for line in yields(path, functions)
+    }
+    files, seen = {path for path, _ in lines}, set[tuple[str, int]]()
+
+    def trace(frame: FrameType, event: str, _: Any) -> Any:
+        if frame.f_code.co_filename not in files:
+            return None
+        if event == "line":
+            seen.add((frame.f_code.co_filename, frame.f_lineno))
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        for doc in [*DOCUMENTS.values(), *(m.document for m in FURTHER.values())]:
+            check(doc)
+    finally:
+        sys.settrace(before)
+    assert lines - seen == set()
+
+
+def test_a_fix_is_written_for_each_reader_and_made_by_the_model() -> None:
+    model = _model(dd.Field("u", [X], resting_level=5, global_inhibition=1))
+    (problem,) = check(model.document)
+    assert problem.fix_at("script") == 'Change the sign: model.set("u.resting_level", -5)'
+    assert problem.fix_at("shell") == "Change the sign: --set u.resting_level=-5"
+    assert problem.fix_at("page") == "Change the sign: u.resting_level = -5"
+    for copied in (pickle.loads(pickle.dumps(problem)), copy.deepcopy(problem)):
+        assert copied == problem and copied.edits == problem.edits
+    model.apply_fix(problem)
+    assert model.get("u.resting_level") == -5 and model.check() == []
+    assert model.undo() and model.get("u.resting_level") == 5
+
+
+def test_a_fix_of_a_linked_parameter_sets_the_document_parameter() -> None:
+    problems = check(FURTHER["a linked parameter"].document)
+    assert {p.fix_at("shell") for p in problems if "Change the sign" in p.fix} == {
+        "Change the sign: --set rest=-5"
+    }
+
+
+def test_all_grids_of_a_circle_are_joined_together() -> None:
+    """One grid alone would be refused: its connection joins a periodic axis with one that is not."""
+    (problem, *_) = check(FURTHER["two grids"].document)
+    assert problem.fix_at("script") == (
+        'Join the ends: model.set_axis("heading", periodic=True, samples=72) and'
+        ' model.set_axis("heading_2", periodic=True, samples=360)'
+    )
+    assert problem.fix_at("shell").startswith("Join the ends: in the file, axes.heading: periodic = true, ")
+
+
+def test_an_edit_that_the_document_cannot_have_is_text_with_the_reason() -> None:
+    model = dd.Model("m")
+    model.add(dd.Pattern("seen", [HEADING], values=[1.0] * 361)) >> model.add(dd.Field("u", [HEADING]))
+    (problem,) = [p for p in model.check() if "whole circle" in p.what]
+    assert problem.edits == () and "First change seen" in problem.fix
+    with pytest.raises(ModelError, match="needs a decision"):
+        model.apply_fix(problem)
+
+
+def test_set_axis_changes_every_element_and_refuses_an_unknown_axis() -> None:
+    model = _model(dd.Field("u", [X]))
+    model.set_axis("x", samples=201)
+    assert [e.element.axes[0].samples for e in model.document.entries] == [201, 201]
+    with pytest.raises(dd.errors.UnknownName, match="no axis 'y'"):
+        model.set_axis("y", samples=3)
+
+
+def test_a_fix_with_more_text_keeps_its_edits() -> None:
+    fix = check(_model(dd.Field("u", [X], resting_level=5, global_inhibition=1)).document)[0].fix
+    assert isinstance(fix, EditFix) and fix.then("Or not").edits == fix.edits
+    assert fix.then("Or not").at("shell").endswith("--set u.resting_level=-5. Or not")
