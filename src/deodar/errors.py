@@ -8,14 +8,15 @@ type. A fix that differs between a script, a shell and the page of the studio is
 from __future__ import annotations
 
 import contextlib
-import difflib
 from collections.abc import Generator, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeVar
 
 from deodar.proposed_edit import EditValue, Medium, ProposedEdit, SetValues
 from deodar.short_traceback import short_traceback
+from deodar.similar import nearest
 from deodar.summary import Summarised, Summary
+from deodar.synonyms import KINDS, synonym
 
 T = TypeVar("T")
 
@@ -396,16 +397,24 @@ def problems_of(error: BaseException) -> tuple[Problem, ...]:
     return (Problem("", f"{type(error).__name__}: {error}"),)
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a hint with the nearest known name, or with all names if they are few.
+def did_you_mean(name: str, known: Iterable[str], kind: str = "") -> str:
+    """Return a hint with the name that is meant, or with the known names, at most twelve.
+
+    Meaning comes before spelling: what papers and other tools call a parameter, then slips of typing.
+
+    Args:
+        name: the name that is not known.
+        known: the names of things that could be meant here, such as sensors for a sensor.
+        kind: what has the name, in the table of synonyms: "" for none, `KINDS` for a kind.
 
     >>> did_you_mean("restng_level", ["tau", "resting_level"])
     "Did you mean 'resting_level'?"
     """
     names = sorted(set(known))
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
-    if near:
-        return f"Did you mean {near[0]!r}?"
+    row = synonym(kind, name) if kind else None
+    meant = row.path if row is not None and row.path in names else nearest(name, names)
+    if meant:
+        return f"Did you mean {meant!r}?"
     if not names:
         return ""
     shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
@@ -417,7 +426,7 @@ def no_attribute(module: str, name: str, known: Iterable[str]) -> AttributeError
 
     A private name, which Python and tools look up by themselves, suggests nothing.
     """
-    hint = "" if name.startswith("_") else did_you_mean(name, known)
+    hint = "" if name.startswith("_") else did_you_mean(name, known, KINDS)
     text = f"module {module!r} has no attribute {name!r}"
     return AttributeError(f"{text}. {hint}" if hint else text, name=name, obj=None)
 

@@ -34,6 +34,7 @@ from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 from deodar.errors import an as an
 from deodar.errors import show as show
 from deodar.part_type import PartType
+from deodar.synonyms import argument, synonym
 
 PerAxis = float | Sequence[float]
 """One number for all axes, or one for each."""
@@ -182,9 +183,10 @@ class Part(metaclass=PartType):
 def require_known(cls: type[Any], args: Sequence[Any], values: Mapping[str, Any]) -> None:
     """Refuse a call with a name that is no parameter of a class, or with too many values by position."""
     declared = [p.name for p in parameters(cls)]
-    for name in values:
+    for name, stated in values.items():
         if name not in declared:
-            raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, declared))
+            fix = argument(cls.__name__, name, stated) or did_you_mean(name, declared)
+            raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=fix)
     if len(args) > len(positional(cls)):
         raise ParameterError(
             f"{cls.__name__} takes {len(positional(cls))} values by position, not {len(args)}",
@@ -248,9 +250,9 @@ def parameter(cls: type[Any], name: str) -> Parameter:
     for p in parameters(cls):
         if p.name == name:
             return p
-    raise UnknownName(
-        f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, [p.name for p in parameters(cls)])
-    )
+    row = synonym(cls.__name__, name)
+    fix = f"Its name here: {row.path}" if row else did_you_mean(name, [p.name for p in parameters(cls)])
+    raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=fix)
 
 
 def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:

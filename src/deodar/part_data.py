@@ -8,9 +8,11 @@ from typing import Any, cast
 
 import numpy as np
 
+from deodar import codec
 from deodar.codec import JsonObject
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 from deodar.parameters import PLAIN, Parameter, Part, an, normal, parameters, show
+from deodar.synonyms import synonym
 
 WHOLE = 2.0**53
 """Whole numbers below it are the same in float64 and as an integer."""
@@ -84,10 +86,10 @@ def part_of(
     values = cast("dict[str, Any]", table)
     names = [p.name for p in parameters(cls) if p.name not in preset]
     strange = [key for key in values if key not in names]
-    problems += [
-        Problem(_inside(where, key), f"{name} has no such parameter", did_you_mean(key, names))
-        for key in strange
-    ]
+    for key in strange:
+        row = synonym(cls.__name__, key)
+        fix = f"Write: {row.entry(codec.line(values[key]))}" if row else did_you_mean(key, names)
+        problems.append(Problem(_inside(where, key), f"{name} has no such parameter", fix))
     missing = [key for key in names if key not in values and key not in defaults(cls)]
     problems += [Problem(where, f"{an(name)} needs {key!r}") for key in missing]
     if strange or missing:

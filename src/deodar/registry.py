@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from deodar import plugins
 from deodar.errors import ModelError, UnknownName, did_you_mean
 from deodar.plugins import Plugin
+from deodar.synonyms import KINDS
 
 ROOMS = ("numerics.sigmoids", "numerics.kernels", "elements", "couplings", "worlds")
 
@@ -106,7 +107,7 @@ def kind(name: str) -> type[Any]:
         if name not in outside:
             raise UnknownName(
                 f"no element, coupling, kernel or sigmoid is called {name!r}",
-                fix=did_you_mean(name, [*_kinds, *outside]),
+                fix=did_you_mean(name, [*_kinds, *outside], KINDS),
             )
         problem = take(outside[name])
         if problem:

@@ -16,7 +16,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
         "short_traceback summary",
-        "proposed_edit",
+        "proposed_edit synonyms similar",
         "errors",
         "plugins docstring declarations file_version",
         "names registry extensions part_type family codec",

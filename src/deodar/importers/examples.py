@@ -7,7 +7,6 @@ its docstring. `order.txt` in the folder states the order of the first documents
 from __future__ import annotations
 
 import ast
-import difflib
 import re
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 from deodar import codec, plugins, regular_file
 from deodar.errors import UnknownName, did_you_mean
 from deodar.plugins import Plugin
+from deodar.similar import nearest
 
 PREFIX = "example:"
 """Prefix of a name that means the file of an example."""
@@ -125,10 +125,9 @@ def near(path: Path) -> str:
     if path.stem in names() and path.suffix in ("", ".json"):
         return f"Did you mean '{PREFIX}{path.stem}'?"
     there = [p.name for p in path.parent.glob("*.json")] if path.parent.is_dir() else []
-    found = difflib.get_close_matches(path.name, there, 1) or [
-        f"{PREFIX}{n}" for n in difflib.get_close_matches(path.stem, names(), 1)
-    ]
-    return f"Did you mean {found[0]!r}?" if found else ""
+    example = nearest(path.stem, names())
+    meant = nearest(path.name, there) or (f"{PREFIX}{example}" if example else "")
+    return f"Did you mean {meant!r}?" if meant else ""
 
 
 def about(name: str) -> dict[str, Any]:

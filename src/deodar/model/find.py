@@ -10,6 +10,7 @@ from deodar.leaves import get, leaves
 from deodar.model.document import Document, Entry
 from deodar.model.paths import quote, readings
 from deodar.parameters import parameters
+from deodar.synonyms import synonym
 
 
 @dc.dataclass(frozen=True)
@@ -110,11 +111,25 @@ def target(doc: Document, path: str) -> Target:
                 f"{path!r} is a port, not a parameter",
                 fix=f"Parameters of {entry.path}: {', '.join(parameter_names)}",
             )
-        raise UnknownName(f"{entry.path} has no parameter {rest!r}", fix=did_you_mean(rest, parameter_names))
+        fix = elsewhere(entry, rest) or did_you_mean(rest, parameter_names)
+        raise UnknownName(f"{entry.path} has no parameter {rest!r}", fix=fix)
     everything = [f"{e.path}.{leaf}" for e in doc.entries for leaf, _, _ in leaves(e.element)] + [
         k.name for k in doc.parameters
     ]
     raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, everything))
+
+
+def elsewhere(entry: Entry, name: str) -> str:
+    """Return what to write for a parameter that papers or other tools call otherwise; "" if none do."""
+    row = synonym(type(entry.element).__name__, name)
+    if row is None:
+        return ""
+    try:
+        get(entry.element, row.path)
+    except UnknownName:  # such as the second width of a kernel that has one
+        first = row.path.split(".")[0]
+        return f"Set {entry.path}.{first}: {row.keyword()}"
+    return f"Write: {entry.path}.{row.path}"
 
 
 def value(doc: Document, path: str) -> Any:

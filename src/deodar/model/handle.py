@@ -119,7 +119,7 @@ class Handle(Summarised):
         raise UnknownAttribute(
             f"{type(entry.element).__name__} has no parameter {name!r}",
             where=f"{entry.path}.{name}",
-            fix=did_you_mean(name, names),
+            fix=find.elsewhere(entry, name) or did_you_mean(name, names),
         )
 
     # ------------------------------------------------------------------------------------------- as an object

@@ -11,6 +11,7 @@ from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.parameters import Part, Reference, normal, parameter, parameters, show
 from deodar.summary import Summarised, Summary
+from deodar.synonyms import argument
 
 
 class Owner(Protocol):
@@ -65,7 +66,7 @@ class PartHandle(Summarised, Reference):
             raise UnknownAttribute(
                 f"{type(part).__name__} has no parameter {name!r}",
                 where=where,
-                fix=did_you_mean(name, _names(part)),
+                fix=argument(type(part).__name__, name) or did_you_mean(name, _names(part)),
             )
 
     def __call__(self, *args: Any) -> Any:

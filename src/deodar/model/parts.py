@@ -14,6 +14,7 @@ from deodar.leaves import get, parameter_values
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, Parameter, Part, an, parameter, parameters, show
 from deodar.part_data import faulty_values
+from deodar.synonyms import synonym
 
 
 def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
@@ -143,11 +144,9 @@ def _from_json(
         if name in ("kind", *given):
             continue
         if name not in declared:
-            faults.append(
-                Problem(
-                    f"{where}.{name}", f"{cls.__name__} has no such parameter", did_you_mean(name, declared)
-                )
-            )
+            row = synonym(cls.__name__, name)
+            fix = f"Write: {row.entry(codec.line(value))}" if row else did_you_mean(name, declared)
+            faults.append(Problem(f"{where}.{name}", f"{cls.__name__} has no such parameter", fix))
             continue
         before = len(faults)
         read = _value(declared[name], value, f"{where}.{name}", axes, arrays, faults)

@@ -131,7 +131,7 @@ def test_errors_are_reported_before_a_run(file, capsys, tmp_path):
     file.write_text(json.dumps(document))
     assert call("--out", "none") == 1
     assert (
-        "conditions.decided: nothing is called 'v.activation'. Did you mean 'u.activation'?"
+        "conditions.decided: nothing is called 'v.activation'. Valid names: u, u.activation, "
         in capsys.readouterr().err
     )
     assert not (tmp_path / "none").exists()

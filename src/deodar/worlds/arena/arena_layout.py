@@ -14,7 +14,6 @@ none.
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -25,6 +24,7 @@ from deodar import codec, regular_file
 from deodar.codec import Json, JsonObject
 from deodar.errors import Problem, WorldError, did_you_mean, reading
 from deodar.parameters import real, show
+from deodar.similar import nearest
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 """Units of length, in metres."""
@@ -207,9 +207,9 @@ def _layout(layout: Json, where: str) -> ArenaLayout:
     if not isinstance(layout, Mapping):
         raise WorldError(f"is {show(layout)}; an arena is an object with walls", where=where)
     for key in layout:
-        similar = [] if key in KNOWN else difflib.get_close_matches(str(key), KNOWN, n=1, cutoff=0.75)
+        similar = "" if key in KNOWN else nearest(str(key), KNOWN)
         if similar:  # keys that are not similar to a known one are notes of the author
-            faults.say("", f"has the unknown key {key!r}", f"Did you mean {similar[0]!r}?")
+            faults.say("", f"has the unknown key {key!r}", f"Did you mean {similar!r}?")
     unit = layout.get("unit", "m")
     scale = UNITS.get(unit, 0.0) if isinstance(unit, str) else 0.0
     if not scale:

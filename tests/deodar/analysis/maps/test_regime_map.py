@@ -234,7 +234,7 @@ def test_other_mistakes_are_answered():
         dd.regime_map(model, grid, strength=-1)
     with pytest.raises(ParameterError, match="limit is nan"):
         dd.regime_map(model, grid, limit=float("nan"))
-    with pytest.raises(UnknownName, match="Did you mean"):
+    with pytest.raises(UnknownName, match="Valid names: u"):
         dd.regime_map(model, grid, field="uu")
     model.add(dd.Field("plane", [x, y]))
     with pytest.raises(AnalysisError, match="2 fields"):
