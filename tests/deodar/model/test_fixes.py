@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import copy
+import math
 import pickle
 import sys
 from collections.abc import Iterator
@@ -15,8 +16,11 @@ import pytest
 
 import deodar as dd
 from deodar.errors import EditFix, ModelError, Problem
+from deodar.model import edit, new_elements
 from deodar.model.check import check
-from tests.deodar.model.proven_fix import faults
+from deodar.model.document import Document
+from deodar.model.proposed import apply
+from tests.deodar.model.proven_fix import faults, finding
 from tests.deodar.model.test_mistakes import KINDS, document
 
 SOURCES = Path(dd.__file__).parent
@@ -169,6 +173,34 @@ def test_all_grids_of_a_circle_are_joined_together() -> None:
         ' model.set_axis("heading_2", periodic=True, samples=360)'
     )
     assert problem.fix_at("shell").startswith("Join the ends: in the file, axes.heading: periodic = true, ")
+
+
+@pytest.mark.parametrize(("unit", "upper"), [("deg", 360.0), ("rad", 2 * math.pi)])
+def test_joining_a_circle_brings_no_problem_to_any_kind(unit: str, upper: float) -> None:
+    """An axis that is open is warned, so no kind may refuse the closed one; arrays first need its length."""
+    circle, joined, with_arrays = dd.Axis("x", 0, upper, samples=61, unit=unit), 0, set[str]()
+    for kind in new_elements.kinds():
+        doc, source = edit.add(Document("d"), dd.GaussianStimulus("s", [circle], center=1, amplitude=6))
+        doc, entry = edit.add(doc, new_elements.element(doc, kind.__name__, "e", {}, (circle,), (circle,)))
+        for port in entry.element.ports():
+            doc = edit.connect(doc, source, "output", entry, port)
+        before = check(doc)
+        if any(p.severity == "problem" for p in before):
+            continue  # a kind for other axes than one circle
+        (problem,) = [p for p in before if "whole circle" in p.what]
+        if not problem.edits:
+            with_arrays.add(kind.__name__)
+            continue
+        joined += 1
+        new = [p for p in check(apply(doc, problem.edits)) if finding(p) not in {finding(q) for q in before}]
+        assert new == [], kind
+    assert joined >= 40 and with_arrays == {
+        "Pattern",
+        "PopulationActivity",
+        "TimeSeries",
+        "Weighting",
+        "Weights",
+    }
 
 
 def test_an_edit_that_the_document_cannot_have_is_text_with_the_reason() -> None:
