@@ -138,6 +138,11 @@ class VideoReader:
             raise WorldError("cannot be read as a video", where=str(self.path), fix=NAME_A_VIDEO)
         self._shown, self._number = first, 0
 
+    def close(self) -> None:
+        """Leave the child to other files; the next picture opens the video again."""
+        self._pictures.close()
+        self._process = 0
+
     def picture(self, moment: float, again: bool) -> np.ndarray:
         """Return the picture (height, width, 3) at a time in ms.
 

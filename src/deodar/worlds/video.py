@@ -72,6 +72,10 @@ class Video(World):
         """Return the column and row of the picture at a position on the axes."""
         return frame(self.size, axes).to_pixels(axes, x, y)
 
+    def close(self) -> None:
+        """Close the file; the next reading opens it again."""
+        self._reader.close()
+
     def describe(self) -> JsonObject:
         description = {
             "world": "Video",

@@ -20,6 +20,7 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
+from deodar.worlds._capture import VIDEO_ENDINGS
 from deodar.worlds._settings import number, parse_argument
 from deodar_robots.event_file import aedat2, aedat4, event_text
 from deodar_robots.event_file.events import RecordedEvents, require_size
@@ -82,10 +83,7 @@ class EventFile(World):
         "off": Signal("rate of the events of darker pixels", unit="1/s"),
     }
     stands_in = False
-    opens = (
-        *(".aedat", ".aedat4"),
-        *(".mp4", ".avi", ".mov", ".mkv", ".webm", ".m4v", ".mpg", ".mpeg"),
-    )
+    opens = (".aedat", ".aedat4", *VIDEO_ENDINGS)
 
     def __init__(
         self,
@@ -179,6 +177,11 @@ class EventFile(World):
             if axis.points[-1] < 0 or axis.points[0] > pixels - 1:
                 what = f"the axis {axis.name!r} lies outside of the sensor, 0 to {pixels - 1} px"
                 yield Problem(sensor, what)
+
+    def close(self) -> None:
+        """Close a video; the next reading opens it again."""
+        if self._film is not None:
+            self._film.close()
 
     def describe(self) -> JsonObject:
         with regular_file.open_binary(self.name) as file:

@@ -78,6 +78,10 @@ class FilmedEvents:
             return np.zeros(self.size), np.zeros(self.size)
         return self._state["on"], self._state["off"]
 
+    def close(self) -> None:
+        """Close the video; the next period that is computed opens it again."""
+        self._reader.close()
+
     def keep(self) -> dict[str, np.ndarray]:
         """Return the state of the pixels, as an argument for `put`."""
         return {**self._state, "tick": np.asarray(self._tick), "seed": np.asarray(self._seed)}

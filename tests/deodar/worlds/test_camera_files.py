@@ -1,4 +1,4 @@
-"""A camera on a video file: a child reads the file, and what ends the child is an error of the camera."""
+"""Video files as cameras and videos: a child reads them, until they are closed; what ends it is an error."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import subprocess
 import time
 import zlib
 from pathlib import Path
+from typing import Any
 
 import cv2
 import imageio_ffmpeg
@@ -84,6 +85,27 @@ def test_a_reader_that_was_killed_is_an_error_and_a_reset_opens_the_file_again(t
     camera.reset(0)
     assert camera.sense("picture", AXES, 0.0).shape == (16, 12, 3)
     camera.close()
+
+
+@pytest.mark.parametrize(
+    ("kind", "sensor", "axes"), [(dd.Video, "picture", AXES), (dd.EventFile, "on", AXES[:2])]
+)
+def test_a_video_that_is_closed_has_no_reader_until_the_next_reading(
+    kind: Any, sensor: str, axes: Any, tmp_path: Path
+) -> None:
+    file = long_video(tmp_path)
+    worlds = [kind(file), kind(file)]
+    seen = worlds[0].sense(sensor, axes, 2000.0)
+    assert len(readers(file)) == 2
+    worlds[0].close()
+    assert len(readers(file)) == 1
+    worlds[1].close()
+    assert not readers(file)
+    assert np.array_equal(worlds[0].sense(sensor, axes, 2000.0), seen)
+    later = worlds[0].sense(sensor, axes, 4000.0)
+    assert np.array_equal(worlds[1].sense(sensor, axes, 4000.0), later)
+    for world in worlds:
+        world.close()
 
 
 @pytest.mark.parametrize("kind", [dd.Video, dd.Camera])
