@@ -95,7 +95,7 @@ def load_mat(path: str | Path, name: str = "") -> np.ndarray:
         `dd.Weights` targets: pass its transpose, `.T`.
 
     Raises:
-        RecordError: the file cannot be read, or what is named is not an array of numbers.
+        RecordError: the file cannot be read, or what is named is not an array of real numbers.
         UnknownName: the file holds no such variable.
     """
     return GuardedFile(RecordError, str(path)).call(array_of, str(path), name)
@@ -131,11 +131,16 @@ def array_of(path: str, name: str) -> np.ndarray:
             )
             raise UnknownName(f"{path} holds no {display(steps[: k + 1])!r}", fix=did_you_mean(name, known))
         value = cast("dict[str, Any]", value)[step]
+    if np.iscomplexobj(value) and np.any(np.imag(value)):
+        raise RecordError(
+            f"{display(steps)} holds complex numbers",
+            where=path,
+            fix="Save its real part, its imaginary part or its magnitude in MATLAB: real(A), imag(A), abs(A)",
+        )
     try:
-        array = np.asarray(value, np.float64)
+        return np.asarray(np.real(value) if np.iscomplexobj(value) else value, np.float64)
     except (TypeError, ValueError):
         raise RecordError(f"{display(steps)} is not an array of numbers", where=path) from None
-    return array
 
 
 def _components(held: Mapping[str, Any]) -> dict[str, Any]:

@@ -98,3 +98,13 @@ def test_a_file_of_version_7_3_says_how_to_save_it_again(tmp_path: Path) -> None
     (tmp_path / "a.mat").write_bytes(head + bytes(400))
     with pytest.raises(RecordError, match="-v7"):
         dd.load_mat(tmp_path / "a.mat")
+
+
+def test_complex_numbers_are_refused_and_real_ones_of_that_form_are_read(tmp_path):
+    scipy.io.savemat(
+        tmp_path / "c.mat", {"a": np.array([1 + 2j, 3]), "b": np.array([1 + 0j, 3]), "s": {"c": 2j}}
+    )
+    for name in ("a", "s.c"):
+        with pytest.raises(RecordError, match=rf"c\.mat: .*{name}.* holds complex numbers.*real\(A\)"):
+            dd.load_mat(tmp_path / "c.mat", name)
+    assert dd.load_mat(tmp_path / "c.mat", "b").tolist() == [1, 3]
