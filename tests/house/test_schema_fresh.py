@@ -16,6 +16,7 @@ from deodar import registry
 from deodar.element import Element
 from deodar.errors import DeodarError
 from deodar.model import document_files, output, schema
+from deodar.model.document import VERSION
 from deodar.model.model import Model
 from tests.house.source import ROOT, texts
 
@@ -66,7 +67,7 @@ def test_the_schema_refuses_what_load_refuses() -> None:
     model = Model("one")
     model.add(registry.kind("Field").example())
     for change in (
-        lambda d: d.update(deodar=4),
+        lambda d: d.update(deodar=VERSION + 1),
         lambda d: d.update(elements=[]),
         lambda d: d.update(strange=1),
         lambda d: d["elements"]["example"].update(kind="Feild"),
