@@ -185,6 +185,11 @@ class Zenoh(World):
             if sample.kind == zenoh.SampleKind.DELETE:
                 inbox.leave()
 
+        def cut(event: Any) -> None:
+            # Zenoh connects again by itself, also to a program that took the port and proves nothing
+            if event.kind == zenoh.SampleKind.DELETE:
+                inbox.leave()
+
         def passed_to(take: Callable[[bytes], None]) -> Any:
             return link.callback(lambda sample: take(bytes(sample.payload)))
 
@@ -197,6 +202,7 @@ class Zenoh(World):
             ),
             session.liveliness().declare_subscriber(key(robot, "alive"), link.callback(gone), history=True),
             session.liveliness().declare_token(key(robot, "commander", f"{self._commander:x}")),
+            session.info.declare_transport_events_listener(link.callback(cut)),
         ]
 
     def close(self) -> None:

@@ -30,7 +30,7 @@ ABOUT = {
 class ForeignRobot:
     """A head that turns at the commanded speed, in 30 lines."""
 
-    def __init__(self, at: str) -> None:
+    def __init__(self, at: str, alive: bool = True) -> None:
         key = link.credentials(at)
         self.session = link.listen(at, key)
         self.angle, self.speed, self.count, self.heard = 0.0, 0.0, 0, 0.0
@@ -40,8 +40,9 @@ class ForeignRobot:
                 lambda q: q.reply("pan/about", json.dumps(ABOUT), attachment=key.proof(bytes(q.payload))),
             ),
             self.session.declare_subscriber("pan/motor/speed", self.take),
-            self.session.liveliness().declare_token("pan/alive"),
         ]
+        if alive:
+            self.kept.append(self.session.liveliness().declare_token("pan/alive"))
         self.ended = threading.Event()
         self.thread = threading.Thread(target=self.run)
         self.thread.start()
@@ -105,6 +106,34 @@ def test_it_is_named_when_it_leaves(robot):
     with pytest.raises(WorldError, match="the robot 'pan' has left the network"):
         session.run(10_000)
     world.close()
+
+
+def test_a_program_that_takes_the_port_of_one_without_a_token_has_to_prove_itself():
+    """Nothing tells the model that such a robot has left but the end of its connection."""
+    at = free_endpoint()
+    robot = ForeignRobot(at, alive=False)
+    world = dd.Zenoh("pan", at, patience=5.0)
+    world.reset(0)
+    assert world.sense("angle", (), 0.0).shape == ()
+    robot.close()
+    # with the key, as a listener of its own make that lets everybody in
+    thief = link.listen(at, link.credentials(at))
+    head = HEADER.pack(b"DDR1", 0, 0, 1, 10**9, 0.0, time.monotonic_ns(), 0, 0)
+    for _ in range(100):
+        thief.put("pan/sensor/angle", head + struct.pack("<f", 77.0))
+        time.sleep(0.01)
+    with pytest.raises(WorldError, match="the robot 'pan' has left the network"):
+        world.sense("angle", (), 0.0)
+    answer = thief.declare_queryable("pan/about", lambda q: q.reply("pan/about", json.dumps(ABOUT)))
+    with pytest.raises(WorldError, match="does not prove that it has the key"):
+        world.reset(0)
+    answer.undeclare()
+    thief.close()
+    again = ForeignRobot(at, alive=False)
+    world.reset(0)
+    assert float(world.sense("angle", (), 0.0)) == 0.0
+    world.close()
+    again.close()
 
 
 @pytest.mark.parametrize(
