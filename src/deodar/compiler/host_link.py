@@ -58,6 +58,9 @@ CAUSE = "Its output has the cause. Start the run again on all hosts"
 FIREWALL = "JAX needs this port, which the system chooses: let the firewall of host 0 pass all ports"
 """What to do if a port of the first host cannot be reached."""
 
+HERE = ("localhost", "127.0.0.1", "[::1]")
+"""Hosts that are this machine."""
+
 HostMessage = dict[str, Any]
 
 
@@ -275,8 +278,8 @@ def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLink
         # longer than the first host waits, so that it is the one that says which host has ended
         _word(_next_words(link, 3 * REACH), "start", link)
     else:
-        links = _welcome(int(port), count, hello, until, timeout)
-        jax_port = _probed(links)
+        links = _welcome((host, int(port)), count, hello, until, timeout)
+        jax_port = _probed(links, host)
     for link in links.values():
         link.settimeout(None)
         link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -297,13 +300,13 @@ def _word(answer: HostMessage, name: str, link: socket.socket) -> Any:
     )
 
 
-def _probed(links: dict[int, socket.socket]) -> int:
+def _probed(links: dict[int, socket.socket], host: str) -> int:
     """Return a port of the first host that is free, and which all others have reached.
 
     Raises:
         HostsError: one of them cannot reach it, or has ended.
     """
-    with _opened(0, len(links)) as server:
+    with _opened(0, len(links), host) as server:
         free_port = int(server.getsockname()[1])
         _tell(links.values(), {"port": free_port})
         until = time.monotonic() + 2 * REACH
@@ -339,8 +342,18 @@ def _next_words(link: socket.socket, seconds: float) -> HostMessage:
         return {}
 
 
-def _opened(port: int, backlog: int) -> socket.socket:
-    """Return a socket that listens at a port; 0: at one that is free."""
+def loopback(host: str) -> str:
+    """Return the address at which the first host listens if all hosts are processes of one machine, which
+    other machines then do not reach; "" for another host.
+    """
+    return {"localhost": "127.0.0.1"}.get(host, host) if host in HERE else ""
+
+
+def _opened(port: int, backlog: int, host: str = "") -> socket.socket:
+    """Return a socket that listens at a port, of the loopback alone if `host` is there; 0: a free port."""
+    if here := loopback(host):
+        family = socket.AF_INET6 if ":" in here else socket.AF_INET
+        return socket.create_server((here.strip("[]"), port), family=family, backlog=backlog)
     dual = socket.has_dualstack_ipv6()
     family = socket.AF_INET6 if dual else socket.AF_INET
     return socket.create_server(("", port), family=family, backlog=backlog, dualstack_ipv6=dual)
@@ -377,12 +390,13 @@ def _call(
 
 
 def _welcome(
-    port: int, count: int, hello: HostMessage, until: float, timeout: float
+    place: tuple[str, int], count: int, hello: HostMessage, until: float, timeout: float
 ) -> dict[int, socket.socket]:
     """Wait on the first host for all others."""
     links: dict[int, socket.socket] = {}
+    host, port = place
     try:
-        server = _opened(port, count)
+        server = _opened(port, count, host)
     except OSError as error:
         raise HostsError(
             f"port {port} cannot be opened on this host ({error.strerror})", fix="Choose another port"

@@ -474,7 +474,7 @@ def reached(address: str) -> socket.socket:
         time.sleep(0.01)
 
 
-def opened_behind_a_firewall(port: int, backlog: int) -> socket.socket:
+def opened_behind_a_firewall(port: int, backlog: int, host: str) -> socket.socket:
     """Open a port; one that the system chooses refuses all connections."""
     if port:
         return socket.create_server(("127.0.0.1", port), backlog=backlog)
@@ -578,3 +578,28 @@ def test_arguments_that_are_not_valid_are_named(arguments: tuple[object, ...], t
     with pytest.raises(HostsError, match=r"Call dd.join_hosts\(...\) before the first run"):
         dd.simulate(dd.load("example:selection"), 1)
         dd.join_hosts("node1:7007", 2, 0)
+
+
+@pytest.mark.parametrize(
+    ("host", "listens"),
+    [("127.0.0.1", "127.0.0.1"), ("localhost", "127.0.0.1"), ("[::1]", "::1"), ("node1", "::")],
+)
+def test_hosts_of_one_machine_listen_where_other_machines_do_not_reach_them(host: str, listens: str) -> None:
+    with host_link._opened(0, 1, host) as server:  # pyright: ignore[reportPrivateUsage]
+        assert server.getsockname()[0] in (listens, {"::": "0.0.0.0"}.get(listens))
+
+
+def test_jax_listens_at_the_loopback_alone_for_hosts_of_one_machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    told = list[dict[str, object]]()
+
+    def initialize(*_: object, **settings: object) -> None:
+        told.append(settings)
+        raise RuntimeError("enough")
+
+    monkeypatch.setattr(jax.distributed, "initialize", initialize)
+    monkeypatch.setattr(jax.config, "update", lambda *_: None)  # pyright: ignore
+    with linked() as links:
+        for address, bound in (("localhost:7", "127.0.0.1:7"), ("[::1]:7", "[::1]:7"), ("node1:7", None)):
+            with pytest.raises(RuntimeError, match="enough"):
+                hosts._start_jax(links[0], address, None)  # pyright: ignore[reportPrivateUsage]
+            assert told[-1]["coordinator_bind_address"] == bound
