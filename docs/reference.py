@@ -116,7 +116,7 @@ CLASSES = [
         "Event",
         "BaseMeasure",
     ),
-    *("register", "needed", "euler", "on_axis"),
+    *("register", "needed", "euler", "on_axis", "check_kind"),
 ]
 """What a script derives its own kinds from, under `dd`, with what their methods get."""
 

@@ -181,6 +181,7 @@ from deodar.gradients.step_functions import dynamics as dynamics
 from deodar.importers.opening import load as load
 from deodar.importers.opening import read as read
 from deodar.importers.presets import apply_preset as apply_preset
+from deodar.kind_rules.check_kind import check_kind as check_kind
 from deodar.leaves import on_axis as on_axis
 from deodar.model.draw import draw as draw
 from deodar.model.model import Model as Model

@@ -312,30 +312,27 @@ def _file(file: str) -> str:
 # ---------------------------------------------------------------------------------------------------- results
 
 
-def require_arrays(
-    kind: object, method: str, arrays: object, expected: Mapping[str, tuple[int, ...]] | None
-) -> None:
-    """Raise KindError if a method of a user's kind has not returned the arrays that its contract asks for.
+Shapes = Mapping[str, tuple[int, ...]]
+"""The shapes of arrays by name."""
+
+
+def require_arrays(kind: object, method: str, arrays: object, expected: Shapes | None) -> None:
+    """Raise KindError if a method has not returned the arrays that its contract asks for.
 
     Args:
-        kind: the object; one of deodar's own kinds, with such parts alone, passes.
+        kind: the object that has the method.
         method: name of the method.
         arrays: what it has returned.
         expected: the shape of each array by its name; None: any arrays.
     """
-    classes = foreign(kind)
-    if not classes:
-        return
+    classes = foreign(kind) or [type(kind)]
     cls = type(kind) if type(kind) in classes else classes[0]
     called = next((name for name in (method, "__call__", "terms") if name in vars(cls)), "")
-    place = position(cls, called)
     for fault, fix in _faults(arrays, expected, "output port" if method == "output" else "state"):
-        raise KindError(f"{place} {fault}", fix=fix, kind=cls.__name__)
+        raise KindError(f"{position(cls, called)} {fault}", fix=fix, kind=cls.__name__)
 
 
-def _faults(
-    arrays: object, expected: Mapping[str, tuple[int, ...]] | None, noun: str
-) -> Iterator[tuple[str, str]]:
+def _faults(arrays: object, expected: Shapes | None, noun: str) -> Iterator[tuple[str, str]]:
     if not isinstance(arrays, Mapping):
         returned = "an array" if hasattr(arrays, "shape") else show(arrays)
         yield f"returns {returned}, not a dict of arrays", 'Write: return {"NAME": array}'

@@ -119,6 +119,11 @@ def kind(name: str) -> type[Any]:
     return _kinds[name]
 
 
+def registered(name: str) -> type[Any] | None:
+    """Return the class that is registered under a name by now; None: there is none."""
+    return _kinds.get(name)
+
+
 def packaged() -> list[Plugin]:
     """Return the kinds and worlds of installed packages, without importing them."""
     taken = [name for name, cls in _kinds.items() if own(cls)]

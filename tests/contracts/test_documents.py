@@ -3,42 +3,19 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import json
 
 import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.leaves import get, replace
-from deodar.parameters import FrozenArray
+from deodar.kind_rules.check_kind import read_as_written
+from deodar.leaves import replace
 from tests.contracts.build import KINDS, PARTS, any_example, around, changes, record
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
-def test_document_to_text_to_document_is_identity(kind, tmp_path):
-    model = around(any_example(kind), every=2)
-    dd.save(model, tmp_path / "a.json")
-    back = dd.load(tmp_path / "a.json", trust=True)
-    assert back.document == model.document
-    dd.save(back, tmp_path / "b.json")
-    first, second = (json.loads((tmp_path / name).read_text()) for name in ("a.json", "b.json"))
-    for data in (first, second):
-        data.get("arrays", {}).pop("file", None)
-    assert first == second
-
-
-@pytest.mark.parametrize("kind", [*KINDS, *PARTS])
-def test_values_other_than_defaults_are_saved_and_loaded(kind, tmp_path):
-    """Every traced leaf has a value that is not the default."""
-    model = around(any_example(kind))
-    for path, number in changes(model["example"].element):
-        model.set(f"example.{path}", number)
-    dd.save(model, tmp_path / "a.json")
-    back = dd.load(tmp_path / "a.json", trust=True)
-    assert back.document == model.document
-    for path, number in changes(any_example(kind)):
-        stored = get(back["example"].element, path)
-        assert np.array_equal(stored.data if isinstance(stored, FrozenArray) else stored, number), path
+def test_document_to_text_to_document_is_identity(kind):
+    assert [*read_as_written(any_example(kind))] == []
 
 
 @pytest.mark.parametrize("kind", ["Field", "Weights", "Project"])

@@ -4,40 +4,21 @@ from __future__ import annotations
 
 import dataclasses as dc
 
-import jax
 import numpy as np
 import pytest
 
-from deodar.compiler.functions import Functions
 from deodar.couplings.learning import RewardGate
-from deodar.element import Setting, Time
+from deodar.kind_rules.check_kind import finite_alone_and_in_trials
 from deodar.leaves import leaves
 from deodar.model import find
+from deodar.model.kind_contract import one_copy
 from deodar.numerics.axes import shape
 from tests.contracts.build import KINDS, PARTS, any_example, around, node, record, session
-
-STEPS = 1000
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
 def test_finite_for_a_thousand_steps_from_init_also_in_a_hundred_trials(kind):
-    model = around(any_example(kind), noisy=True)
-    outs = node(model).outs
-    ports = [f"example.{port}" for port in outs]
-    data, alone = (
-        record(model, STEPS * 0.5, ports, trials=trials, every=STEPS * 0.25, dt=0.5) for trials in (100, None)
-    )
-    for port, axes in zip(ports, outs.values(), strict=True):
-        values, single = data[port].values, alone[port].values
-        assert values.shape == (100, 3, *shape(axes))
-        assert np.isfinite(values).all()
-        assert np.isfinite(single).all()
-        # the second of two equal axes has the port's path in its name
-        assert [str(d).rsplit(".", 1)[-1] for d in data[port].dims[2:]] == [a.name for a in axes]
-        for axis in axes:
-            np.testing.assert_array_equal(data[axis.name].values, axis.points)
-        # trial 0 alone and in the batch: the same noise; other programs add in another order
-        np.testing.assert_allclose(values[0], single, rtol=2e-3, atol=2e-3 * max(1.0, abs(single).max()))
+    assert [*finite_alone_and_in_trials(any_example(kind))] == []
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
@@ -57,27 +38,7 @@ def test_one_copy_has_exactly_the_declared_outputs(kind, precision):
     """The element's own functions, outside a program: shapes and precision of outputs and of the state."""
     element = any_example(kind)
     resolved = node(around(element))
-    at = Setting(resolved.ins, resolved.outs, np.dtype(precision))
-    with jax.enable_x64(precision == "float64"):
-        zeros = {port: np.zeros(shape(axes), at.dtype) for port, axes in resolved.ins.items()}
-        if element.external:
-            zeros[element.external] = np.zeros(shape(resolved.outs["output"]), at.dtype)
-        zeros |= {p: np.zeros(shape(resolved.outs[p]), at.dtype) for p in element.reads_own_output}
-        noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
-        state, functions = element.init(at), Functions(resolved, {})
-        at = dc.replace(at, constants=functions.prepare(element, at))
-        at = dc.replace(at, constants=functions.hoist(element, at), time=Time.at(0.0, 1.0, at.dtype))
-        at = dc.replace(at, state=state, inputs=zeros, noise=noise)
-        out = jax.eval_shape(lambda: functions.output(element, at))
-        assert {port: np.shape(v) for port, v in out.items()} == {
-            port: shape(axes) for port, axes in resolved.outs.items()
-        }
-        assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(resolved.outs, at.dtype)
-        assert element.stateful == bool(state)
-        new = jax.eval_shape(lambda: functions.advance(element, at))
-        assert {k: (np.shape(v), v.dtype) for k, v in new.items()} == {
-            k: (np.shape(v), v.dtype) for k, v in state.items()
-        }
+    assert one_copy(element, resolved.ins, resolved.outs, precision) == []
 
 
 def depending(kind: str) -> set[tuple[str, str]]:

@@ -11,7 +11,8 @@ import pytest
 import deodar as dd
 from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import WorldError
-from deodar.numerics.axes import Axis, shape
+from deodar.kind_rules.check_kind import world_readings
+from deodar.numerics.axes import Axis
 from deodar.session.port_reader import port_reader
 from deodar.worlds._base import World
 from deodar.worlds._pure import PureWorld
@@ -26,16 +27,8 @@ def shared(kind: str) -> World:
 
 @pytest.mark.parametrize("kind", WORLDS)
 def test_every_sensor_reads_its_axes(kind):
-    world = shared(kind)
-    assert world.sensors
-    for sensor, signal in world.sensors.items():
-        axes = example_axes(kind, sensor)
-        world.reset(3, [0, 5])
-        first = np.asarray(world.sense(sensor, axes, 0.0))
-        assert first.shape == ((2,) if signal.each else ()) + shape(axes) and np.isfinite(first).all()
-        assert signal.shape is None or shape(axes) == signal.shape
-        world.reset(3, [0, 5])
-        assert np.array_equal(world.sense(sensor, axes, 0.0), first)
+    assert shared(kind).sensors
+    assert [*world_readings(WORLDS[kind])] == []
 
 
 @pytest.mark.parametrize("kind", WORLDS)
@@ -153,12 +146,6 @@ def test_a_snapshot_inside_a_period_is_restored(kind):
     first = onward()
     session.restore(snapshot)
     assert onward() == first
-
-
-@pytest.mark.parametrize("kind", WORLDS)
-def test_the_description_of_a_world_is_json(kind):
-    said = WORLDS[kind].example().describe()
-    assert said["world"] == kind and json.loads(json.dumps(said)) == said
 
 
 @pytest.mark.parametrize("kind", WORLDS)

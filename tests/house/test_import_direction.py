@@ -38,7 +38,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "batch",
         "analysis",
         "experiments",
-        "importers architectures",
+        "importers architectures kind_rules",
         "exporters",
         "figures",
         "packing",

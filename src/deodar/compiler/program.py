@@ -26,7 +26,7 @@ from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.compiler.traffic import scope
 from deodar.element import BEFORE, Arrays, Element, Setting, Time
-from deodar.kind_errors import KindNames, NotHere, errors_of_kind, require_arrays
+from deodar.kind_errors import KindNames, NotHere, errors_of_kind, foreign, require_arrays
 from deodar.leaves import bind, leaves, parameter_values
 from deodar.numerics.axes import shape
 from deodar.numerics.derivatives import without_derivative
@@ -473,14 +473,16 @@ class Program:
         """Return the outputs of one row, which have the declared shapes."""
         out, ports = self.functions[g].output(element, at), self.plan.groups[g].like.outs
         shapes = {port: shape(axes) for port, axes in ports.items()}
-        require_arrays(element, "output", out, shapes)
+        if foreign(element):
+            require_arrays(element, "output", out, shapes)
         return out
 
     def _advanced(self, g: int, element: Element, at: Setting) -> Arrays:
         """Return the new state of one row, which has the shapes of the state."""
         new = self.functions[g].advance(element, at)
         shapes = {name: array.shape for name, array in at.state.items()}
-        require_arrays(element, "advance", new, shapes)
+        if foreign(element):
+            require_arrays(element, "advance", new, shapes)
         return new
 
     def _reading(
@@ -672,7 +674,8 @@ def gather(x: Array, read: Read) -> Array:
 def _initial(element: Element, at: Setting) -> Arrays:
     """Return the state of one row at the start."""
     state = element.init(at)
-    require_arrays(element, "init", state, None)
+    if foreign(element):
+        require_arrays(element, "init", state, None)
     return state
 
 

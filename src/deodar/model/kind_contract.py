@@ -9,7 +9,7 @@ import contextlib
 import dataclasses as dc
 import functools
 import re
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import Any, NoReturn
 
 import jax
@@ -20,12 +20,12 @@ from jax.core import Tracer
 from jax.extend.core import ClosedJaxpr
 from jax.typing import ArrayLike
 
-from deodar import registry
 from deodar.element import Arrays, Element, PortAxes, Setting, Time
 from deodar.errors import KindError, Problem, show
 from deodar.kind_errors import (
     KindNames,
     NotHere,
+    Shapes,
     errors_of_kind,
     foreign,
     leaked,
@@ -46,9 +46,6 @@ NUMBERS = ("random numbers, a clock or a counter", "Draw noise from `at.noise`: 
 
 LeafArrays = dict[str, np.ndarray | Exact]
 """The traced leaves of a part by path."""
-
-Shapes = Mapping[str, tuple[int, ...]]
-"""The shapes of arrays by name."""
 
 
 @contextlib.contextmanager
@@ -98,8 +95,7 @@ def one_copy(element: Element, ins: PortAxes, outs: PortAxes, precision: str = "
             copy = _TracedCopy(element, Setting(ins, outs, np.dtype(precision)))
             for part, path in _parts(element):
                 copy.check_part(part, path)
-            if not registry.own(type(element)):
-                copy.check_element()
+            copy.check_element()
     except KindError as error:
         return list(error.problems)
     return []
@@ -137,7 +133,7 @@ class _TracedCopy:
         if any(isinstance(constant, Tracer) for constant in first.consts):
             raise leaked({"": self.element})
         if _text(first) != _text(second) or not _equal(first.consts, second.consts):
-            cls = foreign(self.element)[0]
+            cls = (foreign(self.element) or [type(self.element)])[0]
             raise KindError(
                 f"{position(cls)} computes another function in each call, as with {NUMBERS[0]}; what Python"
                 " computes there stays as it was when the program was compiled",
@@ -168,6 +164,9 @@ class _TracedCopy:
             inputs |= {port: self.full(at.outs[port]) for port in element.reads_own_output}
             shapes = {name: array.shape for name, array in state.items()}
             self._stage("advance", {**read, "inputs": inputs}, shapes)
+        if element.stateful != bool(state):
+            state_of_init = "no state" if element.stateful else "a state, and the class has no `advance`"
+            self._raise("", f"has an `init` that returns {state_of_init}")
 
     def _stage(self, method: str, read: dict[str, Any], shapes: Shapes) -> None:
         def stage(values: LeafArrays, read: dict[str, Any], moment: Any) -> Arrays:
@@ -181,10 +180,18 @@ class _TracedCopy:
     def _checked(self, values: LeafArrays, method: str, at: Setting, shapes: Shapes | None) -> Arrays:
         arrays = getattr(self.bound(values), method)(at)
         require_arrays(self.element, method, arrays, shapes)
-        return {name: jnp.asarray(array) for name, array in arrays.items()}
+        returned = {name: jnp.asarray(array) for name, array in arrays.items()}
+        for name, array in returned.items():
+            if array.dtype.kind == "f" and array.dtype != at.dtype:
+                self._raise(method, f"returns {array.dtype} numbers for {name!r} in a program of {at.dtype}")
+        return returned
+
+    def _raise(self, method: str, fault: str) -> NoReturn:
+        kind = type(self.element)
+        raise KindError(f"{position(kind, method)} {fault}", kind=kind.__name__)
 
     def check_part(self, part: Part, path: str) -> None:
-        """Trace the functions of a kernel or sigmoid of the user."""
+        """Trace the functions of a kernel or a sigmoid."""
         at, convolution = self.at, self.element.convolution
         if isinstance(part, Kernel):
             port = "" if convolution is None else convolution.of
@@ -201,15 +208,14 @@ class _TracedCopy:
 
 
 def _parts(part: Part, prefix: str = "") -> Iterator[tuple[Part, str]]:
-    """Yield the parts of the user inside a part, with their paths."""
+    """Yield the parts inside a part, with their paths."""
     for p in parameters(type(part)):
         setting: Any = getattr(part, p.name)
         inner = {p.name: setting} if p.form == "part" and setting is not None else {}
         if p.form == "parts" and setting is not None:
             inner = {f"{p.name}.{k}": kernel for k, kernel in enumerate(setting)}
         for name, part_inside in inner.items():
-            if not registry.own(type(part_inside)):
-                yield part_inside, prefix + name
+            yield part_inside, prefix + name
             yield from _parts(part_inside, f"{prefix}{name}.")
 
 
