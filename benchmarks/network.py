@@ -4,8 +4,9 @@ A plant shows a picture in each period and takes one command back, by the wall c
 alone: the other side answers each picture at once. `model` is a field of deodar that reads the picture and
 drives the motor by `run_live`. In `follow` a head follows a ball. `step` compares the bits of an arena behind
 the network with those in one process. `kills` kills each side by SIGKILL at random moments, and `reconnects`
-restarts the plant. `--quick` is a short form of all of them, and `--only NAME` one of them. Judged only where
-the load is at most 1.5 times the cores; status 1 if a target is missed.
+restarts the plant. `key` compares commands with and without the key of the port. `--quick` is a short form of
+all of them, and `--only NAME` one of them. Judged only where the load is at most 1.5 times the cores; status
+1 if a target is missed.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ os.environ.setdefault("NPROC", "1")
 MOST_LOAD = 1.5
 STOPS_AFTER = 0.2
 PATIENCE = 0.5
-PARTS = ("link", "model", "follow", "step", "kills", "reconnects")
+PARTS = ("key", "link", "model", "follow", "step", "kills", "reconnects")
 CONTEXT = mp.get_context("spawn")
 
 
@@ -409,6 +410,32 @@ def step(periods: int = 1000) -> list[tuple[str, float, float]]:
     return [("periods of the step clock that differ", differ, 0.0)]
 
 
+def key(periods: int) -> list[tuple[str, float, float]]:
+    """Compare a command and its answer with and without the key of the port, in alternation."""
+    import numpy as np
+
+    from deodar_robots.zenoh.served_world import ServedWorld
+    from deodar_robots.zenoh.zenoh import Zenoh
+
+    served = [ServedWorld(screen(2, 2, 100.0), trusted=trusted) for trusted in (False, True)]
+    worlds = [Zenoh(at=each.endpoint, trusted=k == 1, patience=5.0) for k, each in enumerate(served)]
+    times: list[list[float]] = [[], []]
+    for world in worlds:
+        world.reset(0)
+    for k in range(periods):
+        for world, seconds in zip(worlds, times, strict=True):
+            began = time.perf_counter()
+            world.act({"pan": np.full(1, float(k), np.float32)}, 10.0 * k)
+            world._wait()
+            seconds.append(time.perf_counter() - began)
+    for world, each in zip(worlds, served, strict=True):
+        world.close()
+        each.close()
+    with_key, without = (1000 * float(np.median(seconds)) for seconds in times)
+    print(f"a command and its answer: {with_key:.3f} ms with the key, {without:.3f} without", flush=True)
+    return [("the key adds to a command, ms", with_key - without, 0.2)]
+
+
 def main() -> int:
     """Measure, print, and judge where the machine is quiet."""
     parser = argparse.ArgumentParser()
@@ -421,6 +448,8 @@ def main() -> int:
     print(f"{cores} cores, load {load:.1f}", flush=True)
     found: list[tuple[str, float, float]] = []
     parts = (args.only,) if args.only else PARTS
+    if "key" in parts:
+        found += key(2000)
     if "link" in parts:
         for hz, size in ((50, (160, 120)), (100, (160, 120)), (30, (640, 480))):
             found += exchange(echo, hz, size, seconds)
