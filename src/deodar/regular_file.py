@@ -11,7 +11,13 @@ import os
 import stat
 from io import BufferedReader
 
+from deodar.errors import DeodarError
+
 WITHOUT_WAITING = getattr(os, "O_NONBLOCK", 0)
+
+
+SPECIAL = "not a regular file"
+SAVE_FIRST = "Save its content in a file, and name that file"
 
 
 def open_binary(path: str | os.PathLike[str]) -> BufferedReader:
@@ -31,7 +37,13 @@ def _regular(path: str, flags: int) -> int:
     os.close(descriptor)
     if stat.S_ISDIR(mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), path)
-    raise OSError(errno.EINVAL, "it is not a regular file", path)
+    raise OSError(errno.EINVAL, f"it is {SPECIAL}. {SAVE_FIRST}", path)
+
+
+def refuse_special(path: str | os.PathLike[str], kind: type[DeodarError]) -> None:
+    """Raise an error of a kind if a path names a pipe, a device or a socket, such as /dev/stdin."""
+    if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+        raise kind(f"is {SPECIAL}", where=os.fspath(path), fix=SAVE_FIRST)
 
 
 def read_bytes(path: str | os.PathLike[str]) -> bytes:

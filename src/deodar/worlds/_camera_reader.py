@@ -14,6 +14,7 @@ from typing import Any, Literal, Protocol
 
 import numpy as np
 
+from deodar import regular_file
 from deodar.errors import Fix, WorldError
 from deodar.worlds import _capture
 from deodar.worlds._address import Address, Unreachable, unreachable
@@ -310,6 +311,7 @@ def source_of(name: int | str) -> CameraSource:
     path = Path(name)
     if path.is_char_device():
         return CameraSource("device", name, str(path.absolute()))
+    regular_file.refuse_special(path, WorldError)
     if not path.is_file():
         fix = "Name a number such as 0, a device, a file, or an address: rtsp://HOST/PATH"
         raise WorldError("there is no such device or file", where=f"camera {name}", fix=fix)

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar import regular_file
 from deodar.errors import Fix, MissingExtra, WorldError
 from deodar.guarded.guarded_file import GuardedFile
 from deodar.numerics.axes import Axes, Axis
@@ -117,6 +118,7 @@ class VideoReader:
 
     def __init__(self, path: Path) -> None:
         self.pictures: int | None = None
+        regular_file.refuse_special(path, WorldError)
         if not path.is_file():
             raise WorldError(
                 "there is no such video",

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from deodar import regular_file
 from deodar.codec import Json
 from deodar.errors import WorldError, reading
 from deodar.guarded.guarded_file import GuardedFile
@@ -111,6 +112,7 @@ def _array(pixels: np.ndarray) -> np.ndarray:
 
 
 def _read(path: Path) -> np.ndarray:
+    regular_file.refuse_special(path, WorldError)
     if not os.path.isfile(path):
         raise WorldError(
             "there is no such picture",

@@ -15,6 +15,7 @@ from typing import Any, cast
 import numpy as np
 import xarray
 
+from deodar import regular_file
 from deodar.errors import RecordError, UnknownName, did_you_mean
 from deodar.guarded.guarded_file import GuardedFile
 from deodar.model import output
@@ -98,6 +99,7 @@ def load_mat(path: str | Path, name: str = "") -> np.ndarray:
         RecordError: the file cannot be read, or what is named is not an array of real numbers.
         UnknownName: the file holds no such variable.
     """
+    regular_file.refuse_special(path, RecordError)
     return GuardedFile(RecordError, str(path)).call(array_of, str(path), name)
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import imageio_ffmpeg
 import numpy as np
@@ -95,3 +97,10 @@ def test_a_file_of_another_format_is_no_camera(name: str, tmp_path: Path):
     says = rf"camera .*{file.name}: cannot be read as a video\. Name a video: .*\.mp4"
     with pytest.raises(WorldError, match=says):
         dd.Camera(str(file)).reset(0)
+
+
+@pytest.mark.parametrize("kind", [dd.Picture, dd.Video, dd.EventFile, dd.Camera])
+def test_a_pipe_in_place_of_a_file_says_that_its_content_is_saved_first(kind: Any, tmp_path: Path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(WorldError, match=r"pipe: is not a regular file\. Save its content in a file"):
+        kind(str(tmp_path / "pipe")).reset(0)

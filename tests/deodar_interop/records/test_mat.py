@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -108,3 +109,9 @@ def test_complex_numbers_are_refused_and_real_ones_of_that_form_are_read(tmp_pat
         with pytest.raises(RecordError, match=rf"c\.mat: .*{name}.* holds complex numbers.*real\(A\)"):
             dd.load_mat(tmp_path / "c.mat", name)
     assert dd.load_mat(tmp_path / "c.mat", "b").tolist() == [1, 3]
+
+
+def test_a_pipe_is_refused_at_once(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(RecordError, match=r"pipe: is not a regular file\. Save its content in a file"):
+        dd.load_mat(tmp_path / "pipe")
