@@ -154,7 +154,7 @@ def cost(rounds: int, seconds: float) -> None:
     import workloads
 
     print(f"{'workload':10}{'point, us a step':>18}{'cell more':>12}{'quartiles':>20}")
-    for name in ("W1_200", "W2_100", "W5"):
+    for name in ("W1_100", "W1_200", "W5", "W2_50", "W2_100"):
         work = workloads.WORKLOADS[name]
         models = [work.model() for _ in range(2)]
         models[1].set("u.quadrature", "cell")

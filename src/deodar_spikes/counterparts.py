@@ -94,7 +94,7 @@ def field(entry: Entry, setup: TranslationSetup) -> Counterpart:
         "kernel": ("carried", "synaptic weights"),
         "global_inhibition": ("carried", "synaptic weights from each cell to each cell"),
     }
-    if element.quadrature == "cell":
+    if element.quadrature != "point":
         said["quadrature"] = (
             "approximated",
             "the output at the sample takes the place of its mean over a cell",

@@ -68,7 +68,7 @@ class Mechanism:
 
 
 MECHANISMS = {
-    "correcting": Mechanism(0.6, 4.0, (40.0, 8.0), 64.0, "cell"),
+    "correcting": Mechanism(0.6, 4.0, (40.0, 8.0), 64.0, "cell-0.1"),
     "paper": Mechanism(0.15, 6.0, (30.0, 6.0), 40.0, "point"),
 }
 """Both mechanisms. With `point` the peaks of steep sigmoids stick to samples, and corrections of less than a

@@ -18,16 +18,17 @@ from deodar.numerics import noise as noises
 from deodar.numerics import quadrature, starting
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
-from deodar.numerics.intervals import hull, signed, times, total
+from deodar.numerics.intervals import Interval, hull, signed, times, total
 from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.kernels.separable import Gaussian
+from deodar.numerics.quadrature_0_1 import cell_means_0_1
 from deodar.numerics.sigmoids import Logistic, SigmoidFunction
 from deodar.numerics.signs import Sign, sign_of, together
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 MOST_AXES = 4
-QUADRATURES = ("cell", "point")
+CELL_MEANS = {"cell": quadrature.cell_means, "cell-0.1": cell_means_0_1}
 MARGIN = 6.0
 """Assumed bound on the effect of noise, in standard deviations (exceeded about once in 10^9 samples)."""
 
@@ -55,12 +56,14 @@ class Field(Element):
         noise_length: correlation length of the noise; in axis units, one value or one for each axis; 0:
             white.
         quadrature: output as its mean over a cell, or at the sample; `cell`: the output at a sample is the
-            mean of g over its cell, so that edges narrower than a sample behave as on a fine grid; `point`: g
-            at the sample. On a node both are g. The default in documents is `point`.
+            mean of g over its cell without its blur, so that hills and edges narrower than a sample behave as
+            on a fine grid; `point`: g at the sample; `cell-0.1`: the mean over a cell as version 0.1 computed
+            it, which blurs hills. On a node all are g. The default in documents is `point`.
 
     Ports:
         input: s, the sum of all connections, over `axes`.
-        output: g(u), over `axes`; its mean over each cell with `quadrature="cell"`.
+        output: g(u), over `axes`; its mean over each cell with `quadrature="cell"`, which leaves the range of
+            g at edges by up to 0.1.
         activation: u, over `axes`.
         interaction: the sum of both integral terms, over `axes`.
 
@@ -78,7 +81,7 @@ class Field(Element):
     global_inhibition: Annotated[float, Live("activation", section="interaction")] = 0.0
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, section="noise")] = 0.0
     noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, section="noise")] = 0.0
-    quadrature: Annotated[str, Recompile(choices=QUADRATURES, section="axes")] = "point"
+    quadrature: Annotated[str, Recompile(choices=(*CELL_MEANS, "point"), section="axes")] = "point"
 
     convolution: ClassVar[Convolution | None] = Convolution("output", into="input")
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {
@@ -149,7 +152,7 @@ class Field(Element):
                 * (1.0 if any(map(float, per_axis(self.noise_length, self.axes))) else cell(self.axes))
             )
         )
-        own = self.sigmoid.bounds(u)
+        own = self._output_bounds(u)
         parts = [kernel.bounds(tuple(self.axes)) for kernel in self.kernel]
         all_over = self.global_inhibition * math.prod(a.step * a.samples for a in self.axes)
         interaction = total(
@@ -159,7 +162,7 @@ class Field(Element):
         )
         drawn = total((h - spread, h + spread), inputs["input"], interaction)
         u = hull(u, drawn)
-        return {"activation": u, "output": self.sigmoid.bounds(u), "interaction": interaction}
+        return {"activation": u, "output": self._output_bounds(u), "interaction": interaction}
 
     def init(self, at: Setting) -> Arrays:
         return {"activation": at.full(tuple(self.axes), self.resting_level)}
@@ -197,10 +200,14 @@ class Field(Element):
 
     def _output(self, u: Array) -> Array:
         return (
-            quadrature.cell_means(self.sigmoid, u, tuple(self.axes))
-            if self.quadrature == "cell"
-            else self.sigmoid(u)
+            self.sigmoid(u)
+            if self.quadrature == "point"
+            else CELL_MEANS[self.quadrature](self.sigmoid, u, tuple(self.axes))
         )
+
+    def _output_bounds(self, u: Interval) -> Interval:
+        of_g = self.sigmoid.bounds(u)
+        return quadrature.bounds(of_g) if self.quadrature == "cell" and self.axes else of_g
 
     def _interaction(self, at: Setting, g: Array) -> Array:
         inhibition = self.global_inhibition * cell(tuple(self.axes)) * jnp.sum(g)

@@ -2,7 +2,7 @@
 
 Version 1: the path of a field alone meant its output. Since version 2 it means the activation. Version 3
 renames parameters. In version 4, as in version 4 of documents, a stimulus with an empty list of time windows
-is never on, and null means always.
+is never on, null means always, and `cell` is another rule.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any, cast
 from deodar import file_version
 from deodar.codec import Json, JsonObject
 from deodar.model.document import Document
-from deodar.model.migrations import always_on, always_on_value, recorded
+from deodar.model.migrations import recorded, value_of_3, values_of_3
 
 VERSION = 4
 """Version of experiments, in their files and in the identity of their rows."""
@@ -80,21 +80,21 @@ def _renamed(kind: str, values: dict[str, Any]) -> dict[str, Any]:
 
 def _from_3(experiment: JsonObject) -> JsonObject:
     """Convert the values that actions and the levels of factors set."""
-    out = _parts(experiment, _set_always_on)
+    out = _parts(experiment, _set_of_3)
     factors = experiment.get("factors")
     if isinstance(factors, dict):
         rows = cast("dict[str, Any]", factors)
-        out["factors"] = {name: _factor_always_on(factor) for name, factor in rows.items()}
+        out["factors"] = {name: _factor_of_3(factor) for name, factor in rows.items()}
     return out
 
 
-def _set_always_on(kind: str, values: dict[str, Any]) -> dict[str, Any]:
+def _set_of_3(kind: str, values: dict[str, Any]) -> dict[str, Any]:
     if kind != "Set" or "value" not in values:
         return values
-    return values | {"value": always_on_value(values.get("path"), values["value"])}
+    return values | {"value": value_of_3(values.get("path"), values["value"])}
 
 
-def _factor_always_on(factor: Any) -> Any:
+def _factor_of_3(factor: Any) -> Any:
     """Convert the levels of a factor.
 
     A list becomes named levels if a value changes: the rows of trials state the names that its values had.
@@ -103,14 +103,14 @@ def _factor_always_on(factor: Any) -> Any:
     path, levels = settings.get("path", ""), settings.get("levels")
     if isinstance(levels, list):
         named = {str(level): level for level in cast("list[Any]", levels)}
-        if all(always_on_value(path, level) is level for level in named.values()):
+        if all(value_of_3(path, level) is level for level in named.values()):
             return factor
     elif isinstance(levels, dict):
         named = cast("dict[str, Any]", levels)
     else:
         return factor
     converted = {
-        name: always_on_value(path, level) if path else always_on(level) for name, level in named.items()
+        name: value_of_3(path, level) if path else values_of_3(level) for name, level in named.items()
     }
     return settings | {"levels": converted}
 

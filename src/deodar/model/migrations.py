@@ -2,7 +2,8 @@
 
 Version 1: some elements had an axis as a default, and a document could leave it out. Version 2 states every
 axis. Version 3 renames parameters. Until version 3 a stimulus with an empty list of time windows was always
-on; since version 4 it is never on, and null means always.
+on; since version 4 it is never on, and null means always. Version 4 also has another rule `cell` for the
+output of a field; the rule of older versions is `cell-0.1` there.
 """
 
 from __future__ import annotations
@@ -19,8 +20,11 @@ from deodar.model.kept_presets import PRESETS
 WINDOWS = "windows"
 """The parameter whose empty list has another meaning since version 4; only stimuli have one of this name."""
 
-ALWAYS_IS_NONE = 4
-"""The version of documents since which None, not an empty list, means that a stimulus is always on."""
+QUADRATURE = "quadrature"
+"""The parameter whose value "cell" is another rule since version 4; only fields have one of this name."""
+
+VALUES_CHANGED = 4
+"""The version of documents since which values of these parameters have another meaning."""
 
 AxisData = Mapping[str, Any]
 
@@ -116,7 +120,7 @@ def _from_3(document: Mapping[str, Json]) -> dict[str, Json]:
     out = dict(document)
     if isinstance(elements, dict):
         bodies = cast("dict[str, Any]", elements)
-        out["elements"] = {path: always_on(body) for path, body in bodies.items()}
+        out["elements"] = {path: values_of_3(body) for path, body in bodies.items()}
     presets = cast("dict[str, Any]", layout).get(PRESETS) if isinstance(layout, dict) else None
     if isinstance(presets, list):
         listed = [_preset(preset) for preset in cast("list[Any]", presets)]
@@ -129,24 +133,26 @@ def _preset(preset: Any) -> Any:
     if not isinstance(values, dict):
         return preset
     by_element = cast("dict[str, Any]", values)
-    return {**preset, "values": {ident: always_on(inner) for ident, inner in by_element.items()}}
+    return {**preset, "values": {ident: values_of_3(inner) for ident, inner in by_element.items()}}
 
 
-def always_on(values: Any) -> Any:
-    """Convert the values of parameters before document version 4, by name or path: without windows, a
-    stimulus was always on.
-    """
+def values_of_3(values: Any) -> Any:
+    """Convert the values of parameters before document version 4, by name or path."""
     if not isinstance(values, dict):
         return values
     by_path = cast("dict[str, Any]", values)
-    return {path: always_on_value(path, value) for path, value in by_path.items()}
+    return {path: value_of_3(path, value) for path, value in by_path.items()}
 
 
-def always_on_value(path: Any, value: Any) -> Any:
-    """Convert the value of one parameter before document version 4, of which the name or path is known."""
-    if isinstance(path, str) and path.rpartition(".")[2] == WINDOWS and value in ([], ()):
+def value_of_3(path: Any, value: Any) -> Any:
+    """Convert the value of one parameter before document version 4, of which the name or path is known.
+
+    Without windows a stimulus was always on, and `cell` was the rule `cell-0.1`.
+    """
+    name = path.rpartition(".")[2] if isinstance(path, str) else ""
+    if name == WINDOWS and value in ([], ()):
         return None
-    return value
+    return "cell-0.1" if name == QUADRATURE and value == "cell" else value
 
 
 def _key(axes: dict[str, Json], axis: AxisData) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from deodar import codec
 from deodar.errors import RecordError, TimeError
 from deodar.model import find
-from deodar.model.migrations import ALWAYS_IS_NONE, always_on_value
+from deodar.model.migrations import VALUES_CHANGED, value_of_3
 from deodar.model.model import Model
 from deodar.progress import telling
 from deodar.resources import Resources, use_resources
@@ -87,8 +87,8 @@ def session_at(
 def _changes(data: xarray.Dataset, description: Any) -> list[Change]:
     """Return the changes of a recorded session; their values are of the version of its document."""
     entries: Any = codec.parse(str(data.attrs.get("changes", "[]")))
-    if description["document"]["deodar"] < ALWAYS_IS_NONE:
-        entries = [e | {"value": always_on_value(e["what"], e["value"])} for e in entries]
+    if description["document"]["deodar"] < VALUES_CHANGED:
+        entries = [e | {"value": value_of_3(e["what"], e["value"])} for e in entries]
     return list(map(from_file, entries))
 
 

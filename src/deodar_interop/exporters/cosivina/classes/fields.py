@@ -29,7 +29,7 @@ def field(b: Given, element: Field) -> None:
         b.say("resting_level", "carried", f"less the threshold, {values['h']:g}; cosivina's threshold is 0")
         if b.draft.readers(b.id, "activation"):
             b.approximate(f"its activation is lower by the threshold {threshold:g} of its sigmoid")
-    if element.quadrature == "cell" and element.axes:
+    if element.quadrature != "point" and element.axes:
         b.say("quadrature", "dropped", "cosivina takes the output at the sample")
         b.approximate("its output is that at the sample, not the mean over the cell")
     for level in b.draft.followers(b.id, "h"):
