@@ -72,12 +72,12 @@ async def idle(address: str) -> AsyncGenerator[None]:
 @contextlib.asynccontextmanager
 async def run(address: str) -> AsyncGenerator[None]:
     """A model runs, and a page watches it."""
-    async with page(address) as one:
-        await one.runs()
-        await one.do("speed", factor=None)
-        await one.do("play")
-        await one.send(type="watch", stream=1, element=one.element("u"), port="activation")
-        await one.until(lambda: one.frames)
+    async with page(address) as visitor:
+        await visitor.runs()
+        await visitor.do("speed", factor=None)
+        await visitor.do("play")
+        await visitor.send(type="watch", stream=1, element=visitor.element("u"), port="activation")
+        await visitor.until(lambda: visitor.frames)
         yield
 
 
@@ -94,7 +94,7 @@ async def stalled(address: str) -> AsyncGenerator[None]:
     """A model runs, and a program holds the socket of a page open and reads nothing."""
     parts = urlsplit(address)
     async with run(address):
-        with socket.create_connection((parts.hostname or "", parts.port or 0)) as held:
+        with socket.create_connection((parts.hostname or "", parts.port or 0)) as silent:
             lines = (
                 f"GET /ws?{parts.query} HTTP/1.1",
                 f"Host: {parts.netloc}",
@@ -103,66 +103,66 @@ async def stalled(address: str) -> AsyncGenerator[None]:
                 "Sec-WebSocket-Version: 13",
                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==",
             )
-            held.sendall("".join(f"{line}\r\n" for line in (*lines, "")).encode())
-            await asyncio.to_thread(held.recv, 20)
+            silent.sendall("".join(f"{line}\r\n" for line in (*lines, "")).encode())
+            await asyncio.to_thread(silent.recv, 20)
             yield
 
 
 @contextlib.asynccontextmanager
 async def recording(address: str) -> AsyncGenerator[None]:
     """A model runs and is recorded."""
-    async with page(address) as one:
-        await one.runs()
-        await one.do("start_record")
-        await one.do("play")
-        await one.until(lambda: one.clock["recording"] and one.clock["tick"] > 100)
+    async with page(address) as visitor:
+        await visitor.runs()
+        await visitor.do("start_record")
+        await visitor.do("play")
+        await visitor.until(lambda: visitor.clock["recording"] and visitor.clock["tick"] > 100)
         yield
 
 
 @contextlib.asynccontextmanager
 async def moving(address: str) -> AsyncGenerator[None]:
     """A model moves a robot."""
-    async with page(address) as one:
-        await one.runs()
-        await one.do("play")
-        await one.until(lambda: one.said.get("robot_link", {}).get("round_trip", 0) > 0)
+    async with page(address) as visitor:
+        await visitor.runs()
+        await visitor.do("play")
+        await visitor.until(lambda: visitor.said.get("robot_link", {}).get("round_trip", 0) > 0)
         yield
 
 
 @contextlib.asynccontextmanager
 async def compiling(address: str) -> AsyncGenerator[None]:
     """A document is compiled."""
-    async with page(address) as one:
-        await one.until(lambda: (one.clock["compiling"] or {}).get("phase") == "compiling")
+    async with page(address) as visitor:
+        await visitor.until(lambda: (visitor.clock["compiling"] or {}).get("phase") == "compiling")
         yield
 
 
 @contextlib.asynccontextmanager
 async def recompiling(address: str) -> AsyncGenerator[None]:
     """A model runs while a change of it is compiled."""
-    async with page(address) as one:
-        await one.runs()
-        await one.do("play")
-        await add_fields(one)
-        await one.until(lambda: (one.clock["compiling"] or {}).get("phase") == "compiling")
+    async with page(address) as visitor:
+        await visitor.runs()
+        await visitor.do("play")
+        await add_fields(visitor)
+        await visitor.until(lambda: (visitor.clock["compiling"] or {}).get("phase") == "compiling")
         yield
 
 
-async def add_fields(one: Page) -> None:
+async def add_fields(visitor: Page) -> None:
     """Add fields of many sizes, so that the program takes many seconds to compile."""
     for k in range(60):
         axis = {"name": "x", "lower": 0, "upper": 100, "samples": 60 + k}
         values = {"axes": [axis], "kernel": [{"kind": "Gaussian", "amplitude": 1.0, "sigma": 5.0}]}
-        await one.do("add_element", kind="Field", values=values)
+        await visitor.do("add_element", kind="Field", values=values)
 
 
 @contextlib.asynccontextmanager
 async def measuring(address: str) -> AsyncGenerator[None]:
     """A regime is measured in another process."""
-    async with page(address) as one:
-        await one.runs()
-        await one.do("measure_regime", element=one.element("u"))
-        await one.until(lambda: one.said["regime"]["measuring"])
+    async with page(address) as visitor:
+        await visitor.runs()
+        await visitor.do("measure_regime", element=visitor.element("u"))
+        await visitor.until(lambda: visitor.said["regime"]["measuring"])
         yield
 
 
@@ -237,7 +237,7 @@ def endings(name: str, tries: int) -> list[float]:
 def main() -> int:
     """Measure, print, and judge where the machine is quiet."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("case", nargs="*", help=f"one of {', '.join(CASES)} (default: all)")
+    parser.add_argument("case", nargs="*", help=f"visitor of {', '.join(CASES)} (default: all)")
     parser.add_argument("--tries", type=int, default=4)
     args = parser.parse_args()
     load, late = os.getloadavg()[0], 0
@@ -245,8 +245,8 @@ def main() -> int:
     for name in args.case or CASES:
         times = sorted(endings(name, args.tries))
         late += times[-1] > LIMIT
-        what = (CASES[name][0].__doc__ or "").strip().rstrip(".")
-        print(f"{what:76} median {times[len(times) // 2]:.2f} s, longest {times[-1]:.2f} s", flush=True)
+        case_text = (CASES[name][0].__doc__ or "").strip().rstrip(".")
+        print(f"{case_text:76} median {times[len(times) // 2]:.2f} s, longest {times[-1]:.2f} s", flush=True)
     load = max(load, os.getloadavg()[0])
     if load > MOST_LOAD * (os.cpu_count() or 1):
         print(f"not judged: the load is {load:.1f}")

@@ -156,15 +156,15 @@ def wheel(folder: Path) -> Generator[tuple[str, Commands]]:
 @contextlib.contextmanager
 def turning(at: str, commands: Commands) -> Generator[tuple[Any, Any]]:
     """Start a model that turns a wheel; yield its process and its pipe, when the wheel turns."""
-    here, there = CONTEXT.Pipe()
-    model = begun(turn, at, there)
-    there.close()
+    parent_end, child_end = CONTEXT.Pipe()
+    model = begun(turn, at, child_end)
+    child_end.close()
     try:
-        if here.recv() != "ready":
+        if parent_end.recv() != "ready":
             raise RuntimeError("the model did not begin")
         wait_for(lambda: moves(commands))
         time.sleep(random.uniform(0.1, 0.3))
-        yield model, here
+        yield model, parent_end
     finally:
         ended(model)
 
@@ -230,14 +230,14 @@ def killed(folder: Path, tries: int, halt: float) -> Iterator[Stop]:
 def halted(folder: Path, tries: int, halt: float) -> Iterator[Stop]:
     """Halt the model (SIGSTOP), several at once, each with a wheel of its own."""
 
-    def one(_: int) -> float:
+    def halted_once(_: int) -> float:
         with wheel(folder) as (at, commands), turning(at, commands) as (model, _):
             since = time.monotonic()
             os.kill(model.pid, signal.SIGSTOP)
             return moved(commands, since, halt)
 
     with ThreadPoolExecutor(5) as pool:
-        times = list(pool.map(one, range(tries)))
+        times = list(pool.map(halted_once, range(tries)))
     yield Stop(f"the model is halted for {halt:g} s", times, STOPS_AFTER + PERIOD)
 
 
@@ -248,7 +248,7 @@ def lost(folder: Path, tries: int, halt: float) -> Iterator[Stop]:
     from deodar_robots.zenoh import port_key
 
     times: list[float] = []
-    told: list[float] = []
+    error_times: list[float] = []
     with wheel(folder) as (at, commands):
         for _ in range(tries):
             relay = Relay(at)
@@ -261,12 +261,12 @@ def lost(folder: Path, tries: int, halt: float) -> Iterator[Stop]:
                 relay.passing.clear()
                 times.append(moved(commands, since))
                 when, text = pipe.recv() if pipe.poll(10) else (float("inf"), "")
-                told.append(when - since if "'wheel'" in text else float("inf"))
+                error_times.append(when - since if "'wheel'" in text else float("inf"))
             relay.close()
             wait_for(lambda: not moves(commands))
             time.sleep(STOPS_AFTER)
     yield Stop("nothing passes the link", times, STOPS_AFTER + PERIOD)
-    yield Stop("nothing passes the link: the model names it", told, PATIENCE + PERIOD)
+    yield Stop("nothing passes the link: the model names it", error_times, PATIENCE + PERIOD)
 
 
 def refused(folder: Path, tries: int, halt: float) -> Iterator[Stop]:
@@ -382,47 +382,54 @@ async def studio_tries(folder: Path, at: str, commands: Commands, tries: int, ha
     model = dd.Model("turning", dt=10)
     model.add(dd.Boost("go", amplitude=2.0)) >> model.add(dd.Motor("turn", motor="speed"))
     dd.save(model, folder / "turning.json")
-    asked = [str(folder / "turning.json"), "--no-browser", "--port", "0", "--world", f"zenoh:wheel, at={at}"]
+    words = [
+        str(folder / "turning.json"),
+        "--no-browser",
+        "--port",
+        "0",
+        "--world",
+        f"zenoh:wheel, at={at}",
+    ]
     process = subprocess.Popen(
-        [sys.executable, "-m", "deodar", "studio", *asked], stdout=subprocess.PIPE, text=True
+        [sys.executable, "-m", "deodar", "studio", *words], stdout=subprocess.PIPE, text=True
     )
     assert process.stdout is not None
-    paused, stopped, left = list[float](), list[float](), list[float]()
+    paused, stopped, unwatched = list[float](), list[float](), list[float]()
     try:
         address = process.stdout.readline().split()[-1]
         for _ in range(tries):
-            async with page(address) as one:
-                await one.runs()
+            async with page(address) as visitor:
+                await visitor.runs()
                 for times in (paused, stopped):
-                    await again(one)
+                    await run_again(visitor)
                     await asyncio.to_thread(wait_for, lambda: moves(commands))
                     since = time.monotonic()
                     if times is paused:
-                        await one.do("pause")
+                        await visitor.do("pause")
                     else:
                         process.send_signal(signal.SIGSTOP)
                     times.append(
                         await asyncio.to_thread(moved, commands, since, 0.0 if times is paused else halt)
                     )
                     process.send_signal(signal.SIGCONT)
-                await again(one)
+                await run_again(visitor)
                 await asyncio.to_thread(wait_for, lambda: moves(commands))
-            left.append(await asyncio.to_thread(moved, commands, time.monotonic()))
+            unwatched.append(await asyncio.to_thread(moved, commands, time.monotonic()))
     finally:
         process.kill()
         process.communicate()
     return [
         Stop("the run of a studio pauses", paused, 2 * PERIOD),
         Stop(f"a studio is halted for {halt:g} s", stopped, STOPS_AFTER + PERIOD),
-        Stop("the last page is closed", left, ABSENT + 2 * PERIOD),
+        Stop("the last page is closed", unwatched, ABSENT + 2 * PERIOD),
     ]
 
 
-async def again(one: Any) -> None:
+async def run_again(visitor: Any) -> None:
     """Run again from the start; the link with the robot ends in a long halt, and comes back."""
-    while (await one.ask("reset"))["problems"]:
+    while (await visitor.ask("reset"))["problems"]:
         await asyncio.sleep(0.1)
-    await one.do("play")
+    await visitor.do("play")
 
 
 CASES = {case.__name__: case for case in (killed, halted, lost, refused, closed, served, driver, studio)}

@@ -78,20 +78,20 @@ def test_a_process_without_the_keys_gets_nothing_at_any_port(command: str, tmp_p
             seen = psutil.Process(process.pid)
             listening = [
                 connection.laddr
-                for each in (seen, *seen.children(recursive=True))
-                for connection in each.net_connections("inet")
+                for member in (seen, *seen.children(recursive=True))
+                for connection in member.net_connections("inet")
                 if connection.status == "LISTEN"
             ]
             assert listening and {place.ip for place in listening} == {"127.0.0.1"}
             for place in listening:
                 for user in USERS:
-                    assert said(place.port, user, tmp_path) == "[]\n"
+                    assert heard_at(place.port, user, tmp_path) == "[]\n"
         finally:
             process.send_signal(signal.SIGTERM)
             process.communicate()
 
 
-def said(port: int, user: int, folder: Path) -> str:
+def heard_at(port: int, user: int, folder: Path) -> str:
     """Return what a stranger heard at a port."""
     home = folder / "empty"
     home.mkdir(exist_ok=True)

@@ -1,4 +1,4 @@
-"""The studio ends although a compilation, a check or a world goes on: nothing interrupts them."""
+"""The studio ends while a compilation or a world works, which nothing interrupts."""
 
 from __future__ import annotations
 
@@ -87,8 +87,8 @@ class WorkingServer:
 def test_the_process_of_a_studio_does_not_wait_for_a_thread(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    left: list[int] = []
+    statuses: list[int] = []
     monkeypatch.setattr(serve, "prepare", lambda *arguments: (WorkingServer(), None))
-    monkeypatch.setattr(os, "_exit", left.append)
+    monkeypatch.setattr(os, "_exit", statuses.append)
     serve.serve(Service(tmp_path), False, print)
-    assert left == [0]
+    assert statuses == [0]

@@ -351,9 +351,9 @@ def loopback(host: str) -> str:
 
 def _opened(port: int, backlog: int, host: str = "") -> socket.socket:
     """Return a socket that listens at a port, of the loopback alone if `host` is there; 0: a free port."""
-    if here := loopback(host):
-        family = socket.AF_INET6 if ":" in here else socket.AF_INET
-        return socket.create_server((here.strip("[]"), port), family=family, backlog=backlog)
+    if bound := loopback(host):
+        family = socket.AF_INET6 if ":" in bound else socket.AF_INET
+        return socket.create_server((bound.strip("[]"), port), family=family, backlog=backlog)
     dual = socket.has_dualstack_ipv6()
     family = socket.AF_INET6 if dual else socket.AF_INET
     return socket.create_server(("", port), family=family, backlog=backlog, dualstack_ipv6=dual)

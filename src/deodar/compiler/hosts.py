@@ -49,10 +49,10 @@ def join_hosts(
 
     Call it before the first run, on every host, and after `use_cores`. From then on `devices="all"` means the
     devices of all hosts, in `simulate` and in `Session`: every host makes the same calls and gets the same
-    values. Without `devices` each host computes alone. Messages between hosts are not encrypted, and nobody
-    who connects has to prove anything: use a network of your own. With the address 127.0.0.1, for several
-    processes of one machine, the first host listens there alone. On the CPU hosts exchange numbers through
-    TCP (Gloo).
+    values. Without `devices` each host computes alone. Messages between hosts are not encrypted, and no
+    program that connects has to prove anything: use a network of your own. With the address 127.0.0.1, for
+    several processes of one machine, the first host listens there alone. On the CPU hosts exchange numbers
+    through TCP (Gloo).
 
     Args:
         address: `HOST:PORT` of the first host, a port that is free there; `auto`: what SLURM or Open MPI
@@ -106,14 +106,14 @@ def _start_jax(links: HostLinks, address: str, local: Any) -> None:
     # else SIGTERM, as from scancel, would no longer end this process
     jax.config.update("jax_enable_preemption_service", False)
     links.inside = time.monotonic()
-    here = loopback(address.rpartition(":")[0])
+    bound = loopback(address.rpartition(":")[0])
     jax.distributed.initialize(
         address,
         links.count,
         links.index,
         local_device_ids=local,
-        # JAX would listen at all addresses of the machine, and asks nobody who connects for a proof
-        coordinator_bind_address=f"{here}:{address.rpartition(':')[2]}" if here else None,
+        # JAX would listen at all addresses of the machine, and asks no program that connects for a proof
+        coordinator_bind_address=f"{bound}:{address.rpartition(':')[2]}" if bound else None,
         cluster_detection_method="deactivate",
         # longer than the links need to find that a host has ended: after it JAX aborts without naming one
         initialization_timeout=round(max(links.timeout, 2 * SILENT)),

@@ -34,7 +34,7 @@ def arguments(parser: _options.CommandParser) -> None:
         "--no-token", "allow everyone who can connect to use the studio: at least every user of this machine"
     )
     parser.flag(
-        "--unattended", "a run that moves a robot goes on without a page; without it, it pauses after 5 s"
+        "--unattended", "a run that moves a robot continues without a page; otherwise it pauses after 5 s"
     )
     _options.add_world(parser)
     _options.add_cores(parser)

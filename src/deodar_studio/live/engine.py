@@ -392,7 +392,7 @@ class Engine:
     def _leave_robot(self) -> None:
         """Pause the run, because no page is there by which anybody could stop the robot."""
         self.play(False)
-        fix = "Start it again; deodar studio --unattended lets it go on without a page"
+        fix = "Start it again; with deodar studio --unattended it continues without a page"
         absence = Problem("", "the run that moves a robot has paused, because no page was open", fix)
         self.failure = ((absence,), ())
         self._changed()

@@ -64,7 +64,7 @@ class Hub:
         trust: whether functions that documents name may be run.
         world: the world that sensors read; None: examples of worlds are used.
         private: whether only the user who started the studio can use it (see `Service.private`).
-        unattended: whether a run that moves a robot goes on while no page is open.
+        unattended: whether a run that moves a robot continues while no page is open.
     """
 
     def __init__(

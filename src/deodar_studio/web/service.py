@@ -21,7 +21,7 @@ class Service:
         host: name or number of the address; the default is reachable from this machine only.
         port: None: the first free port from `deodar_studio.web.serve.PORT` on; 0: any free port.
         token: whether pages need a token; without it everybody who can connect may use the studio.
-        unattended: whether a run that moves a robot goes on while no page is open.
+        unattended: whether a run that moves a robot continues while no page is open.
     """
 
     root: Path

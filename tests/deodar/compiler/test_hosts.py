@@ -590,10 +590,10 @@ def test_hosts_of_one_machine_listen_where_other_machines_do_not_reach_them(host
 
 
 def test_jax_listens_at_the_loopback_alone_for_hosts_of_one_machine(monkeypatch: pytest.MonkeyPatch) -> None:
-    told = list[dict[str, object]]()
+    settings_of_jax = list[dict[str, object]]()
 
     def initialize(*_: object, **settings: object) -> None:
-        told.append(settings)
+        settings_of_jax.append(settings)
         raise RuntimeError("enough")
 
     monkeypatch.setattr(jax.distributed, "initialize", initialize)
@@ -602,4 +602,4 @@ def test_jax_listens_at_the_loopback_alone_for_hosts_of_one_machine(monkeypatch:
         for address, bound in (("localhost:7", "127.0.0.1:7"), ("[::1]:7", "[::1]:7"), ("node1:7", None)):
             with pytest.raises(RuntimeError, match="enough"):
                 hosts._start_jax(links[0], address, None)  # pyright: ignore[reportPrivateUsage]
-            assert told[-1]["coordinator_bind_address"] == bound
+            assert settings_of_jax[-1]["coordinator_bind_address"] == bound

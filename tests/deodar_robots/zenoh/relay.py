@@ -12,8 +12,8 @@ class Relay:
     Attributes:
         seen: all bytes that passed.
         port: port of this machine at which it listens.
-        passing: whether bytes pass; while it is not set they wait, as in a network that is cut, and no side
-            is told.
+        passing: whether bytes pass; while it is not set they wait, as in a network that is cut, and both
+            connections stay.
     """
 
     def __init__(self, to: str) -> None:

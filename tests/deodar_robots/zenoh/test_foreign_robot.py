@@ -109,7 +109,7 @@ def test_it_is_named_when_it_leaves(robot):
 
 
 def test_a_program_that_takes_the_port_of_one_without_a_token_has_to_prove_itself():
-    """Nothing tells the model that such a robot has left but the end of its connection."""
+    """Only the end of its connection shows that such a robot has left."""
     at = free_endpoint()
     robot = ForeignRobot(at, alive=False)
     world = dd.Zenoh("pan", at, patience=5.0)
@@ -129,11 +129,11 @@ def test_a_program_that_takes_the_port_of_one_without_a_token_has_to_prove_itsel
         world.reset(0)
     answer.undeclare()
     thief.close()
-    again = ForeignRobot(at, alive=False)
+    returned = ForeignRobot(at, alive=False)
     world.reset(0)
     assert float(world.sense("angle", (), 0.0)) == 0.0
     world.close()
-    again.close()
+    returned.close()
 
 
 @pytest.mark.parametrize(
