@@ -7,6 +7,7 @@ writes `protocol.schema.json` beside this file and, in a copy of the repository,
 
 from __future__ import annotations
 
+import inspect
 import textwrap
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,9 @@ def schema() -> dict[str, Any]:
     """Return the JSON Schema of both unions and all types in them."""
     unions = [union(MESSAGES), union(to_page.MESSAGES)]
     (server, page), defs = msgspec.json.schema_components(unions, ref_template="#/$defs/{name}")
+    for form in defs.values():
+        if "description" in form:  # with the indents of the source, or without: versions of msgspec differ
+            form["description"] = inspect.cleandoc(form["description"])
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "deodar studio",
