@@ -129,7 +129,7 @@ class _TracedCopy:
         """
         with errors_of_kind(self.element, names=names):
             first, shapes = jax.make_jaxpr(function, return_shape=True)(*args)
-            second = jax.make_jaxpr(lambda *second: function(*second))(*args)  # JAX keeps the first one
+            second = jax.make_jaxpr(lambda *values: function(*values))(*args)  # JAX keeps the first one
         if any(isinstance(constant, Tracer) for constant in first.consts):
             raise leaked({"": self.element})
         if _text(first) != _text(second) or not _equal(first.consts, second.consts):
