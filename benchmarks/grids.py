@@ -47,7 +47,7 @@ class Task:
         width: samples a kernel width.
         sigmoid: its output function.
         quadrature: its rule.
-        away: distance of the input from a sample, in samples of the coarse grid, along each axis.
+        offset: distance of the input from a sample, in samples of the coarse grid, along each axis.
         step: distance of the samples of the coarse grid.
     """
 
@@ -55,7 +55,7 @@ class Task:
     width: float
     sigmoid: SigmoidFunction
     quadrature: str
-    away: tuple[float, ...]
+    offset: tuple[float, ...]
     step: float
 
     def axes(self, *, odd: bool = False) -> list[dd.Axis]:
@@ -67,9 +67,9 @@ class Task:
         return [dd.Axis(n, 0, length, samples, periodic=True) for n in "xy"[: self.dimensions]]
 
     def beside(self) -> list[float]:
-        """Return the position `away` from the sample in the middle of the coarse grid."""
+        """Return the position `offset` from the sample in the middle of the coarse grid."""
         middle = round(LENGTH[self.dimensions] / 2 / self.step) * self.step
-        return [middle + a * self.step for a in self.away]
+        return [middle + a * self.step for a in self.offset]
 
     def model(self, axes: list[dd.Axis], center: list[float], excitation: float) -> dd.Model:
         """Return a field with an input and a boost, both of amplitude 0."""
@@ -106,7 +106,7 @@ def detections(task: Task) -> tuple[float, float]:
 
 def forgetting(task: Task) -> float:
     """Return the boost at which a peak without input vanishes, on a sample or between two along all axes."""
-    axes = task.axes(odd=not any(task.away))
+    axes = task.axes(odd=not any(task.offset))
     # states that are even about the middle of the axes, which is no sample of the fine grid
     model = task.model(axes, [float(a.points.mean()) for a in axes], HELD[task.dimensions])
     even = list("xy"[: task.dimensions])
@@ -145,19 +145,19 @@ def rows(dimensions: int, sigmoids: list[str], quadratures: list[str]) -> Iterat
                         p for p in PLACES[dimensions] if threshold != "forgetting" or set(p) in ({0.0}, {0.5})
                     ]
                     errors = []
-                    for away in places:
+                    for offset in places:
                         values = [
-                            measure(Task(dimensions, w, SIGMOIDS[name], q, away, step))
+                            measure(Task(dimensions, w, SIGMOIDS[name], q, offset, step))
                             for w, q in ((width, rule), (FINE[dimensions], "cell"))
                         ]
                         errors.append(100 * (values[0] / values[1] - 1))
                     most = limit(dimensions, width, name, threshold) if rule == "cell" else None
-                    kept = most is None or all(abs(e) <= most for e in errors)
+                    within = most is None or all(abs(e) <= most for e in errors)
                     listed = " / ".join(f"{e:.2f}" for e in errors)
-                    verdict = "" if most is None else f"  limit {most:g}: {'kept' if kept else 'EXCEEDED'}"
+                    verdict = "" if most is None else f"  limit {most:g}: {'kept' if within else 'EXCEEDED'}"
                     yield (
                         f"{dimensions}-D  {name:14}{threshold:19}{width:4g}  {rule:9}{listed:>32} %{verdict}",
-                        kept,
+                        within,
                     )
 
 
@@ -171,12 +171,12 @@ def main() -> int:
     options = parser.parse_args()
     began, exceeded = time.process_time(), 0
     for dimensions in options.dimensions or (1, 2):
-        for line, kept in rows(
+        for line, within in rows(
             dimensions,
             options.sigmoid or list(SIGMOIDS),
             options.quadrature or ["cell", "point", "cell-0.1"],
         ):
-            exceeded += not kept
+            exceeded += not within
             print(line, flush=True)
     print(f"{exceeded} limits exceeded; {time.process_time() - began:.0f} s of CPU; deodar {dd.__version__}")
     return 1 if exceeded else 0

@@ -135,11 +135,11 @@ def edges() -> None:
             assert isinstance(u, dd.Field)
             (steep,), step = steepness(u), LENGTH[1] / (samples - 1)
             if 2.5 < steep < 15:
-                found = [
-                    forgetting(1, samples, dd.Logistic(beta), "point", center=50 + away * step)
-                    for away in (0.0, 0.5)
+                boosts = [
+                    forgetting(1, samples, dd.Logistic(beta), "point", center=50 + share * step)
+                    for share in (0.0, 0.5)
                 ]
-                worst = max(found, key=lambda boost: abs(boost - exact))
+                worst = max(boosts, key=lambda boost: abs(boost - exact))
                 print(
                     f"{beta:6g}{5 / step:17.4g}{steep:11.2f}{worst:10.4f}{abs(worst / exact - 1):9.1%}",
                     flush=True,
@@ -194,10 +194,10 @@ def places(model: dd.Model, dimensions: int, until: float, **how: object) -> np.
 
 def drift(dimensions: int, samples: int, g: SigmoidFunction, quadrature: str, trials: int) -> float:
     """Variance of the place of a memory (mean over axes) that 3,000 ms of noise add, in squared degrees."""
-    found = places(
+    positions = places(
         memory(dimensions, samples, g, quadrature, NOISE[dimensions]), dimensions, HELD, trials=trials
     )
-    return float(np.mean(np.var(found[:, 1] - found[:, 0], axis=0)))
+    return float(np.mean(np.var(positions[:, 1] - positions[:, 0], axis=0)))
 
 
 def motion(dimensions: int, samples: int, g: SigmoidFunction, quadrature: str) -> float:
@@ -267,9 +267,9 @@ def main() -> int:
     for dimensions in (given.dimensions,) if given.dimensions else (1,) if given.quick else (1, 2):
         grids = GRIDS[dimensions][:3] if given.quick else GRIDS[dimensions]
         where = "a line" if dimensions == 1 else "a plane"
-        known = f"; Amari's value for the step: {amari():.4f}" if dimensions == 1 else ""
+        theory = f"; Amari's value for the step: {amari():.4f}" if dimensions == 1 else ""
         table(
-            f"Boost at which a memory is forgotten, on {where}{known}",
+            f"Boost at which a memory is forgotten, on {where}{theory}",
             dimensions,
             grids,
             forgetting,

@@ -12,7 +12,7 @@ MOST_SLIPS = 3
 """Most slips of a longer word."""
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
+def nearest(name: str, names: Iterable[str]) -> str:
     """Return the known name that differs from a name by slips of typing alone; "" if there is none.
 
     A slip is a letter that is added, left out, replaced, or exchanged with the next one. Case, hyphens,
@@ -24,7 +24,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
     ('resting_level', '')
     """
     best, fewest = "", math.inf
-    for candidate in sorted(set(known), reverse=True):
+    for candidate in sorted(set(names), reverse=True):
         slips = _distance(name, candidate)
         if slips is not None and slips < fewest:
             best, fewest = candidate, slips
