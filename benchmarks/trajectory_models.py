@@ -205,7 +205,7 @@ def scenes() -> dict[str, Scene]:
     out |= {f"imported {path.stem}": Scene(lambda path=path: dd.load(path)) for path in SAMPLES}
     for kind in (*build.KINDS, *build.PARTS):
         out[f"contract {kind}"] = Scene(
-            lambda kind=kind: build.around(build.any_example(kind), noisy=True), build.Anything
+            lambda kind=kind: build.around(build.any_example(kind), noisy=True), build.AnyWorld
         )
     out |= {
         f"world {kind}": Scene(
