@@ -245,7 +245,7 @@ def _is_of_user(frame: FrameType) -> bool:
 
 def _culprit(frames: Sequence[FrameType], kind: object) -> type | None:
     """Return the class whose code failed: that of the innermost method of a user's kind."""
-    classes = [kind] if isinstance(kind, type) else foreign(kind)
+    classes = [] if kind is None else [kind] if isinstance(kind, type) else foreign(kind)
     classes = [cls for cls in classes if not registry.own(cls)]
     for frame in reversed(frames):
         cls = type(frame.f_locals.get("self"))

@@ -71,8 +71,9 @@ def test_two_wrong_kinds_are_two_problems() -> None:
     assert [p.where.split()[0] for p in model.check()] == ["wrong", "other"]
 
 
-def test_an_exception_of_a_kind_of_deodar_keeps_its_type() -> None:
-    with pytest.raises(RuntimeError, match="here"), errors_of_kind(dd.Gain()):
+@pytest.mark.parametrize("kind", [dd.Gain(), None])
+def test_an_exception_without_a_kind_of_a_user_keeps_its_type(kind: object) -> None:
+    with pytest.raises(RuntimeError, match="here"), errors_of_kind(kind):
         raise RuntimeError("here")
 
 
