@@ -110,10 +110,13 @@ class Body:
 
     def _require(self, new: PyTree, old: PyTree) -> None:
         """Raise WorldError if a state of the world has not the form of the one before."""
-        forms = [jax.tree.map(lambda a: list(jnp.shape(a)), tree) for tree in (new, old)]
-        if forms[0] != forms[1]:
+        # shapes are compared as lists: a state may be a class of the user, without `__eq__`
+        shapes = [[list(jnp.shape(a)) for a in jax.tree.leaves(tree)] for tree in (new, old)]
+        forms = [jax.tree.structure(tree) for tree in (new, old)]
+        if forms[0] != forms[1] or shapes[0] != shapes[1]:
+            texts = [", ".join(map(str, listed)) for listed in shapes] if forms[0] == forms[1] else forms
             subject = position(type(self.world), "advance")
-            raise WorldError(f"{subject} returns a state of the shapes {forms[0]}; it began with {forms[1]}")
+            raise WorldError(f"{subject} returns a state of the form {texts[0]}; it began with {texts[1]}")
 
     def _sensed(self, shared: Arrays, own: PyTree, now: PyTree, before: Arrays) -> Arrays:
         """Return the readings of the sensors; `before` are the last ones, which may be held."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -53,6 +54,37 @@ class Pure(dd.PureWorld):
         return state + 1 if state.sum() > 0 else state
 
 
+@jax.tree_util.register_pytree_node_class
+class Light:
+    """A state that is a class of the user, without `__eq__`."""
+
+    def __init__(self, level: jax.Array) -> None:
+        self.level = level
+
+    def tree_flatten(self) -> tuple[tuple[jax.Array], None]:
+        return (self.level,), None
+
+    @classmethod
+    def tree_unflatten(cls, _: None, children: tuple[jax.Array]) -> Light:
+        return cls(*children)
+
+
+class Lamp(Pure):
+    """A world whose state is a `Light`, with the level `after` once it advances."""
+
+    def __init__(self, after: jax.Array) -> None:
+        self.after = after
+
+    def start(self, shared: Any, arrays: Any) -> Light:
+        return Light(jnp.zeros(3))
+
+    def read(self, shared: Any, arrays: Any, state: Light, sensor: str, axes: dd.Axes) -> jax.Array:
+        return state.level
+
+    def advance(self, shared: Any, arrays: Any, state: Light, motors: Any) -> Light:
+        return Light(self.after)
+
+
 def seeing(moving: bool = False) -> dd.Model:
     model = dd.Model("seeing")
     model.add(dd.Sensor("eye", [dd.Axis("x", 0, 2, samples=3)], "light"))
@@ -91,3 +123,14 @@ def test_a_state_of_a_world_inside_the_step_keeps_its_shape() -> None:
         WorldError,
         *says,
     )
+
+
+@pytest.mark.parametrize("trials", [None, 2])
+def test_a_state_may_be_a_class_of_the_user(trials: int | None) -> None:
+    def run(after: jax.Array) -> np.ndarray:
+        seen = dd.simulate(seeing(), 6, record="eye.output", world=Lamp(after), trials=trials)
+        return seen["eye.output"].values[..., -1, :]
+
+    assert np.all(run(jnp.ones(3)) == 1)
+    says = "Lamp.advance in test_wrong_worlds.py", "[5]", "it began with [3]"
+    refused(lambda: run(jnp.ones(5)), WorldError, *says)
