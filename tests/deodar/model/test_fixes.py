@@ -18,6 +18,7 @@ import deodar as dd
 from deodar.errors import EditFix, ModelError, Problem
 from deodar.model import edit, new_elements
 from deodar.model.check import check
+from deodar.model.checks.resolution import with_cells
 from deodar.model.document import Document
 from deodar.model.proposed import apply
 from tests.deodar.model.proven_fix import faults, finding
@@ -224,3 +225,35 @@ def test_a_fix_with_more_text_keeps_its_edits() -> None:
     fix = check(_model(dd.Field("u", [X], resting_level=5, global_inhibition=1)).document)[0].fix
     assert isinstance(fix, EditFix) and fix.then("Or not").edits == fix.edits
     assert fix.then("Or not").at("shell").endswith("--set u.resting_level=-5. Or not")
+
+
+def _tiny_input(resting_level: float, kernel: dd.Gaussian) -> dd.Model:
+    """A field whose input is smaller than any sigmoid resolves."""
+    model = _model(dd.Field("u", [X], resting_level=resting_level, kernel=[kernel]))
+    model.set("s.amplitude", 1e-7)
+    model.set("s.windows", [(10, 20)])
+    return model
+
+
+def _weak_output() -> dd.Model:
+    """A field that gets the output of another one at rest."""
+    model = _model(dd.Field("v", [X]), dd.GaussianStimulus("s", [X], center=50, amplitude=1))
+    model["v"] >> model.add(dd.Field("u", [X], resting_level=1, kernel=[dd.Gaussian(1, 5)]))
+    return model
+
+
+@pytest.mark.parametrize(
+    "model",
+    [_weak_output(), *(_tiny_input(level, dd.Gaussian(1, 5)) for level in (1.0, 0.2, 0.0, -1e-8))],
+)
+def test_values_that_no_field_can_have_are_not_proposed(model: dd.Model) -> None:
+    problems = model.check()
+    assert problems and not any("sigmoid.beta" in p.fix or "First change" in p.fix for p in problems)
+    for problem in problems:
+        apply(model.document, problem.edits)
+
+
+@pytest.mark.parametrize("values", [{"sigmoid.beta": 1e9}, {"global_inhibition": math.inf}])
+def test_values_that_a_field_refuses_stay_as_they_are(values: dict[str, Any]) -> None:
+    """The fix of which they are a part states the reason; the check does not raise."""
+    assert with_cells(dd.Field("u", [X]), values) == values

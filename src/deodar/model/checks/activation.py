@@ -18,6 +18,7 @@ from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import cell
 from deodar.numerics.sigmoids import Linear, Logistic
+from deodar.parameters import parameter
 from deodar.proposed_edit import SetValues, rounded
 
 SILENT = 0.25
@@ -92,9 +93,9 @@ def _input_levels(wiring: Wiring, n: Node, e: Field | RateNode) -> InputLevels:
 
 
 def off_at_rest(wiring: Wiring, n: Node, e: Field | RateNode) -> dict[str, float]:
-    """Return values with which a field that is on at rest is off; empty where its input never changes."""
+    """Return values with which a field that is on at rest is off; empty where there are none."""
     at = _input_levels(wiring, n, e)
-    return _levels(e, at) if at.rest >= at.threshold and at.spans else {}
+    return _levels(e, at) if at.rest >= at.threshold else {}
 
 
 def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> Iterator[Problem]:
@@ -122,7 +123,8 @@ def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> 
         )
         stronger = f"Make its inputs stronger than {threshold - h:g}"
         raised = f"raise resting_level above {threshold - at.high:.3g}"
-        fix = assign("Raise its resting level", _levels(e, at), f"Or m{stronger[1:]}") if at.spans else ""
+        values = _levels(e, at)
+        fix = assign("Raise its resting level", values, f"Or m{stronger[1:]}") if values else ""
         if at.low == at.high:
             yield warning(n, sentence, f"{stronger}, in a window of time: {WINDOWS}")
         else:
@@ -151,7 +153,7 @@ def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) ->
     inhibition = wiring.bounds[n.id].get("interaction", (0.0, 0.0))[0]
     if isinstance(e, RateNode):
         inhibition = min(0.0, e.self_excitation)
-    least = at.rest + at.low + inhibition
+    least, values = at.rest + at.low + inhibition, _levels(e, at)
     if least > at.threshold + CLEAR and n.reads["input"]:
         sentence = (
             f"is always above its threshold {at.threshold:g}: with its resting level {at.rest:g} and its"
@@ -161,14 +163,14 @@ def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) ->
         if at.low == at.high:
             yield warning(n, sentence, f"Let its input be on in a window of time: {WINDOWS}")
         else:
-            yield warning(n, sentence, assign(_lower(at), _levels(e, at)) if at.spans else fix)
+            yield warning(n, sentence, assign(_lower(at), values) if values else fix)
     elif at.rest > at.threshold + CLEAR and at.rest + at.low > at.threshold + CLEAR and n.reads["input"]:
         sentence = (
             f"is on without any input: its resting level {at.rest:g} lies above its threshold"
             f" {at.threshold:g}, and only its own inhibition can silence it"
         )
         lower = f"Use a resting_level below {at.threshold:g}"
-        yield warning(n, sentence, assign(_lower(at), _levels(e, at)) if at.spans else lower)
+        yield warning(n, sentence, assign(_lower(at), values) if values else lower)
 
 
 def _lower(at: InputLevels) -> str:
@@ -178,14 +180,23 @@ def _lower(at: InputLevels) -> str:
 def _levels(e: Field | RateNode, at: InputLevels) -> dict[str, float]:
     """Return a resting level at which a field is off with its weakest input and on with its strongest.
 
-    A smaller distance than a flat sigmoid resolves needs a steeper one.
+    A smaller distance than a flat sigmoid resolves needs a steeper one. Empty where there is no such level,
+    or no sigmoid that is steep enough for it.
     """
+    if not at.spans:
+        return {}
     level = -at.rest if at.off(-at.rest) else rounded(at.threshold - (at.low + at.high) / 2)
     values = {"resting_level": level}
     missing = at.threshold - level
     if isinstance(e.sigmoid, Logistic) and e.sigmoid.bounds((level, level))[1] > AT_REST and missing > 0:
         values["sigmoid.beta"] = rounded(4 / missing)
-    return values
+    return values if values.get("sigmoid.beta", 0.0) <= _steepest() else {}
+
+
+def _steepest() -> float:
+    """Return the largest beta of a sigmoid."""
+    upper = parameter(Logistic, "beta").upper
+    return math.inf if upper is None else upper
 
 
 def _flat(n: Node, sigmoid: Logistic, at: InputLevels) -> Iterator[Problem]:
@@ -195,9 +206,10 @@ def _flat(n: Node, sigmoid: Logistic, at: InputLevels) -> Iterator[Problem]:
             f"gives an output of {output:.2g} at rest: with beta = {sigmoid.beta:g} its sigmoid is too flat"
             f" for a resting level of {at.rest:g}"
         )
-        steeper = 4 / (at.threshold - at.rest)
-        steepened = {"sigmoid.beta": rounded(steeper)}
-        yield warning(n, sentence, assign("Make it steeper", steepened, "Or lower its resting_level"))
+        steeper = rounded(4 / (at.threshold - at.rest))
+        lower = "Lower its resting_level"
+        steepened = assign("Make it steeper", {"sigmoid.beta": steeper}, f"Or l{lower[1:]}")
+        yield warning(n, sentence, steepened if steeper <= _steepest() else lower)
 
 
 def _noisy(n: Node, e: Field, at: InputLevels) -> Iterator[Problem]:

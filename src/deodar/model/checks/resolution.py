@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from deodar.elements.field import Field
-from deodar.errors import Problem, assign
+from deodar.errors import DeodarError, Problem, assign
 from deodar.leaves import per_axis, replace
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import Axis
@@ -64,10 +64,16 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 
 
 def with_cells(field: Field, values: Mapping[str, EditValue]) -> dict[str, EditValue]:
-    """Return new values for a field, with the mean over cells where its peaks need it then."""
+    """Return new values for a field, with the mean over cells where its peaks need it then.
+
+    Values that the field cannot have are returned as they are.
+    """
     new = field
-    for path, setting in values.items():
-        new = replace(new, path, setting)
+    try:
+        for path, setting in values.items():
+            new = replace(new, path, setting)
+    except DeodarError:  # the fix with these values states the reason
+        return dict(values)
     return {**values, "quadrature": "cell"} if _steep(new) else dict(values)
 
 
