@@ -127,7 +127,8 @@ def option(advice: str, name: str, text: str, argument: str = "", page: str = ""
 
 def joined(first: str, second: str) -> str:
     """Return two sentences as one text; either may be empty."""
-    return f"{first.rstrip('.')}. {second}" if first and second else first or second
+    ended = first if first.endswith("...") else f"{first.rstrip('.')}."
+    return f"{ended} {second}" if first and second else first or second
 
 
 @dataclass(frozen=True, repr=False)

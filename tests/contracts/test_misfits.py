@@ -40,7 +40,8 @@ def test_a_second_source_with_other_axes_is_a_problem(kind, port):
     bad = moved(axes)
     model.connect(model.add(source("wrong", tuple(bad))), model["example"][port])
     text = message(model)
-    for part in ("wrong.output", describe(bad), f"example.{port}", describe(axes), "Write: ", "(build.py:"):
+    parts = ("wrong.output", describe(bad), f"example.{port}", describe(axes), "Write: ", "(test_misfits.py:")
+    for part in parts:
         assert part in text, f"{part!r} is missing in: {text}"
 
 

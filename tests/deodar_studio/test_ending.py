@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
+import signal
 import threading
 import time
 from pathlib import Path
 from typing import Any
 
 import pytest
+import uvicorn
 
 from deodar_studio.live.unwaited import UnwaitedThreads
 from deodar_studio.project import run
@@ -72,6 +75,52 @@ def test_threads_that_work_are_told_from_those_that_have_ended() -> None:
     assert threads.working(0.0) and waiting[-1].cancelled()
     ended.set()
     assert work.result(SOON) and not threads.working(SOON)
+
+
+def test_the_end_rests_motors_before_all_else_and_goes_on_where_a_part_fails(
+    root: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    seen: list[str] = []
+    ended = threading.Event()
+
+    async def story(p: Page) -> None:
+        await p.runs()
+        await p.do("play")
+        hub = hubs[0]
+        pool: Any = hub._threads
+        for _ in range(pool._max_workers):  # as compilations that nothing interrupts
+            pool.submit(ended.wait)
+
+        async def store() -> None:
+            while hub.engine.running:
+                await asyncio.sleep(0.01)
+            seen.append("rests")
+
+        def fail() -> None:
+            seen.append("fails")
+            raise RuntimeError("no such thread")
+
+        hub.project.store_edits, hub.experiment.end = store, fail
+
+    hubs: list[Any] = []
+    hub_class = app.Hub
+    try:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(app, "Hub", lambda *words: hubs.append(hub_class(*words)) or hubs[0])
+            with studio(root, root / "node.json") as address:
+                play(address, story)
+    finally:
+        ended.set()
+    assert seen == ["rests", "fails"] and hubs[0].engine._closed
+    assert "no such thread" in capsys.readouterr().err
+
+
+def test_a_second_signal_skips_nothing_of_the_end() -> None:
+    config = uvicorn.Config(lambda: None)
+    server = serve.StudioServer(config, WorkingServer())  # type: ignore[arg-type]
+    for _ in range(2):
+        server.handle_exit(signal.SIGINT, None)
+    assert server.should_exit and not server.force_exit
 
 
 class WorkingServer:

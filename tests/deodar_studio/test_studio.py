@@ -497,7 +497,7 @@ def test_an_oversized_message_ends_only_that_connection(root: Path) -> None:
 def test_a_file_with_problems_lists_all_of_them_until_a_valid_file_is_opened(root: Path) -> None:
     document = json.loads((root / "selection.json").read_text())
     document["elements"]["u"]["tau"] = -1
-    document["elements"]["left"]["kind"] = "GausStimulus"
+    document["elements"]["left"]["kind"] = "GausianStimulus"
     (root / "bad.json").write_text(json.dumps(document))
 
     async def scene(p: Page) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from deodar import codec
 from deodar.cli import _options
 from deodar.cli._answer import INTERRUPTED
-from deodar.session.interrupt import interrupted_by_sigterm
+from deodar.session.interrupt import interrupted_at_end
 
 if TYPE_CHECKING:
     from deodar.session.recorder import Recorder
@@ -64,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
         from deodar.session.run_live import run_live
 
         pace = Pace()
-        with interrupted_by_sigterm(), _recorded(args, session) as recorder:
+        with interrupted_at_end(), _recorded(args, session) as recorder:
             try:
                 meter = run_live(session, duration, speed, args.longest_step, pace=pace)
             except KeyboardInterrupt:  # the usual end of a live run: the measurements are printed

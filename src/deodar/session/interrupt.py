@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import signal
+import sys
 import threading
 from collections.abc import Callable, Generator
 from types import FrameType
@@ -45,9 +46,19 @@ def stoppable(across: bool = False) -> Generator[Callable[[], None]]:
         yield check
 
 
+def ending_signals() -> list[signal.Signals]:
+    """Return the signals that end a process whose user or system wants it to end: SIGTERM, and SIGHUP of a
+    terminal that is closed, unless `nohup` has made the process ignore it.
+    """
+    if sys.platform == "win32" or signal.getsignal(signal.SIGHUP) == signal.SIG_IGN:
+        return [signal.SIGTERM]
+    return [signal.SIGTERM, signal.SIGHUP]
+
+
 @contextlib.contextmanager
-def interrupted_by_sigterm() -> Generator[list[int]]:
-    """Let SIGTERM interrupt as Ctrl-C does, so that a robot is put to rest; yield the list of those received.
+def interrupted_at_end() -> Generator[list[int]]:
+    """Let the signals that end a process interrupt as Ctrl-C does, so that a robot is put to rest; yield the
+    list of those received.
 
     Outside the main thread it does nothing.
     """
@@ -60,7 +71,9 @@ def interrupted_by_sigterm() -> Generator[list[int]]:
             raise KeyboardInterrupt
         handler(signal.SIGINT, frame)
 
-    with _handled(signal.SIGTERM, end):
+    with contextlib.ExitStack() as handlers:
+        for number in ending_signals():
+            handlers.enter_context(_handled(number, end))
         yield received
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
+from deodar.session.interrupt import ending_signals
 
 if TYPE_CHECKING:
     from deodar.worlds._base import World
@@ -55,7 +56,7 @@ def arguments(parser: _options.CommandParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Serve until Ctrl-C or SIGTERM, then print what became of the messages."""
+    """Serve until Ctrl-C, SIGTERM or the end of the terminal, then print what became of the messages."""
     # start-up time: these bring JAX
     from deodar_robots.zenoh import link
     from deodar_robots.zenoh.link import TlsFiles
@@ -73,7 +74,7 @@ def run(args: argparse.Namespace) -> int:
     files = TlsFiles(args.authority, args.certificate, args.key)
     called, place = args.name or free_name(world), args.at or link.HERE
     server = WorldServer(world, called, place, clock, args.trusted, files)
-    before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = {number: signal.signal(number, end) for number in (signal.SIGINT, *ending_signals())}
     name, at = server.about.name, server.endpoint
     try:
         if not args.json:

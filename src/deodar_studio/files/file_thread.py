@@ -22,10 +22,24 @@ A guess: a network folder that does not answer takes longer.
 async def in_file_thread(function: Callable[[], T], where: str) -> T:
     """Run a function in a new daemon thread and return its result.
 
-    A thread pool would be blocked by a few calls that never return, and would keep the process alive.
-
     Raises:
         DocumentError: the call takes longer than `SECONDS`; the thread continues, and its result is dropped.
+    """
+    try:
+        async with asyncio.timeout(SECONDS):
+            return await asyncio.wrap_future(started(function))
+    except TimeoutError:
+        raise DocumentError(
+            f"took longer than {SECONDS:g} s to read or write",
+            where=where,
+            fix="Check its disk or network folder",
+        ) from None
+
+
+def started(function: Callable[[], T]) -> Future[T]:
+    """Run a function in a new daemon thread.
+
+    A thread pool would be blocked by a few calls that never return, and would keep the process alive.
     """
     future: Future[T] = Future()
 
@@ -39,15 +53,7 @@ async def in_file_thread(function: Callable[[], T], where: str) -> T:
 
     future.set_running_or_notify_cancel()
     threading.Thread(target=work, name="deodar-file", daemon=True).start()
-    try:
-        async with asyncio.timeout(SECONDS):
-            return await asyncio.wrap_future(future)
-    except TimeoutError:
-        raise DocumentError(
-            f"took longer than {SECONDS:g} s to read or write",
-            where=where,
-            fix="Check its disk or network folder",
-        ) from None
+    return future
 
 
 async def try_in_file_thread(function: Callable[[], None]) -> None:

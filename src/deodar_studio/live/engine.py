@@ -141,9 +141,11 @@ class Engine:
         self._wake.set()
         self._compiler.shutdown()
         self._thread.join(PARTING_SECONDS)
-        self._halt()
-        if not self._thread.is_alive():
-            self.stop_record()
+        try:
+            self._halt()
+        finally:
+            if not self._thread.is_alive():
+                self.stop_record()
 
     def working(self) -> bool:
         """Return whether a thread still works after `close`."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
+import sys
 from collections.abc import Awaitable, Callable, Iterable, Iterator
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from deodar_studio.experiment.run_place import MOST_WORKERS, USUAL_WORKERS
 from deodar_studio.field_analysis.field_tuning import FieldTuning
 from deodar_studio.field_analysis.regime_measurement import RegimeMeasurement
 from deodar_studio.files.content import is_experiment
-from deodar_studio.files.file_thread import in_file_thread, try_in_file_thread
+from deodar_studio.files.file_thread import in_file_thread, started, try_in_file_thread
 from deodar_studio.files.state_store import StateStore, state_folder
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.live.compilation import CompileTimes
@@ -44,6 +45,11 @@ from deodar_studio.world.embodiment import Embodiment, signals
 STORE_SECONDS = 3.0
 """Wall time between two checks for unsaved edits to store, in seconds."""
 
+
+CLOSING_SECONDS = 10.0
+"""Longest wall time for which the end waits for each of its parts, in seconds; a disk or a robot may not
+answer.
+"""
 
 FOLLOW_SECONDS = 0.5
 """Wall time between two checks whether a record grew, in seconds."""
@@ -300,23 +306,39 @@ class Hub:
         await self.experiment.follow()
 
     async def close(self) -> None:
-        """Store unsaved edits and stop the engine."""
+        """Put motors to rest, store unsaved edits and end the rest; a part that fails stops no other."""
         self._storing.cancel()
         self._following.cancel()
         if self._absence is not None:
             self._absence.cancel()
+        self.engine.call(lambda: self.engine.play(False))
         self.project.run.end()
-        await self.project.store_edits()
-        await self.experiment.store_edits()
-        await asyncio.to_thread(self.experiment.end)
-        await asyncio.to_thread(self.measurement.end)
-        await asyncio.to_thread(self.field_tuning.end)
-        await asyncio.to_thread(self.engine.close)
-        self.embodiment.close()
+        await _attempt(self.project.store_edits())
+        await _attempt(self.experiment.store_edits())
+        # compilations may hold all threads of the pool
+        for end in (
+            self.experiment.end,
+            self.measurement.end,
+            self.field_tuning.end,
+            self.engine.close,
+            self.embodiment.close,
+        ):
+            await _attempt(asyncio.wrap_future(started(end)))
 
     def working(self) -> bool:
         """Return whether a thread still works after the event loop has ended, such as one that compiles."""
         return self._threads.working(0.1) or self.engine.working()
+
+
+async def _attempt(work: Awaitable[None]) -> None:
+    """Await a part of the end for a time; an error is written to the terminal."""
+    try:
+        async with asyncio.timeout(CLOSING_SECONDS):
+            await work
+    except TimeoutError:
+        sys.stderr.write(f"deodar studio: a part of the end takes longer than {CLOSING_SECONDS:g} s\n")
+    except Exception as error:  # the rest ends all the same
+        sys.stderr.write(f"deodar studio: {error}\n")
 
 
 async def _repeat(work: Callable[[], Awaitable[None]], seconds: float) -> None:

@@ -10,13 +10,14 @@ import socket
 import sys
 import webbrowser
 from collections.abc import Callable, Generator
+from types import FrameType
 from urllib.parse import urlsplit
 
 import uvicorn
 
 from deodar import private_file
 from deodar.errors import OutputError
-from deodar.session.interrupt import interrupted_by_sigterm
+from deodar.session.interrupt import interrupted_at_end
 from deodar_studio.access import token as tokens
 from deodar_studio.access.guard import is_local
 from deodar_studio.access.redirect_file import RedirectFile
@@ -44,17 +45,22 @@ class StudioServer(uvicorn.Server):
         super().__init__(config)
         self.working = studio.working
 
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """End after a signal; a second one must not skip the rest of motors and the storing of edits."""
+        super().handle_exit(sig, frame)
+        self.force_exit = False
+
 
 def serve(service: Service, browser: bool, say: Callable[[str], None]) -> int:
-    """Serve until Ctrl-C or SIGTERM, and open the page in a browser if `browser` is true.
+    """Serve until Ctrl-C, SIGTERM or SIGHUP, and open the page in a browser if `browser` is true.
 
     `say` is called with the address when the server is ready. An address with a token is passed to the
     browser in a file of this user, which is removed when the studio ends. If a thread still compiles then,
     this process ends at once: a compilation cannot be interrupted, and Python would wait for it.
 
     Returns:
-        the status of the command: 0 after Ctrl-C, after SIGTERM what a shell reports of a process that it has
-        ended.
+        the status of the command: 0 after Ctrl-C, after another signal what a shell reports of a process
+        that it has ended.
     """
     redirects: list[RedirectFile] = []
 
@@ -80,14 +86,15 @@ def serve(service: Service, browser: bool, say: Callable[[str], None]) -> int:
 
     server, bound = prepare(service, ready, ended)
     # the server passes a signal on after it has closed; Ctrl-C is the normal end
-    with interrupted_by_sigterm() as received, contextlib.suppress(KeyboardInterrupt), short_turns():
+    with interrupted_at_end() as received, contextlib.suppress(KeyboardInterrupt), short_turns():
         server.run(sockets=[bound])
-    if received:
-        sys.stderr.write("deodar studio: SIGTERM has ended the studio\n")
-    status = 128 + signal.SIGTERM if received else 0
-    if server.working():
+    status = 128 + received[0] if received else 0
+    with contextlib.suppress(OSError):  # the terminal may be gone
+        if received:
+            sys.stderr.write(f"deodar studio: {signal.Signals(received[0]).name} has ended the studio\n")
         sys.stdout.flush()
         sys.stderr.flush()
+    if server.working():
         os._exit(status)
     return status
 

@@ -12,16 +12,31 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
-from deodar.session.interrupt import interrupted_by_sigterm
+from deodar.session.interrupt import interrupted_at_end
 
 
 def test_sigterm_interrupts_also_before_the_first_step_where_sigint_is_ignored() -> None:
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        with pytest.raises(KeyboardInterrupt), interrupted_by_sigterm():
+        with pytest.raises(KeyboardInterrupt), interrupted_at_end():
             signal.raise_signal(signal.SIGTERM)
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGHUP")
+def test_the_end_of_a_terminal_interrupts_unless_nohup_has_it_ignored() -> None:
+    before = signal.getsignal(signal.SIGHUP)
+    try:
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
+        with pytest.raises(KeyboardInterrupt), interrupted_at_end():
+            signal.raise_signal(signal.SIGHUP)
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        with interrupted_at_end() as received:
+            signal.raise_signal(signal.SIGHUP)
+        assert received == []
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 def test_a_live_run_in_the_background_of_a_script_ends_with_sigterm_and_says_so(tmp_path: Path) -> None:

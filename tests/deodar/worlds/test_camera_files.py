@@ -87,13 +87,12 @@ def test_a_reader_that_was_killed_is_an_error_and_a_reset_opens_the_file_again(t
     camera.close()
 
 
-@pytest.mark.parametrize(
-    ("kind", "sensor", "axes"), [(dd.Video, "picture", AXES), (dd.EventFile, "on", AXES[:2])]
-)
-def test_a_video_that_is_closed_has_no_reader_until_the_next_reading(
-    kind: Any, sensor: str, axes: Any, tmp_path: Path
-) -> None:
-    file = long_video(tmp_path)
+def test_a_video_that_is_closed_has_no_reader_until_the_next_reading(tmp_path: Path) -> None:
+    require_no_reader_once_closed(dd.Video, "picture", AXES, long_video(tmp_path))
+
+
+def require_no_reader_once_closed(kind: Any, sensor: str, axes: Any, file: Path) -> None:
+    """Require that a world of a video has a reader while it is open alone, and goes on where it was."""
     worlds = [kind(file), kind(file)]
     seen = worlds[0].sense(sensor, axes, 2000.0)
     assert len(readers(file)) == 2

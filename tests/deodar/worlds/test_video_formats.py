@@ -99,7 +99,7 @@ def test_a_file_of_another_format_is_no_camera(name: str, tmp_path: Path):
         dd.Camera(str(file)).reset(0)
 
 
-@pytest.mark.parametrize("kind", [dd.Picture, dd.Video, dd.EventFile, dd.Camera])
+@pytest.mark.parametrize("kind", [dd.Picture, dd.Video, dd.Camera])
 def test_a_pipe_in_place_of_a_file_says_that_its_content_is_saved_first(kind: Any, tmp_path: Path):
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(WorldError, match=r"pipe: is not a regular file\. Save its content in a file"):

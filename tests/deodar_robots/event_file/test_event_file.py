@@ -232,7 +232,7 @@ def test_an_argument_that_names_nothing_is_refused(
 
 def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.aedat")
-    with pytest.raises(WorldError, match="there is no such file"):
+    with pytest.raises(WorldError, match="is not a regular file"):
         dd.EventFile(tmp_path / "pipe.aedat")
     with pytest.raises(WorldError, match="file is 5; expected the path of a recording"):
         dd.EventFile(5)  # type: ignore[arg-type]

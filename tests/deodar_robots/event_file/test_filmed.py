@@ -14,6 +14,7 @@ from deodar.errors import WorldError
 from deodar.worlds import _capture
 from deodar_robots.event_file.filmed import DARK
 from deodar_robots.eye.event_camera import EventCamera
+from tests.deodar.worlds.test_camera_files import long_video, require_no_reader_once_closed
 
 QUIET = EventCamera(spread=0.0, leak=0.0, shot=0.0)
 WHOLE = (dd.Axis("column", 0, 63, 64), dd.Axis("row", 0, 47, 48))
@@ -131,3 +132,7 @@ def test_a_file_that_is_no_video_is_refused(tmp_path: Path) -> None:
     path.write_text("not a video")
     with pytest.raises(WorldError, match=r"film\.mp4: cannot be read as a video"):
         dd.EventFile(path)
+
+
+def test_a_filmed_video_that_is_closed_has_no_reader_until_the_next_reading(tmp_path: Path) -> None:
+    require_no_reader_once_closed(dd.EventFile, "on", AXES, long_video(tmp_path))

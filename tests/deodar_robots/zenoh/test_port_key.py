@@ -119,6 +119,7 @@ def test_a_key_that_others_can_read_is_refused(robot):
     file_of(robot).write_text("short")
     with pytest.raises(WorldError, match="does not hold deodar: and a password"):
         Zenoh(at=robot.endpoint)
+    file_of(robot).unlink()  # the port may be that of another robot later
 
 
 def test_a_model_with_another_key_is_told_which_file_it_used(robot):
