@@ -6,17 +6,24 @@ from __future__ import annotations
 
 import json
 import shutil
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 import pytest
+from jax import Array
 
 import deodar as dd
+from deodar import registry
 from deodar.cli import main
 from deodar.compiler.device import find
 from deodar.errors import OutputExists
 from deodar.experiments import row_line
+from deodar.experiments.experiment_migrations import migrate
 from deodar.model import document
+from deodar.model.kept_presets import kept_presets
 from deodar.recording.provenance import made_by
 from deodar.recording.repeat import repeat
 from deodar_studio.files.state_store import StateStore
@@ -262,3 +269,61 @@ def test_unsaved_edits_of_an_experiment_of_version_3_are_converted(tmp_path: Pat
     stored = store.experiment(offered.name)
     assert stored is not None and stored.data["actions"][0]["value"] is None
     assert stored.data["factors"]["how"]["levels"]["weak"]["lasting.windows"] is None
+
+
+# ----------------------------------------------- version 3: parameters of the same names in kinds of packages
+
+
+@dataclass(frozen=True)
+class Pooling(dd.Coupling):
+    """A coupling of a package, with parameters that have the names of those that version 4 changes."""
+
+    windows: Sequence[float] = (1.0, 2.0)
+    quadrature: Annotated[str, dd.Recompile(choices=("cell", "none"))] = "none"
+    direct: ClassVar = {"output": ("input",)}
+
+    def output(self, at: dd.Setting) -> dict[str, Array]:
+        return {"output": at.inputs["input"] * len(self.windows)}
+
+
+STATED = {"windows": [], "quadrature": "cell"}
+
+
+@pytest.fixture
+def pooled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """Return a document of version 3 with that coupling, beside a stimulus and a field."""
+    monkeypatch.setitem(vars(registry)["_kinds"], "Pooling", Pooling)
+    elements = {
+        "s": {"kind": "Boost", "id": "00000001", "windows": []},
+        "k": {"kind": "Pooling", "id": "00000002", **STATED},
+        "u": {"kind": "Field", "id": "00000003", "quadrature": "cell"},
+    }
+    preset = {"name": "wide", "group": "", "values": {"00000001": {"windows": []}, "00000002": STATED}}
+    content = {"deodar": 3, "elements": elements, "layout": {"presets": [preset]}}
+    (tmp_path / "model.json").write_text(json.dumps(content))
+    return tmp_path / "model.json"
+
+
+def test_parameters_of_a_package_keep_their_values(pooled: Path) -> None:
+    model = dd.load(pooled)
+    assert (model.get("k.windows"), model.get("k.quadrature")) == ((), "cell")
+    assert (model.get("s.windows"), model.get("u.quadrature")) == (None, "cell-0.1")
+    (preset,) = kept_presets(model.document)
+    assert preset.values == {"00000001": {"windows": None}, "00000002": STATED}
+
+
+def test_an_experiment_leaves_parameters_of_a_package_as_they_are(pooled: Path) -> None:
+    values = {f"{path}.{name}": value for path in "ksu" for name, value in STATED.items()}
+    actions = [{"kind": "Set", "at": 1, "path": path, "value": value} for path, value in values.items()]
+    factors = {"how": {"path": "k.windows", "levels": [[], [1.0]]}, "all": {"levels": {"old": values}}}
+    content = {"experiment": 3, "name": "e", "model": pooled.name, "limit": 10, "actions": actions}
+    new = migrate(content | {"factors": factors}, dd.load(pooled).document)
+    converted: Any = {**values, "s.windows": None, "u.quadrature": "cell-0.1"}
+    ours = {path: value for path, value in converted.items() if path not in ("s.quadrature", "u.windows")}
+    rows: Any = new["actions"]
+    assert {row["path"]: row["value"] for row in rows}.items() >= ours.items()
+    levels: Any = new["factors"]
+    assert levels["all"]["levels"]["old"].items() >= ours.items()
+    assert levels["how"] == factors["how"]
+    pooled.with_name("e.json").write_text(json.dumps(content | {"actions": actions[:1]}))
+    assert dd.Experiment.load(pooled.with_name("e.json")).plan.actions == (dd.Set(1, "k.windows", []),)

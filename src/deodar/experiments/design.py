@@ -313,11 +313,10 @@ EXAMPLE = "example:"
 def _migrated(data: Mapping[str, Json], folder: Path | None, read: Callable[[str], Model]) -> JsonObject:
     """Return plain data in the present version.
 
-    If the model cannot be opened, the paths of version 1 are not converted: no trial can run without the
-    model.
+    If the model cannot be opened, it resolves no paths: no trial can run without the model.
     """
     doc = None
-    if data["experiment"] == 1:
+    if data["experiment"] in range(1, VERSION):
         with contextlib.suppress(DeodarError):
             doc = read(str(_beside(data.get("model", ""), folder, False))).document
     return migrate(data, doc)

@@ -7,13 +7,14 @@ is never on, null means always, and `cell` is another rule.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 from deodar import file_version
 from deodar.codec import Json, JsonObject
 from deodar.model.document import Document
-from deodar.model.migrations import recorded, value_of_3, values_of_3
+from deodar.model.migrations import KindOf, kind_lookup, recorded, value_of_3, values_of_3
 
 VERSION = 4
 """Version of experiments, in their files and in the identity of their rows."""
@@ -43,7 +44,8 @@ def migrate(experiment: Mapping[str, Json], doc: Document | None) -> JsonObject:
 
     Args:
         experiment: the plain data of the experiment.
-        doc: the document of its model, which resolves the paths of version 1; None: they are not converted.
+        doc: the document of its model, which resolves paths; None: those of version 1 are not converted, and
+            values by the names of their parameters alone.
 
     Raises:
         DocumentError: it is of a later version.
@@ -55,7 +57,7 @@ def migrate(experiment: Mapping[str, Json], doc: Document | None) -> JsonObject:
     if version in (1, 2):
         out = _parts(out, _renamed)
     if version in (1, 2, 3):
-        out = _from_3(out) | {"experiment": VERSION}
+        out = _from_3(out, kind_lookup(doc)) | {"experiment": VERSION}
     return out
 
 
@@ -78,23 +80,23 @@ def _renamed(kind: str, values: dict[str, Any]) -> dict[str, Any]:
     return {names.get(key, key): value for key, value in values.items()}
 
 
-def _from_3(experiment: JsonObject) -> JsonObject:
+def _from_3(experiment: JsonObject, kind_of: KindOf) -> JsonObject:
     """Convert the values that actions and the levels of factors set."""
-    out = _parts(experiment, _set_of_3)
+    out = _parts(experiment, functools.partial(_set_of_3, kind_of))
     factors = experiment.get("factors")
     if isinstance(factors, dict):
         rows = cast("dict[str, Any]", factors)
-        out["factors"] = {name: _factor_of_3(factor) for name, factor in rows.items()}
+        out["factors"] = {name: _factor_of_3(kind_of, factor) for name, factor in rows.items()}
     return out
 
 
-def _set_of_3(kind: str, values: dict[str, Any]) -> dict[str, Any]:
+def _set_of_3(kind_of: KindOf, kind: str, values: dict[str, Any]) -> dict[str, Any]:
     if kind != "Set" or "value" not in values:
         return values
-    return values | {"value": value_of_3(values.get("path"), values["value"])}
+    return values | {"value": value_of_3(values.get("path"), values["value"], kind_of)}
 
 
-def _factor_of_3(factor: Any) -> Any:
+def _factor_of_3(kind_of: KindOf, factor: Any) -> Any:
     """Convert the levels of a factor.
 
     A list becomes named levels if a value changes: the rows of trials state the names that its values had.
@@ -103,14 +105,15 @@ def _factor_of_3(factor: Any) -> Any:
     path, levels = settings.get("path", ""), settings.get("levels")
     if isinstance(levels, list):
         named = {str(level): level for level in cast("list[Any]", levels)}
-        if all(value_of_3(path, level) is level for level in named.values()):
+        if all(value_of_3(path, level, kind_of) is level for level in named.values()):
             return factor
     elif isinstance(levels, dict):
         named = cast("dict[str, Any]", levels)
     else:
         return factor
     converted = {
-        name: value_of_3(path, level) if path else values_of_3(level) for name, level in named.items()
+        name: value_of_3(path, level, kind_of) if path else values_of_3(level, kind_of)
+        for name, level in named.items()
     }
     return settings | {"levels": converted}
 

@@ -8,20 +8,22 @@ output of a field; the rule of older versions is `cell-0.1` there.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, cast
 
+from deodar import registry
 from deodar.codec import Json
 from deodar.errors import UnknownName
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.kept_presets import PRESETS
+from deodar.parameters import Parameter, parameters
 
 WINDOWS = "windows"
-"""The parameter whose empty list has another meaning since version 4; only stimuli have one of this name."""
+"""The parameter of stimuli whose empty list has another meaning since version 4."""
 
 QUADRATURE = "quadrature"
-"""The parameter whose value "cell" is another rule since version 4; only fields have one of this name."""
+"""The parameter of fields whose value "cell" is another rule since version 4."""
 
 VALUES_CHANGED = 4
 """The version of documents since which values of these parameters have another meaning."""
@@ -120,39 +122,90 @@ def _from_3(document: Mapping[str, Json]) -> dict[str, Json]:
     out = dict(document)
     if isinstance(elements, dict):
         bodies = cast("dict[str, Any]", elements)
-        out["elements"] = {path: values_of_3(body) for path, body in bodies.items()}
+        out["elements"] = {path: _body_of_3(body) for path, body in bodies.items()}
     presets = cast("dict[str, Any]", layout).get(PRESETS) if isinstance(layout, dict) else None
     if isinstance(presets, list):
-        listed = [_preset(preset) for preset in cast("list[Any]", presets)]
+        kinds = _kinds_by_id(elements)
+        listed = [_preset(preset, kinds) for preset in cast("list[Any]", presets)]
         out["layout"] = {**cast("dict[str, Any]", layout), PRESETS: listed}
     return out
 
 
-def _preset(preset: Any) -> Any:
+def _body_of_3(body: Any) -> Any:
+    kind = cast("dict[str, Any]", body).get("kind") if isinstance(body, dict) else None
+    return values_of_3(body, lambda _: _known(kind))
+
+
+def _kinds_by_id(elements: Any) -> dict[Any, type[Any] | None]:
+    """Return the classes of elements that state their ids, as all do that a file of deodar holds."""
+    bodies = cast("dict[str, Any]", elements).values() if isinstance(elements, dict) else ()
+    stated = [cast("dict[str, Any]", body) for body in bodies if isinstance(body, dict)]
+    return {str(body.get("id")): _known(body.get("kind")) for body in stated}
+
+
+def _preset(preset: Any, kinds: Mapping[Any, type[Any] | None]) -> Any:
     values = cast("dict[str, Any]", preset).get("values") if isinstance(preset, dict) else None
     if not isinstance(values, dict):
         return preset
     by_element = cast("dict[str, Any]", values)
-    return {**preset, "values": {ident: values_of_3(inner) for ident, inner in by_element.items()}}
+    converted = {
+        ident: values_of_3(inner, lambda _, ident=ident: kinds.get(ident))
+        for ident, inner in by_element.items()
+    }
+    return {**preset, "values": converted}
 
 
-def values_of_3(values: Any) -> Any:
+KindOf = Callable[[str], type[Any] | None]
+"""A function that returns the class of the element whose parameter a path names; None: it is not known."""
+
+
+def values_of_3(values: Any, kind_of: KindOf) -> Any:
     """Convert the values of parameters before document version 4, by name or path."""
     if not isinstance(values, dict):
         return values
     by_path = cast("dict[str, Any]", values)
-    return {path: value_of_3(path, value) for path, value in by_path.items()}
+    return {path: value_of_3(path, value, kind_of) for path, value in by_path.items()}
 
 
-def value_of_3(path: Any, value: Any) -> Any:
+def value_of_3(path: Any, value: Any, kind_of: KindOf) -> Any:
     """Convert the value of one parameter before document version 4, of which the name or path is known.
 
-    Without windows a stimulus was always on, and `cell` was the rule `cell-0.1`.
+    Without windows a stimulus was always on, and `cell` was the rule `cell-0.1`. A parameter of the same name
+    that cannot have the converted value belongs to a kind of a package and keeps its value.
     """
     name = path.rpartition(".")[2] if isinstance(path, str) else ""
     if name == WINDOWS and value in ([], ()):
+        declared = _declared(kind_of(path), name)
+        return None if declared is None or declared.optional else value
+    if name == QUADRATURE and value == "cell":
+        declared = _declared(kind_of(path), name)
+        return "cell-0.1" if declared is None or "cell-0.1" in declared.choices else value
+    return value
+
+
+def kind_lookup(doc: Document | None) -> KindOf:
+    """Return the function that looks elements up in a document; without a document none is known."""
+
+    def kind_of(path: str) -> type[Any] | None:
+        try:
+            entry = None if doc is None else find.target(doc, path).entry
+        except UnknownName:  # the reader of the path reports it
+            return None
+        return None if entry is None else type(entry.element)
+
+    return kind_of
+
+
+def _known(kind: Any) -> type[Any] | None:
+    """Return the class of a kind; None: there is none, which the reader of the document reports."""
+    try:
+        return registry.kind(kind) if isinstance(kind, str) else None
+    except UnknownName:
         return None
-    return "cell-0.1" if name == QUADRATURE and value == "cell" else value
+
+
+def _declared(kind: type[Any] | None, name: str) -> Parameter | None:
+    return None if kind is None else next((p for p in parameters(kind) if p.name == name), None)
 
 
 def _key(axes: dict[str, Json], axis: AxisData) -> str:

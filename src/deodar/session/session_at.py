@@ -13,7 +13,7 @@ import numpy as np
 from deodar import codec
 from deodar.errors import RecordError, TimeError
 from deodar.model import find
-from deodar.model.migrations import VALUES_CHANGED, value_of_3
+from deodar.model.migrations import VALUES_CHANGED, kind_lookup, value_of_3
 from deodar.model.model import Model
 from deodar.progress import telling
 from deodar.resources import Resources, use_resources
@@ -24,6 +24,8 @@ from deodar.worlds._base import World
 
 if TYPE_CHECKING:
     import xarray
+
+    from deodar.model.document import Document
 
 
 def session_at(
@@ -63,7 +65,7 @@ def session_at(
     changes: list[Change] = []
     if "session" in description:
         model, settings = _of_session(stored, description, trust)
-        changes = _changes(stored, description)
+        changes = _changes(stored, description, model.document)
     else:
         model, settings = request(stored, trust)
     if settings.get("trials") is not None or settings.get("sweep"):
@@ -84,11 +86,12 @@ def session_at(
     return session
 
 
-def _changes(data: xarray.Dataset, description: Any) -> list[Change]:
+def _changes(data: xarray.Dataset, description: Any, doc: Document) -> list[Change]:
     """Return the changes of a recorded session; their values are of the version of its document."""
     entries: Any = codec.parse(str(data.attrs.get("changes", "[]")))
     if description["document"]["deodar"] < VALUES_CHANGED:
-        entries = [e | {"value": value_of_3(e["what"], e["value"])} for e in entries]
+        kind_of = kind_lookup(doc)
+        entries = [e | {"value": value_of_3(e["what"], e["value"], kind_of)} for e in entries]
     return list(map(from_file, entries))
 
 
