@@ -493,17 +493,20 @@ class MuJoCo(World):
     # -------------------------------------------------------------------------------------- state and records
 
     def keep(self) -> Any:
-        return {
+        state = {
             "tick": np.asarray(self._tick),
             "time": np.array([data.time for data in self._copies]),
             "qpos": np.array([data.qpos for data in self._copies]),
             "qvel": np.array([data.qvel for data in self._copies]),
             "act": np.array([data.act for data in self._copies]),
             "warmstart": np.array([data.qacc_warmstart for data in self._copies]),
-            "mocap": np.array([np.hstack([data.mocap_pos, data.mocap_quat]) for data in self._copies]),
             "pushes": np.array([data.xfrc_applied for data in self._copies]),
             "frames": np.array(self._frames),
         }
+        # of a scene without them, states of versions that stored no mocap bodies have the same entries
+        if self.model.nmocap:
+            state["mocap"] = np.array([np.hstack([d.mocap_pos, d.mocap_quat]) for d in self._copies])
+        return state
 
     def put(self, kept: Any) -> None:
         self._tick = int(kept["tick"])
@@ -511,7 +514,8 @@ class MuJoCo(World):
             data.time = float(kept["time"][k])
             data.qpos[:], data.qvel[:] = kept["qpos"][k], kept["qvel"][k]
             data.act[:] = kept["act"][k]
-            data.mocap_pos[:], data.mocap_quat[:] = np.split(kept["mocap"][k], [3], axis=1)
+            if "mocap" in kept:
+                data.mocap_pos[:], data.mocap_quat[:] = np.split(kept["mocap"][k], [3], axis=1)
             data.xfrc_applied[:] = kept["pushes"][k]
             simulator().mj_forward(self.model, data)
             # which `mj_forward` changes

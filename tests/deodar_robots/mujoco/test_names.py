@@ -11,6 +11,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import RunWarning, WorldError
+from deodar.recording import stored
 from deodar_robots.mujoco.mujoco import MuJoCo
 
 ASSETS = Path(str(find_spec("gymnasium").origin)).parent / "envs" / "mujoco" / "assets"
@@ -142,6 +143,28 @@ def test_a_mocap_body_follows_its_motors_and_is_part_of_the_state(unnamed: Path)
     np.testing.assert_allclose(world._copies[1].body("hand").xpos, [0, 0, 1])
     world.put(state)
     np.testing.assert_allclose(world._copies[1].body("hand").xpos, [4, 5, 6])
+
+
+def test_a_state_stored_before_mocap_bodies_were_part_of_it_is_read(tmp_path: Path):
+    file = tmp_path / "slide.xml"
+    file.write_text(
+        '<mujoco><worldbody><body><joint type="slide"/><geom size="0.1"/></body></worldbody></mujoco>'
+    )
+    world = MuJoCo(file)
+    world.reset(0, [0, 1])
+    earlier = {
+        "tick": np.asarray(3),
+        "time": np.array([0.03, 0.03]),
+        "qpos": np.array([[0.1], [0.2]]),
+        "qvel": np.array([[1.0], [2.0]]),
+        "act": np.zeros((2, 0)),
+        "warmstart": np.array([[0.0], [0.0]]),
+        "pushes": np.zeros((2, 2, 6)),
+        "frames": np.array([[0.0], [0.1]]),
+    }
+    world.put(stored.filled(world.keep(), stored.leaves(earlier, "the world"), "the world"))
+    np.testing.assert_array_equal(world.sense("joint_angles", (), 0.0), earlier["qpos"])
+    np.testing.assert_array_equal(world.keep()["frames"], earlier["frames"])
 
 
 def test_an_actuator_with_several_commands_is_one_motor(tmp_path: Path):
