@@ -16,12 +16,15 @@ from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from numbers import Number
 from pathlib import Path
 from types import FrameType
-from typing import NamedTuple, NoReturn, cast
+from typing import TYPE_CHECKING, NamedTuple, NoReturn, cast
 
 import numpy as np
 
 from deodar import plugins, registry
 from deodar.errors import DeodarError, KindError, Problem, first_line, show
+
+if TYPE_CHECKING:
+    from jax import Array
 
 LIBRARIES = frozenset({*sys.stdlib_module_names, "jax", "jaxlib", "numpy", "scipy"})
 """Packages whose frames are no code of a kind."""
@@ -312,27 +315,28 @@ def _file(file: str) -> str:
 # ---------------------------------------------------------------------------------------------------- results
 
 
-Shapes = Mapping[str, tuple[int, ...]]
-"""The shapes of arrays by name."""
+Expected = Mapping[str, "tuple[int, ...] | Array"]
+"""By name the shape of an output, or the state before."""
 
 
-def require_arrays(kind: object, method: str, arrays: object, expected: Shapes | None) -> None:
+def require_arrays(kind: object, method: str, arrays: object, expected: Expected | None) -> None:
     """Raise KindError if a method has not returned the arrays that its contract asks for.
 
     Args:
         kind: the object that has the method.
-        method: name of the method.
+        method: name of the method: `output`, `init` or `advance`.
         arrays: what it has returned.
-        expected: the shape of each array by its name; None: any arrays.
+        expected: what they have to be; an output may have a shape that spreads to its own. None: any arrays.
     """
     classes = foreign(kind) or [type(kind)]
     cls = type(kind) if type(kind) in classes else classes[0]
     called = next((name for name in (method, "__call__", "terms") if name in vars(cls)), "")
-    for fault, fix in _faults(arrays, expected, "output port" if method == "output" else "state"):
+    noun = "output port" if method == "output" else "state"
+    for fault, fix in _faults(arrays, expected, noun):
         raise KindError(f"{position(cls, called)} {fault}", fix=fix, kind=cls.__name__)
 
 
-def _faults(arrays: object, expected: Shapes | None, noun: str) -> Iterator[tuple[str, str]]:
+def _faults(arrays: object, expected: Expected | None, noun: str) -> Iterator[tuple[str, str]]:
     if not isinstance(arrays, Mapping):
         returned = "an array" if hasattr(arrays, "shape") else show(arrays)
         yield f"returns {returned}, not a dict of arrays", 'Write: return {"NAME": array}'
@@ -345,8 +349,43 @@ def _faults(arrays: object, expected: Shapes | None, noun: str) -> Iterator[tupl
         if name not in values:
             yield f"returns no value for the {noun} {name!r}", f"It returns {_listed(declared)}"
             continue
-        if fault := misshapen(values[name], None if expected is None else expected[name]):
+        form = None if expected is None else expected[name]
+        if fault := _fault_of(values[name], form, noun):
             yield f"returns {fault} for the {noun} {name!r}", ""
+
+
+def _fault_of(arrays: object, form: tuple[int, ...] | Array | None, noun: str) -> str:
+    """Return why arrays are no output of a shape, or no state of the form of the one before; "" if they are."""
+    if noun == "state":
+        return _fault_of_state(arrays, cast("Array | None", form))
+    shape = cast("tuple[int, ...]", form)
+    spreads = not misshapen(arrays, None) and _spreads(np.shape(cast("np.ndarray", arrays)), shape)
+    return "" if spreads else misshapen(arrays, shape)
+
+
+def _fault_of_state(tree: object, before: Array | None) -> str:
+    import jax  # start-up time of the engine
+
+    arrays, form = jax.tree.flatten(tree)
+    if fault := next((f"{show(a)} in place of an array" for a in arrays if not _is_array(a)), ""):
+        return fault
+    if before is None:
+        return ""
+    if form != jax.tree.structure(before):
+        return f"{form} in place of {jax.tree.structure(before)}"
+    pairs = zip(map(np.shape, arrays), map(np.shape, jax.tree.leaves(before)), strict=True)
+    return next((f"an array of shape {list(a)} in place of {list(b)}" for a, b in pairs if a != b), "")
+
+
+def _is_array(array: object) -> bool:
+    return isinstance(array, Number) or hasattr(array, "dtype")
+
+
+def _spreads(shape: tuple[int, ...], target: tuple[int, ...]) -> bool:
+    try:
+        return np.broadcast_shapes(shape, target) == target
+    except ValueError:
+        return False
 
 
 def misshapen(array: object, shape: tuple[int, ...] | None) -> str:
@@ -356,7 +395,9 @@ def misshapen(array: object, shape: tuple[int, ...] | None) -> str:
     dtype: np.dtype | None = getattr(array, "dtype", None)
     if dtype is None:
         return f"{show(array)} in place of an array"
-    if dtype.kind not in "biufV":  # bfloat16 has the kind V
+    if (
+        getattr(dtype, "kind", "O") not in "biufV"
+    ):  # keys of random numbers have no kind; bfloat16 has the kind V
         return f"{dtype} numbers in place of real ones"
     if shape is not None and np.shape(cast("np.ndarray", array)) != shape:
         return f"an array of shape {list(np.shape(cast('np.ndarray', array)))} in place of {list(shape)}"

@@ -470,7 +470,7 @@ class Program:
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read["state"])
 
     def _outputs(self, g: int, element: Element, at: Setting) -> Arrays:
-        """Return the outputs of one row, which have the declared shapes."""
+        """Return the outputs of one row, which spread over the declared axes."""
         out, ports = self.functions[g].output(element, at), self.plan.groups[g].like.outs
         shapes = {port: shape(axes) for port, axes in ports.items()}
         if foreign(element):
@@ -478,11 +478,10 @@ class Program:
         return out
 
     def _advanced(self, g: int, element: Element, at: Setting) -> Arrays:
-        """Return the new state of one row, which has the shapes of the state."""
+        """Return the new state of one row, of the form of the state."""
         new = self.functions[g].advance(element, at)
-        shapes = {name: array.shape for name, array in at.state.items()}
         if foreign(element):
-            require_arrays(element, "advance", new, shapes)
+            require_arrays(element, "advance", new, at.state)
         return new
 
     def _reading(

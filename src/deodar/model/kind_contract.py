@@ -23,9 +23,9 @@ from jax.typing import ArrayLike
 from deodar.element import Arrays, Element, PortAxes, Setting, Time
 from deodar.errors import KindError, Problem, show
 from deodar.kind_errors import (
+    Expected,
     KindNames,
     NotHere,
-    Shapes,
     errors_of_kind,
     foreign,
     leaked,
@@ -81,18 +81,18 @@ def _of_structure(element: Element, ins: _Axes, outs: _Axes) -> tuple[Problem, .
     return tuple(one_copy(element, ins, outs))
 
 
-def one_copy(element: Element, ins: PortAxes, outs: PortAxes, precision: str = "float32") -> list[Problem]:
+def one_copy(element: Element, ins: PortAxes, outs: PortAxes, precision: str = "") -> list[Problem]:
     """Return what one copy of an element, or a part inside it, does against the contract.
 
     Args:
         element: the element.
         ins: axes of its input ports.
         outs: axes of its output ports.
-        precision: float32 or float64.
+        precision: that of all its numbers, float32 or float64; "": float32, to which others are converted.
     """
     try:
         with jax.enable_x64(precision == "float64"):
-            copy = _TracedCopy(element, Setting(ins, outs, np.dtype(precision)))
+            copy = _TracedCopy(element, Setting(ins, outs, np.dtype(precision or "float32")), bool(precision))
             for part, path in _parts(element):
                 copy.check_part(part, path)
             copy.check_element()
@@ -104,8 +104,8 @@ def one_copy(element: Element, ins: PortAxes, outs: PortAxes, precision: str = "
 class _TracedCopy:
     """One copy of an element, of whose numbers only the type is known."""
 
-    def __init__(self, element: Element, at: Setting) -> None:
-        self.element, self.at = element, at
+    def __init__(self, element: Element, at: Setting, strict: bool) -> None:
+        self.element, self.at, self.strict = element, at, strict
         rests, self.costs, self.values = resting(element), dict[str, str](), LeafArrays()
         for path, number, p in leaves(element):
             if path not in rests:
@@ -162,29 +162,28 @@ class _TracedCopy:
         self._stage("output", {**read, "inputs": seen}, shapes)
         if element.stateful:
             inputs |= {port: self.full(at.outs[port]) for port in element.reads_own_output}
-            shapes = {name: array.shape for name, array in state.items()}
-            self._stage("advance", {**read, "inputs": inputs}, shapes)
+            self._stage("advance", {**read, "inputs": inputs}, state)
         if element.stateful != bool(state):
             state_of_init = "no state" if element.stateful else "a state, and the class has no `advance`"
             self._raise("", f"has an `init` that returns {state_of_init}")
 
-    def _stage(self, method: str, read: dict[str, Any], shapes: Shapes) -> None:
+    def _stage(self, method: str, read: dict[str, Any], expected: Expected) -> None:
         def stage(values: LeafArrays, read: dict[str, Any], moment: Any) -> Arrays:
             at = dc.replace(self.at, **read, time=Time(*moment), convolve=lambda y: y)
-            return self._checked(values, method, at, shapes)
+            return self._checked(values, method, at, expected)
 
         start = Time.at(0.0, 1.0, self.at.dtype)
         names = KindNames(self.element.ports(), tuple(read["inputs"]), tuple(read["state"]))
         self.traced(stage, self.values, read, (start.origin, start.passed, start.step), names=names)
 
-    def _checked(self, values: LeafArrays, method: str, at: Setting, shapes: Shapes | None) -> Arrays:
+    def _checked(self, values: LeafArrays, method: str, at: Setting, expected: Expected | None) -> Arrays:
         arrays = getattr(self.bound(values), method)(at)
-        require_arrays(self.element, method, arrays, shapes)
-        returned = {name: jnp.asarray(array) for name, array in arrays.items()}
-        for name, array in returned.items():
-            if array.dtype.kind == "f" and array.dtype != at.dtype:
-                self._raise(method, f"returns {array.dtype} numbers for {name!r} in a program of {at.dtype}")
-        return returned
+        require_arrays(self.element, method, arrays, expected)
+        for name, part in arrays.items() if self.strict else ():
+            for dtype in map(jnp.result_type, jax.tree.leaves(part)):
+                if jnp.issubdtype(dtype, jnp.floating) and dtype != at.dtype:
+                    self._raise(method, f"returns {dtype} numbers for {name!r} in a program of {at.dtype}")
+        return jax.tree.map(jnp.asarray, arrays)
 
     def _raise(self, method: str, fault: str) -> NoReturn:
         kind = type(self.element)
@@ -264,4 +263,11 @@ def _text(function: ClosedJaxpr) -> str:
 
 
 def _equal(one: Sequence[ArrayLike], two: Sequence[ArrayLike]) -> bool:
-    return all(np.array_equal(a, b, equal_nan=True) for a, b in zip(one, two, strict=True))
+    pairs = zip(map(_numbers, one), map(_numbers, two), strict=True)
+    return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
+
+
+def _numbers(array: ArrayLike) -> ArrayLike:
+    """Return an array as numbers, also if it is one of keys of random numbers."""
+    keys = isinstance(array, Array) and jnp.issubdtype(array.dtype, jax.dtypes.prng_key)
+    return jax.random.key_data(array) if keys else array

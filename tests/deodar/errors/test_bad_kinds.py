@@ -5,11 +5,13 @@ from __future__ import annotations
 import dataclasses as dc
 import subprocess
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
+import jax
+import jax.numpy as jnp
 import pytest
 
 import deodar as dd
@@ -17,7 +19,7 @@ from deodar.errors import KindError
 from deodar.kind_errors import errors_of_kind
 from tests.deodar.errors import wrong_kinds
 from tests.deodar.errors.refused import paragraph, refused
-from tests.deodar.errors.wrong_kinds import WRONG, Asking, Leaking, Raising, Throwing, Undeclared, model_of
+from tests.deodar.errors.wrong_kinds import WRONG, Asking, Leaking, Raising, Throwing, Undeclared, X, model_of
 
 RUNS: Mapping[str, Callable[[dd.Model], object]] = {
     "simulate": lambda model: dd.simulate(model, 3, record="wrong.output"),
@@ -131,6 +133,64 @@ def test_check_reports_an_exception_of_what_it_asks(kind: type[Any], says: str) 
 )
 def test_a_run_reports_it_too(kind: type[Any], says: str) -> None:
     refused(lambda: RUNS["simulate"](model_of(kind)), dd.errors.ModelError, "wrong", f"{kind.__name__}{says}")
+
+
+# --------------------------------------------------------------------------------------- what is no mistake
+
+
+KEY = jax.random.key(0)
+
+
+@dataclass(frozen=True)
+class Spread(dd.Boost):
+    amplitude: Annotated[float, dd.Live("activation")] = 1.0
+
+    def pattern(self, at: dd.Setting) -> Any:
+        return self.amplitude
+
+
+@dataclass(frozen=True)
+class One(dd.Coupling):
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": 1.0}  # type: ignore[dict-item]
+
+
+@dataclass(frozen=True)
+class Half(dd.Coupling):
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": at.inputs["input"].astype(jnp.float16)}
+
+
+@dataclass(frozen=True)
+class Stateful(dd.Element):
+    """A state of complex numbers, keys of random numbers, and arrays in an inner dict and a list."""
+
+    axes: Sequence[dd.Axis] = (X,)
+
+    def init(self, at: dd.Setting) -> Any:
+        start = jax.random.normal(KEY, (X.samples,))
+        return {"turning": jnp.ones(3, complex), "key": KEY, "inner": {"a": start, "b": [start]}}
+
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        inner: Any = at.state["inner"]
+        return {"output": inner["b"][0] + at.state["turning"].real.sum()}
+
+    def advance(self, at: dd.Setting) -> Any:
+        key, drawn = jax.random.split(at.state["key"])
+        a = jax.random.normal(drawn, (X.samples,))
+        return {"turning": 1j * at.state["turning"], "key": key, "inner": {"a": a, "b": [a]}}
+
+
+@pytest.mark.parametrize("run", RUNS)
+@pytest.mark.parametrize("kind", [Spread, One, Half, Stateful])
+def test_what_a_program_can_use_is_no_mistake(kind: type[Any], run: str) -> None:
+    model = dd.Model("right")
+    stimulus = model.add(dd.GaussianStimulus("s", [X], center=10, amplitude=2))
+    wrong = model.add(kind(name="wrong", axes=[X]) if hasattr(kind, "axes") else kind(name="wrong"))
+    if issubclass(kind, dd.Coupling):
+        model.connect(stimulus, wrong)
+    assert not [p for p in model.check() if p.severity == "problem"]
+    RUNS[run](model)
 
 
 # ------------------------------------------------------------------------------------------------- start-up

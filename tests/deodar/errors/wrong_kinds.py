@@ -144,6 +144,18 @@ class Growing(dd.Element):
 
 
 @dataclass(frozen=True)
+class Splitting(Growing):
+    def advance(self, at: dd.Setting) -> dd.Arrays:
+        return {"z": (at.state["z"], at.state["z"])}  # type: ignore[dict-item]
+
+
+@dataclass(frozen=True)
+class Worded(Growing):
+    def init(self, at: dd.Setting) -> dd.Arrays:
+        return {"z": [at.full(tuple(self.axes), 0.0), "fast"]}  # type: ignore[dict-item]
+
+
+@dataclass(frozen=True)
 class Forgetful(dd.Element):
     axes: Sequence[dd.Axis] = (X,)
 
@@ -200,9 +212,9 @@ class Termless(dd.Kernel):
 
 
 @dataclass(frozen=True)
-class Summing(dd.SigmoidFunction):
+class Cutting(dd.SigmoidFunction):
     def __call__(self, u: Any) -> Any:
-        return u.sum()
+        return u[:3]
 
 
 @dataclass(frozen=True)
@@ -237,12 +249,14 @@ WRONG: dict[type[Any], tuple[str, ...]] = {
     Early: ("Early.prepare in wrong_kinds.py", "uses the live parameter gain", "`hoist`"),
     Undeclared: ("Undeclared.output in wrong_kinds.py", "does not declare for `output`", "direct: ClassVar"),
     Growing: ("Growing.advance in wrong_kinds.py", "[] in place of [21]", "state 'z'"),
+    Splitting: ("Splitting.advance in wrong_kinds.py", "PyTreeDef((*, *)) in place of PyTreeDef(*)", "'z'"),
+    Worded: ("Worded.init in wrong_kinds.py", "'fast' in place of an array for the state 'z'"),
     Forgetful: ("Forgetful.output in wrong_kinds.py", "reads 'z', which does not exist", "its state: none"),
     Ramp: ("Ramp.terms.along in wrong_kinds.py", ASKS),
     LiveWidth: ("LiveWidth.terms.along in wrong_kinds.py", "live parameter kernel.0.width", "dd.Rebuild"),
     Short: ("Short.terms in wrong_kinds.py", "an array of shape [2"),
     Termless: ("Termless in wrong_kinds.py, line", "has no method terms"),
-    Summing: ("Summing.__call__ in wrong_kinds.py", "[] in place of [21]"),
+    Cutting: ("Cutting.__call__ in wrong_kinds.py", "[3] in place of [21]"),
     Branching: ("Branching.__call__ in wrong_kinds.py", ASKS),
     Uncallable: ("Uncallable in wrong_kinds.py, line", "has no method __call__"),
 }

@@ -13,7 +13,7 @@ import pytest
 import deodar as dd
 from deodar import registry
 from tests.deodar.errors.refused import paragraph
-from tests.deodar.errors.wrong_kinds import Asking, LiveWidth, Narrow, Summing, Throwing
+from tests.deodar.errors.wrong_kinds import Asking, Cutting, LiveWidth, Narrow, Throwing
 from tests.deodar.experiments.test_wrong_measures import Ragged, Wordy
 
 
@@ -151,7 +151,7 @@ BROKEN: list[tuple[Any, str]] = [
     (Asking, "Asking.output in wrong_kinds.py, line"),
     (Narrow, "[3] in place of [21]"),
     (LiveWidth, "uses the live parameter kernel.0.width"),
-    (Summing, "one output for each activation"),
+    (Cutting, "one output for each activation"),
     (Throwing, "computes another function in each call"),
     (Exploding, "became infinite or undefined"),
     (Idle, "no output changes with its parameters (gain)"),
