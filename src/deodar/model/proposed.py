@@ -17,16 +17,44 @@ def bound(doc: Document, problem: Problem) -> Problem:
     """Return a problem whose edits name the element that has it.
 
     An edit of a parameter that a document parameter drives becomes one of the document parameter. An edit
-    that the document cannot have becomes text, with the reason.
+    that would change something else too, or that the document cannot have, becomes text, with the reason.
     """
     if not isinstance(problem.fix, EditFix):
         return problem
+    inside = [e.inside(problem.where) if isinstance(e, SetValues) else e for e in problem.fix.edits]
+    if shared := _also_driven(doc, inside):
+        return dc.replace(problem, fix=_text(problem.fix.with_edits(inside), f"First {shared}"))
     edits = [new for e in problem.fix.edits for new in _bound(doc, problem.where, e)]
     fix = problem.fix.with_edits(edits)
     refused = _refused(doc, edits)
     if refused:
-        return dc.replace(problem, fix=Fix(fix, fix.shell, fix.page).then(f"First change {refused[0]}"))
+        return dc.replace(problem, fix=_text(fix, f"First change {refused[0]}"))
     return dc.replace(problem, fix=fix)
+
+
+def _text(fix: EditFix, reason: str) -> Fix:
+    """Return the text of a fix, without its edits, and what has to be done before."""
+    return Fix(fix, fix.shell, fix.page).then(reason)
+
+
+def _also_driven(doc: Document, edits: Sequence[ProposedEdit]) -> str:
+    """Return what separates an edit from a document parameter that drives more than the edit sets; "" if none
+    does.
+    """
+    idents = {e.path: e.id for e in doc.entries} if doc.parameters else {}
+    new = {
+        (idents.get(e.element or "", ""), path): setting
+        for e in edits
+        if isinstance(e, SetValues)
+        for path, setting in e.values
+    }
+    for parameter in doc.parameters:
+        changed = [leaf for leaf in parameter.links if leaf in new]
+        others = [leaf for leaf in parameter.links if changed and new.get(leaf) != new[changed[0]]]
+        if others:
+            paths = [f"{doc.by_id()[ident].path}.{path}" for ident, path in (changed[0], others[0])]
+            return f"unlink {paths[0]} from {parameter.name!r}, which also drives {paths[1]}"
+    return ""
 
 
 def _refused(doc: Document, edits: Sequence[ProposedEdit]) -> Sequence[Problem]:

@@ -46,13 +46,10 @@ def _model(field: dd.Field, stimulus: dd.GaussianStimulus | None = None) -> dd.M
 
 
 def _linked() -> dd.Model:
-    """The sign of a resting level that a document parameter drives, together with that of another field."""
+    """The sign of a resting level that a document parameter drives."""
     model = _model(dd.Field("u", [X], resting_level=5))
-    model.add(dd.Field("v", [X], resting_level=5))
-    model.connect("s", "v")
     model.parameter("rest", 5)
-    for path in ("u.resting_level", "v.resting_level"):
-        model.link(path, "rest")
+    model.link("u.resting_level", "rest")
     return model
 
 
@@ -164,6 +161,55 @@ def test_a_fix_of_a_linked_parameter_sets_the_document_parameter() -> None:
     assert {p.fix_at("shell") for p in problems if "Change the sign" in p.fix} == {
         "Change the sign: --set rest=-5"
     }
+
+
+def _shared_level() -> dd.Model:
+    """A document parameter that drives a resting level of the wrong sign, and the factor of a gain."""
+    model = _linked()
+    model.connect(model.add(dd.Gain(5.0, name="g")), model.add(dd.Field("v", [X])))
+    model.connect("s", "g")
+    model.link("g.factor", "rest")
+    return model
+
+
+def _shared_widths() -> dd.Model:
+    """A document parameter that drives both widths of a hat."""
+    model = _model(dd.Field("u", [X], kernel=[dd.MexicanHat(10, 5, 4, 5)]))
+    model.parameter("w", 5)
+    for name in ("excitation", "inhibition"):
+        model.link(f"u.kernel.0.sigma_{name}", "w")
+    return model
+
+
+def _shared_source(*others: str) -> dd.Model:
+    """A stimulus that inhibits a field which gets nothing else, and others."""
+    stimulus = dd.GaussianStimulus("s", [X], center=50, amplitude=-9, windows=[(10, 20)])
+    model = _model(dd.Field("u", [X]), stimulus)
+    for name in others:
+        model.add(dd.GaussianStimulus(f"b_{name}", [X], center=50, amplitude=8)) >> model.add(
+            dd.Field(name, [X])
+        )
+        model.connect("s", name)
+    return model
+
+
+@pytest.mark.parametrize(
+    ("model", "text"),
+    [
+        (_shared_level(), "First unlink u.resting_level from 'rest', which also drives g.factor"),
+        (_shared_widths(), "First unlink u.kernel.0.sigma_inhibition from 'w', which also drives"),
+        (_shared_source("v"), "Change the sign of what should excite it"),
+        (_shared_source("v", "w"), "Change the sign of what should excite it"),
+    ],
+)
+def test_an_edit_that_would_change_something_else_is_text(model: dd.Model, text: str) -> None:
+    (problem,) = [p for p in check(model.document) if text in p.fix]
+    assert problem.edits == () and problem.where == "u"
+
+
+def test_a_source_with_one_target_changes_its_sign() -> None:
+    (problem,) = _shared_source().check()
+    assert problem.fix_at("shell").startswith("Change the sign of what should excite it: --set s.amplitude=9")
 
 
 def test_all_grids_of_a_circle_are_joined_together() -> None:

@@ -134,11 +134,13 @@ def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> 
 def _excite(wiring: Wiring, n: Node, at: InputLevels) -> str:
     """Return the fix for a field that gets only inhibition: the other sign of its only source.
 
-    A source that is always on would keep the field on then, so it is not proposed.
+    A source that is always on would keep the field on then, and one that has other targets may inhibit them
+    on purpose, so neither is proposed.
     """
     advice, connect = "Change the sign of what should excite it", "Or connect what does"
     sources = wiring.sources(n)
-    if len(sources) == 1 and at.rest - at.high < at.threshold < at.rest - at.low:
+    targets = [c for m in sources for c in wiring.doc.connections if c.source == m.id]
+    if len(sources) == len(targets) == 1 and at.rest - at.high < at.threshold < at.rest - at.low:
         e = sources[0].element
         for name in ("factor", "amplitude"):
             strength: Any = getattr(e, name, None)
