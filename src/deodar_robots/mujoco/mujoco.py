@@ -165,7 +165,10 @@ class MuJoCo(World):
 
     def _take_frames(self) -> None:
         """Keep the state that the cameras show until their next picture."""
-        self._frames = [np.array(data.qpos) for data in self._copies]
+        entries = _positions()
+        self._frames = [np.empty(simulator().mj_stateSize(self.model, entries)) for _ in self._copies]
+        for frame, data in zip(self._frames, self._copies, strict=True):
+            simulator().mj_getState(self.model, data, frame, entries)
         self._pictures: dict[tuple[str, int, tuple[int, int]], np.ndarray] = {}
 
     def _started(self) -> Any:
@@ -318,7 +321,7 @@ class MuJoCo(World):
         size = axes[0].samples, axes[1].samples
         key = sensor, k, size
         if key not in self._pictures:
-            self._shown.qpos[:] = self._frames[k]
+            simulator().mj_setState(self.model, self._shown, self._frames[k], _positions())
             simulator().mj_fwdPosition(self.model, self._shown)
             seen = self._seen(sensor, size)
             if self.cameras.pixel_noise:
@@ -580,6 +583,12 @@ class MuJoCo(World):
         if sensor in counts:
             return (Axis("of", 0, counts[sensor] - 1, counts[sensor]),)
         return Axis("column", 0, 31, 32), Axis("row", 0, 23, 24), Axis("channel", 0, 2, 3)
+
+
+def _positions() -> int:
+    """Return which entries of a state, in the numbers of MuJoCo, decide where all bodies are."""
+    entries = simulator().mjtState
+    return int(entries.mjSTATE_QPOS | entries.mjSTATE_MOCAP_POS | entries.mjSTATE_MOCAP_QUAT)
 
 
 def _carry_over(before: Any, old: Any, model: Any, new: Any) -> None:

@@ -167,6 +167,34 @@ def test_a_state_stored_before_mocap_bodies_were_part_of_it_is_read(tmp_path: Pa
     np.testing.assert_array_equal(world.keep()["frames"], earlier["frames"])
 
 
+def test_a_camera_sees_mocap_bodies_move_with_its_pictures(tmp_path: Path):
+    file = tmp_path / "ball.xml"
+    geom = 'contype="0" conaffinity="0"'
+    file.write_text(
+        '<mujoco><worldbody><camera name="eye" pos="0 -2 0.2" xyaxes="1 0 0 0 0 1"/>'
+        f'<body name="ball" mocap="true" pos="-0.6 0 0.2"><geom size="0.2" rgba="1 0 0 1" {geom}/></body>'
+        f'<body name="bar" mocap="true" pos="0 0 0.2"><geom type="box" size="0.05 0.05 0.4" {geom}/></body>'
+        "</worldbody></mujoco>"
+    )
+    world = MuJoCo(file, cameras=dd.MuJoCoCameras(camera_every=2))
+    axes = (dd.Axis("x", 0, 31, 32), dd.Axis("y", 0, 23, 24), dd.Axis("channel", 0, 2, 3))
+    world.reset(0, [0, 1])
+    first = world.sense("eye", axes, 0.0)
+    np.testing.assert_array_equal(first[0], first[1])
+    lying = np.array([[0.5**0.5, 0.0, 0.5**0.5, 0.0], [1.0, 0.0, 0.0, 0.0]])
+    command = {"ball": np.array([[-0.6, 0.0, 0.2], [0.6, 0.0, 0.2]]), "bar_orientation": lying}
+    world.act(command, 0.0)
+    np.testing.assert_array_equal(world.sense("eye", axes, 0.0), first)
+    between = world.keep()
+    world.act(command, 0.0)
+    later = world.sense("eye", axes, 0.0)
+    red = (later[..., 0] - later[..., 1] > 0.3).sum(axis=2)
+    assert red[0, :12].any() and not red[0, 20:].any() and red[1, 20:].any() and not red[1, :12].any()
+    assert np.abs(later[0] - first[0]).max() > 0.05, "the bar lies"
+    world.put(between)
+    np.testing.assert_array_equal(world.sense("eye", axes, 0.0), first)
+
+
 def test_an_actuator_with_several_commands_is_one_motor(tmp_path: Path):
     file = tmp_path / "ball.xml"
     file.write_text(
