@@ -171,7 +171,8 @@ def has_mount(scene: str) -> bool:
 
 def is_urdf(path: str) -> bool:
     """Return whether a file is in the format URDF: its outermost element is `robot`."""
-    with contextlib.suppress(ET.ParseError):
+    # MuJoCo opens files whose encoding Python does not read
+    with contextlib.suppress(ET.ParseError, ValueError, LookupError):
         for _, element in ET.iterparse(io.BytesIO(regular_file.read_bytes(path)), ["start"]):
             return element.tag == "robot"
     return False

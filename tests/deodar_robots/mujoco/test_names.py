@@ -257,3 +257,13 @@ def test_a_urdf_says_that_it_states_no_motors(tmp_path: Path):
         converted.read_text().replace("</mujoco>", '<actuator><motor joint="hip"/></actuator></mujoco>')
     )
     assert list(MuJoCo(converted).motors) == ["hip"]
+
+
+@pytest.mark.parametrize("encoding", ["GB2312", "Shift_JIS", "x-own"])
+def test_a_scene_may_state_any_encoding_of_its_xml(encoding: str, tmp_path: Path):
+    file = tmp_path / "scene.xml"
+    file.write_text(f'<?xml version="1.0" encoding="{encoding}"?>{UNNAMED}'.replace("?>\n", "?>"))
+    robot = tmp_path / "robot.xml"
+    robot.write_text(f'<?xml version="1.0" encoding="{encoding}"?><mujoco/>')
+    assert "hand" in MuJoCo(file).motors
+    assert MuJoCo("table", robot).arm is None
