@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses as dc
 import inspect
+import linecache
 import re
 import sys
 import traceback
@@ -88,7 +89,7 @@ RULES = (
     ContractRule("FrozenInstanceError", "", "assigns to an attribute, and a kind is frozen", IN_STATE),
     ContractRule(
         "TypeError",
-        "immutable|does not support item assignment",
+        r"JAX arrays are immutable|'\w*(Tracer|ArrayImpl)' object does not support item assignment",
         "assigns to samples of an array, and arrays do not change",
         "Write array = array.at[index].set(value)",
     ),
@@ -275,7 +276,7 @@ def _method(frame: FrameType, cls: type) -> str:
 
 def _broken(error: Exception, frames: Sequence[FrameType], names: KindNames) -> tuple[str, str]:
     """Return what the code does, and what to write instead."""
-    if isinstance(error, LiveValueUsed) or NotHere.__name__ in str(error):
+    if isinstance(error, LiveValueUsed) or _names_placeholder(error):
         part = frames[-1].f_locals.get("self") if frames else None
         numbers = vars(part).values() if dc.is_dataclass(part) else ()
         live = [number.path for number in numbers if isinstance(number, NotHere)]
@@ -285,11 +286,24 @@ def _broken(error: Exception, frames: Sequence[FrameType], names: KindNames) -> 
             "Use it in `hoist`, `output` or `advance`, or as the amplitude of a dd.Term; or declare it as"
             " dd.Rebuild",
         )
-    if isinstance(error, KeyError) and error.args and isinstance(error.args[0], str):
+    looks_up = isinstance(error, KeyError) and re.match(r"[\w.]*\b(inputs|state)\[", _expression(error))
+    if looks_up and isinstance(error.args[0], str):
         return _unread(error.args[0], frames[-1].f_code.co_name if frames else "", names)
     if rule := rule_of(error):
         return rule.fault, rule.fix
     return f"raised {type(error).__name__}: {first_line(error)}", ""
+
+
+def _names_placeholder(error: Exception) -> bool:
+    """Return whether Python or JAX refuse the placeholder of a live parameter."""
+    return isinstance(error, TypeError) and f"{NotHere.__name__}'" in str(error)
+
+
+def _expression(error: Exception) -> str:
+    """Return the source from where an exception was raised to the end of the line; "" if unknown."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    line = linecache.getline(last.filename, last.lineno or 0).encode()
+    return "" if last.colno is None else line[last.colno :].decode()
 
 
 def _unread(key: str, method: str, names: KindNames) -> tuple[str, str]:
@@ -355,7 +369,7 @@ def _faults(arrays: object, expected: Expected | None, noun: str) -> Iterator[tu
 
 
 def _fault_of(arrays: object, form: tuple[int, ...] | Array | None, noun: str) -> str:
-    """Return why arrays are no output of a shape, or no state of the form of the one before; "" if they are."""
+    """Return why arrays are no output of a shape, or no state like the one before; "" if they are."""
     if noun == "state":
         return _fault_of_state(arrays, cast("Array | None", form))
     shape = cast("tuple[int, ...]", form)
@@ -395,9 +409,8 @@ def misshapen(array: object, shape: tuple[int, ...] | None) -> str:
     dtype: np.dtype | None = getattr(array, "dtype", None)
     if dtype is None:
         return f"{show(array)} in place of an array"
-    if (
-        getattr(dtype, "kind", "O") not in "biufV"
-    ):  # keys of random numbers have no kind; bfloat16 has the kind V
+    # bfloat16 has the kind V, and keys of random numbers have none
+    if getattr(dtype, "kind", "O") not in "biufV":
         return f"{dtype} numbers in place of real ones"
     if shape is not None and np.shape(cast("np.ndarray", array)) != shape:
         return f"an array of shape {list(np.shape(cast('np.ndarray', array)))} in place of {list(shape)}"

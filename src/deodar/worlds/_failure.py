@@ -6,6 +6,7 @@ import contextlib
 import sys
 import traceback
 from collections.abc import Generator
+from dataclasses import FrozenInstanceError
 from pathlib import Path
 
 from deodar import registry
@@ -35,7 +36,9 @@ def errors_of(world: World | type[World], method: str, argument: str = "") -> Ge
     except Exception as error:  # a method may raise any exception
         if registry.own(kind):
             raise
-        if rule_of(error) is not None or isinstance(error, NotImplementedError):
+        # worlds are not frozen: such an error is of an object of the user
+        broken = None if isinstance(error, FrozenInstanceError) else rule_of(error)
+        if broken is not None or isinstance(error, NotImplementedError):
             problem = problem_of(error, kind)
             raise WorldError(problem.what, fix=problem.fix) from error
         name, line = _position(kind, error)

@@ -90,6 +90,29 @@ class Raising(dd.Coupling):
         raise RuntimeError("no luck today\nand a second line")
 
 
+TABLE = {"slow": 1.0}
+
+
+@dataclass(frozen=True)
+class Unlisted(dd.Coupling):
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": TABLE["fast"] * at.inputs["input"]}
+
+
+@dataclass(frozen=True)
+class OfTuple(dd.Coupling):
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        shape = at.inputs["input"].shape
+        shape[0] = 3  # type: ignore[index]
+        return {"output": at.inputs["input"]}
+
+
+@dataclass(frozen=True)
+class Mentioning(dd.Coupling):
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        raise ValueError("'NotHere' of mine")
+
+
 @dataclass(frozen=True)
 class Frozen(dd.Coupling):
     def output(self, at: dd.Setting) -> dd.Arrays:
@@ -244,6 +267,9 @@ WRONG: dict[type[Any], tuple[str, ...]] = {
     Methodless: ("Methodless in wrong_kinds.py, line", "has no method output", "def output(self, ...)"),
     Misreading: ("Misreading.output in wrong_kinds.py", "reads 'drive', which does not exist", "input; its"),
     Raising: ("Raising.output in wrong_kinds.py", "raised RuntimeError: no luck today"),
+    Unlisted: ("Unlisted.output in wrong_kinds.py", "raised KeyError: 'fast'"),
+    OfTuple: ("OfTuple.output in wrong_kinds.py", "raised TypeError: 'tuple' object does not support"),
+    Mentioning: ("Mentioning.output in wrong_kinds.py", "raised ValueError: 'NotHere' of mine"),
     Frozen: ("Frozen.output in wrong_kinds.py", "assigns to an attribute", "Keep what changes in the state"),
     Leaking: ("Leaking in wrong_kinds.py", "that an earlier call has stored", "`init`"),
     Early: ("Early.prepare in wrong_kinds.py", "uses the live parameter gain", "`hoist`"),

@@ -68,9 +68,10 @@ def test_threads_share_them(world: str | None):
     alone = [trials.run(*call) for call in calls]
     with ThreadPoolExecutor(3) as pool:
         together = list(pool.map(lambda call: trials.run(*call), calls))
-    for one, other in zip(alone, together, strict=True):
+    for rows, rows_together in zip(alone, together, strict=True):
         assert all(
-            np.array_equal(a.values[watched], b.values[watched]) for a, b in zip(one, other, strict=True)
+            np.array_equal(a.values[watched], b.values[watched])
+            for a, b in zip(rows, rows_together, strict=True)
         )
 
 

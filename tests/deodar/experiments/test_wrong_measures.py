@@ -33,11 +33,18 @@ class Ragged(dd.BaseMeasure):
         return samples[1000]
 
 
+@dataclass(frozen=True)
+class Unlisted(Wordy):
+    def value(self, samples: np.ndarray, axes: dd.Axes | None) -> float:
+        return {"left": 1.0}["right"]
+
+
 @pytest.mark.parametrize(
     ("measure", "says"),
     [
         (Wordy, "Wordy.value in test_wrong_measures.py, line"),
         (Ragged, "Ragged.value in test_wrong_measures.py, line"),
+        (Unlisted, "raised KeyError: 'right'"),
     ],
 )
 def test_a_wrong_measure_is_named(measure: type[Any], says: str) -> None:

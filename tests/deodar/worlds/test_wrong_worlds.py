@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import jax
@@ -26,6 +27,22 @@ class Host(dd.World):
 
     def sense(self, sensor: str, axes: dd.Axes, time: float) -> Any:
         return self.reading
+
+
+@dataclass(frozen=True)
+class Pose:
+    angle: float = 0.0
+
+
+class Turning(dd.World):
+    """A world on the host that assigns to a frozen object of its own."""
+
+    sensors = {"light": dd.Signal("brightness", (3,))}
+    period = 2.0
+
+    def sense(self, sensor: str, axes: dd.Axes, time: float) -> np.ndarray:
+        Pose().angle = 1.0  # type: ignore[misc]
+        return np.zeros(3)
 
 
 class Senseless(dd.World):
@@ -97,6 +114,7 @@ WORLDS: list[tuple[Any, tuple[str, ...]]] = [
     (lambda: Host(np.zeros(2)), ("light", "Host.sense in test_wrong_worlds.py", "shape [2]", "it needs [3]")),
     (lambda: Host(np.full(3, np.nan)), ("light", "Host.sense in test_wrong_worlds.py", "finite: False")),
     (lambda: Host("bright"), ("light", "Host.sense in test_wrong_worlds.py", "it needs [3]")),
+    (Turning, ("Turning", "raised FrozenInstanceError in sense", "cannot assign to field 'angle'")),
     (Senseless, ("Senseless in test_wrong_worlds.py", "has no method sense")),
     (lambda: Pure("read"), ("Pure.read in test_wrong_worlds.py", "[2] in place of [3]")),
     (
