@@ -9,7 +9,7 @@ import contextlib
 import dataclasses as dc
 import functools
 import re
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Hashable, Iterator, Sequence
 from typing import Any, NoReturn
 
 import jax
@@ -33,7 +33,7 @@ from deodar.kind_errors import (
     position,
     require_arrays,
 )
-from deodar.leaves import bind, get, leaves, resting
+from deodar.leaves import bind, get, leaves, resting, structure
 from deodar.model.document import Document
 from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes, shape
@@ -65,20 +65,30 @@ def broken(nodes: Sequence[Node]) -> Iterator[Problem]:
     """Yield what the users' kinds among resolved elements do against their contract, one problem each."""
     for n in nodes:
         if n.declared and foreign(n.element) and not n.element.external_code():
-            for p in _of_structure(dc.replace(n.element, name=""), _Axes(n.ins), _Axes(n.outs)):
+            resolved = _Resolved(
+                structure(n.element, frozenset(resting(n.element))),
+                tuple(n.ins.items()),
+                tuple(n.outs.items()),
+                n.element,
+            )
+            for p in _of_structure(resolved):
                 yield dc.replace(p, where=n.path)
 
 
-class _Axes(dict[str, Axes]):
-    """The axes of ports, as a key of a cache."""
+@dc.dataclass(frozen=True)
+class _Resolved:
+    """An element with the axes of its ports; equal to others from which only traced numbers differ."""
 
-    def __hash__(self) -> int:  # type: ignore[override]
-        return hash(tuple(self.items()))
+    structure: tuple[Hashable, ...]
+    ins: tuple[tuple[str, Axes], ...]
+    outs: tuple[tuple[str, Axes], ...]
+    element: Element = dc.field(compare=False)
 
 
-@functools.lru_cache(maxsize=256)
-def _of_structure(element: Element, ins: _Axes, outs: _Axes) -> tuple[Problem, ...]:
-    return tuple(one_copy(element, ins, outs))
+@functools.lru_cache(maxsize=1024)
+def _of_structure(resolved: _Resolved) -> tuple[Problem, ...]:
+    nameless = dc.replace(resolved.element, name="")
+    return tuple(one_copy(nameless, dict(resolved.ins), dict(resolved.outs)))
 
 
 def one_copy(element: Element, ins: PortAxes, outs: PortAxes, precision: str = "") -> list[Problem]:

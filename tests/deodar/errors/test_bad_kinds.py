@@ -67,6 +67,24 @@ def test_a_kind_that_computes_another_function_in_each_call_is_a_problem() -> No
     assert "`at.noise`" in problem.fix
 
 
+@dataclass(frozen=True)
+class LiveGain(dd.Coupling):
+    gain: Annotated[float, dd.Live()] = 2.0
+
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": self.gain * at.inputs["input"]}
+
+
+def test_other_numbers_are_not_traced_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of elements whose numbers alone differ, one is traced."""
+    model = model_of(LiveGain)
+    model.check()
+    monkeypatch.setattr(jax, "make_jaxpr", None)
+    model.set("wrong.gain", 3.5)
+    model.connect(model["s"], model.add(LiveGain(name="other", gain=4.5)))
+    assert not [p for p in model.check() if p.severity == "problem"]
+
+
 def test_two_wrong_kinds_are_two_problems() -> None:
     model = model_of(Asking)
     model.connect(model["s"], model.add(dc.replace(wrong_kinds.Narrow(), name="other")))
