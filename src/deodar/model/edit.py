@@ -373,10 +373,22 @@ def replace_axis(doc: Document, old: Axis, new: Axis) -> Document:
         ModelError: no element has the axis.
         ParameterError: an element cannot have the new axis, such as one with an array of the old length.
     """
-    changed = {e.id: dc.replace(e, element=_with_axis(e.element, old, new)) for e in doc.entries}
-    if all(changed[e.id].element is e.element for e in doc.entries):
+    changed = replace_axes(doc, {old: new})
+    if all(after.element is e.element for after, e in zip(changed.entries, doc.entries, strict=True)):
         raise ModelError(f"no element has the axis {old}")
-    return dc.replace(doc, entries=tuple(changed[e.id] for e in doc.entries))
+    return changed
+
+
+def replace_axes(doc: Document, new: Mapping[Axis, Axis]) -> Document:
+    """Return a document in which every element and part has other axes in the place of some, all at once: an
+    axis that becomes equal to another one does not change with it.
+
+    Raises:
+        ParameterError: an element cannot have its new axes.
+    """
+    return dc.replace(
+        doc, entries=tuple(dc.replace(e, element=_with_axes(e.element, new)) for e in doc.entries)
+    )
 
 
 def every(doc: Document, ident: str, ticks: int) -> Document:
@@ -583,8 +595,8 @@ def _leave(document: object) -> None:
         document.forget()
 
 
-def _with_axis(part: Any, old: Axis, new: Axis) -> Any:
-    """Return a part with another axis in the place of one; the same object without that axis."""
+def _with_axes(part: Any, new: Mapping[Axis, Axis]) -> Any:
+    """Return a part with other axes in the place of some; the same object if it has none of these."""
     moved: dict[str, Any] = {}
     for p in parameters(type(part)):
         value: Any = getattr(part, p.name) if p.form in ("axes", "axis", "part", "parts") else None
@@ -592,13 +604,13 @@ def _with_axis(part: Any, old: Axis, new: Axis) -> Any:
             continue
         match p.form:
             case "axis":
-                after: Any = new if value == old else value
+                after: Any = new.get(value, value)
             case "axes":
-                after = tuple(new if a == old else a for a in value)
+                after = tuple(new.get(a, a) for a in value)
             case "part":
-                after = _with_axis(value, old, new)
+                after = _with_axes(value, new)
             case _:
-                after = tuple(_with_axis(v, old, new) for v in value)
+                after = tuple(_with_axes(v, new) for v in value)
         same = after is value or (
             isinstance(after, tuple) and all(a is b for a, b in zip(after, value, strict=True))
         )

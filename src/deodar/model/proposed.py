@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Iterable, Iterator, Sequence
 
-from deodar.errors import DeodarError, EditFix, Fix, Problem, UnknownName, did_you_mean
+from deodar.errors import DeodarError, EditFix, Fix, Problem, UnknownName, did_you_mean, joined
 from deodar.model import document_files, edit, find
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
@@ -26,6 +26,8 @@ def bound(doc: Document, problem: Problem) -> Problem:
         return dc.replace(problem, fix=_text(problem.fix.with_edits(inside), f"First {shared}"))
     edits = [new for e in problem.fix.edits for new in _bound(doc, problem.where, e)]
     fix = problem.fix.with_edits(edits)
+    if not _in_order(doc, edits):  # the lines of its text would change other axes than the edit
+        return dc.replace(problem, fix=joined(problem.fix.advice, problem.fix.otherwise))
     refused = _refused(doc, edits)
     if refused:
         return dc.replace(problem, fix=_text(fix, f"First change {refused[0]}"))
@@ -55,6 +57,22 @@ def _also_driven(doc: Document, edits: Sequence[ProposedEdit]) -> str:
             paths = [f"{doc.by_id()[ident].path}.{path}" for ident, path in (changed[0], others[0])]
             return f"unlink {paths[0]} from {parameter.name!r}, which also drives {paths[1]}"
     return ""
+
+
+def _in_order(doc: Document, edits: Sequence[ProposedEdit]) -> bool:
+    """Return whether edits of axes, made one after the other by their keys, are those made together."""
+    axes = [e for e in edits if isinstance(e, SetAxis)]
+    if len(axes) < 2:
+        return True
+    try:
+        together, each = apply(doc, axes), doc
+        for e in axes:
+            each = change_axis(each, e.axis, dict(e.values))
+    except UnknownName:
+        return False
+    except DeodarError:  # an element refuses an axis, which the fix states
+        return True
+    return [e.element for e in each.entries] == [e.element for e in together.entries]
 
 
 def _refused(doc: Document, edits: Sequence[ProposedEdit]) -> Sequence[Problem]:
@@ -88,12 +106,16 @@ def apply(doc: Document, edits: Iterable[ProposedEdit]) -> Document:
     Raises:
         DeodarError: the document does not have what an edit changes.
     """
+    edits = list(edits)
+    axes = [e for e in edits if isinstance(e, SetAxis)]
+    if axes:  # keys belong to the document as it is: an edit may number the keys of a name again
+        doc = edit.replace_axes(doc, dict(_new_axis(doc, e.axis, dict(e.values)) for e in axes))
     for proposed in edits:
         match proposed:
             case SetValues():
                 doc = edit.change_all(doc, proposed.paths())
             case SetAxis():
-                doc = change_axis(doc, proposed.axis, dict(proposed.values))
+                pass
             case SetStep():
                 doc = edit.describe(doc, dt=proposed.dt)
             case Disconnect():
@@ -112,8 +134,13 @@ def change_axis(doc: Document, key: str, values: dict[str, object]) -> Document:
     Raises:
         UnknownName: the document has no axis of this key.
     """
+    return edit.replace_axis(doc, *_new_axis(doc, key, values))
+
+
+def _new_axis(doc: Document, key: str, values: dict[str, object]) -> tuple[Axis, Axis]:
+    """Return the axis of a key, and the same axis with other values."""
     axes = document_files.axes(doc)
     if key not in axes:
         raise UnknownName(f"the document has no axis {key!r}", fix=did_you_mean(key, axes))
     old: Axis = axes[key]
-    return edit.replace_axis(doc, old, dc.replace(old, **values))  # type: ignore[arg-type]
+    return old, dc.replace(old, **values)  # type: ignore[arg-type]

@@ -20,7 +20,8 @@ from deodar.model import edit, new_elements
 from deodar.model.check import check
 from deodar.model.checks.resolution import with_cells
 from deodar.model.document import Document
-from deodar.model.proposed import apply
+from deodar.model.proposed import apply, bound
+from deodar.proposed_edit import SetAxis
 from tests.deodar.model.proven_fix import faults, finding
 from tests.deodar.model.test_mistakes import KINDS, document
 
@@ -203,8 +204,8 @@ def _shared_source(*others: str) -> dd.Model:
     ],
 )
 def test_an_edit_that_would_change_something_else_is_text(model: dd.Model, text: str) -> None:
-    (problem,) = [p for p in check(model.document) if text in p.fix]
-    assert problem.edits == () and problem.where == "u"
+    stated = [p for p in check(model.document) if text in p.fix]
+    assert {p.where for p in stated} == {"u"} and not any(p.edits for p in stated)
 
 
 def test_a_source_with_one_target_changes_its_sign() -> None:
@@ -216,10 +217,52 @@ def test_all_grids_of_a_circle_are_joined_together() -> None:
     """One grid alone would be refused: its connection joins a periodic axis with one that is not."""
     (problem, *_) = check(FURTHER["two grids"].document)
     assert problem.fix_at("script") == (
-        'Join the ends: model.set_axis("heading", periodic=True, samples=72) and'
-        ' model.set_axis("heading_2", periodic=True, samples=360)'
+        'Join the ends: model.set_axis("heading_2", periodic=True, samples=360) and'
+        ' model.set_axis("heading", periodic=True, samples=72)'
     )
-    assert problem.fix_at("shell").startswith("Join the ends: in the file, axes.heading: periodic = true, ")
+    assert problem.fix_at("shell").startswith("Join the ends: in the file, axes.heading_2: periodic = true, ")
+
+
+def _circles(*axes: tuple[float, int, bool]) -> dd.Model:
+    """Axes of one name, each with its end, its samples, and whether its ends meet."""
+    model = dd.Model("m")
+    for k, (upper, samples, periodic) in enumerate(axes):
+        axis = dd.Axis("heading", 0, upper, samples=samples, unit="deg", periodic=periodic)
+        model.add(dd.Field(f"u{k}", [axis], noise=0.1))
+    return model
+
+
+def _grids(model: dd.Model) -> list[tuple[float, int, bool]]:
+    axes: list[Any] = [e.element.axes[0] for e in model.document.entries]  # type: ignore[attr-defined]
+    return [(a.upper, a.samples, a.periodic) for a in axes]
+
+
+OPEN, CLOSED, COARSE, QUARTER = (360, 361, False), (360, 360, True), (360, 73, False), (90, 37, False)
+
+
+@pytest.mark.parametrize(
+    "axes",
+    [(OPEN, CLOSED, COARSE, QUARTER), (COARSE, OPEN, QUARTER, CLOSED), (CLOSED, QUARTER, COARSE, OPEN)],
+)
+def test_an_edit_and_its_text_change_no_other_axis(axes: tuple[tuple[float, int, bool], ...]) -> None:
+    """An axis that becomes equal to another one moves the keys of later ones."""
+    edited, typed = _circles(*axes), _circles(*axes)
+    problem = next(p for p in check(edited.document) if "whole circle" in p.what)
+    edited.apply_fix(problem)
+    expected = {OPEN: CLOSED, COARSE: (360, 72, True)}
+    assert _grids(edited) == [expected.get(axis, axis) for axis in axes]
+    calls = problem.fix_at("script").removeprefix("Join the ends: ").split(" and ")
+    for call in calls:
+        eval(call, {"model": typed})
+    assert len(calls) == 2 and _grids(typed) == _grids(edited)
+
+
+def test_edits_whose_text_would_change_other_axes_are_text() -> None:
+    """One grid becomes equal to another one that becomes a third."""
+    doc = _circles((360, 73, False), (360, 72, False)).document
+    longer = [SetAxis(key, (("samples", samples),)) for key, samples in (("heading", 72), ("heading_2", 71))]
+    for order, names in ((longer, ()), (longer[::-1], tuple(longer[::-1]))):
+        assert bound(doc, Problem("u0", "has grids", EditFix("Change them", order))).edits == names
 
 
 @pytest.mark.parametrize(("unit", "upper"), [("deg", 360.0), ("rad", 2 * math.pi)])

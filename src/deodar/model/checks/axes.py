@@ -73,10 +73,14 @@ def _axis(n: Node, a: Axis, matched: Mapping[str, Axis]) -> Iterator[Problem]:
 def _change(
     advice: str, matched: Mapping[str, Axis], otherwise: str = "", fewer: int = 0, **values: EditValue
 ) -> EditFix:
-    """Return the fix that changes all axes that connections match, and leaves some samples of each out."""
+    """Return the fix that changes all axes that connections match, and leaves some samples of each out.
+
+    The last one is changed first: an axis that becomes equal to another one takes its key, and later axes of
+    the name get other keys.
+    """
     edits = [
         SetAxis(key, (*values.items(), *((("samples", a.samples - fewer),) if fewer else ())))
-        for key, a in matched.items()
+        for key, a in reversed(list(matched.items()))
     ]
     return EditFix(advice, edits, otherwise)
 
