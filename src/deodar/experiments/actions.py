@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import warnings
 from collections.abc import Iterator, Sequence
@@ -9,7 +10,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from deodar.elements.stimuli import Boost
-from deodar.errors import ParameterError, RunWarning, UnknownName, WorldError, did_you_mean
+from deodar.errors import DeodarError, ParameterError, RunWarning, UnknownName, WorldError, did_you_mean
 from deodar.experiments.running_trial import RunningTrial
 from deodar.family import Family
 from deodar.model import edit, find
@@ -355,10 +356,10 @@ def require(actions: Sequence[Action], events: Sequence[str], doc: Document, wor
     """Refuse actions that call a method that the world lacks, on elements that the document lacks, or that
     wait for an event that cannot be reported.
     """
-    for action in actions:
+    for k, action in enumerate(actions):
         if action.world_method:
             changed(action, world)
-        targets(action, doc)
+        targets(k, actions, doc)
         if action.when and action.when not in events:
             raise UnknownName(
                 f"an action waits for the event {action.when!r}, which the experiment does not have",
@@ -366,12 +367,30 @@ def require(actions: Sequence[Action], events: Sequence[str], doc: Document, wor
             )
 
 
-def targets(action: Action, doc: Document) -> None:
+def targets(number: int, actions: Sequence[Action], doc: Document) -> None:
     """Refuse an action that names an element, port or parameter that the document lacks, or a value that the
     parameter cannot have.
+
+    An earlier action may set the list or the part that holds the parameter. Where the order of the two is not
+    known before a trial, the value is not checked.
+
+    Args:
+        number: number of the action, from 0.
+        actions: all actions of the plan.
+        doc: the document before any action.
     """
+    action = actions[number]
     for path, value in action.sets():
-        edit.change(doc, path, value)
+        around = {k: a for k, a in enumerate(actions) if isinstance(a, Set) and path.startswith(f"{a.path}.")}
+        if around and any(a.when or isinstance(a.at, Sequence) for a in (action, *around.values())):
+            find.target(doc, path)
+            continue
+        now = doc
+        for at, k in sorted((a.times[0], k) for k, a in around.items()):
+            if (at, k) < (action.times[0], number):
+                with contextlib.suppress(DeodarError):  # the problem of that action, not of this one
+                    now = edit.change(now, around[k].path, around[k].value)
+        edit.change(now, path, value)
     for path in action.ports():
         find.shown(doc, path)
     if isinstance(action, Push):

@@ -65,7 +65,7 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
             attempt(f"conditions.{condition.name}", lambda c=condition: _radius(c, doc, world))
     names = [c.name for c in plan.events]
     for k, action in enumerate(plan.actions):
-        attempt(f"actions.{k}", lambda action=action: targets(action, doc))
+        attempt(f"actions.{k}", lambda k=k: targets(k, plan.actions, doc))
         if action.world_method:
             attempt(f"actions.{k}", lambda action=action: changed(action, world))
         if action.when and action.when not in names:

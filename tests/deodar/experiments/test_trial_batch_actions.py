@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import ParameterError, RunWarning, WorldError
+from deodar.errors import DeodarError, ParameterError, RunWarning, WorldError
 from deodar.experiments.actions import (
     Action,
     End,
@@ -23,6 +23,7 @@ from deodar.experiments.actions import (
     Reset,
     Set,
     Snapshot,
+    require,
 )
 from deodar.experiments.events import Appears, Crosses, Event, Reached
 from deodar.experiments.measures import Measure
@@ -406,3 +407,39 @@ def test_invalid_actions_on_a_batch_are_refused(
             events=[Reached("soon", 1, ends=False)],
             world=world and world(),
         )
+
+
+KERNEL = Set(2.0, "f.kernel", [dd.Gaussian(1, 3)])
+INSIDE = Set(5.0, "f.kernel.0.amplitude", 2.0)
+
+
+@pytest.mark.parametrize(
+    "actions",
+    [
+        (KERNEL, INSIDE),
+        (INSIDE, KERNEL),
+        (KERNEL, Set(2.0, "f.kernel.0.amplitude", 2.0)),
+        (KERNEL, Set(3.0, "f.kernel.0", dd.MexicanHat(5, 1, 2, 3)), Set(4.0, "f.kernel.0.excitation", 6.0)),
+        (Set(2.0, "f.kernel", [dd.Gaussian(1, 3)], when="up"), INSIDE),
+        (KERNEL, Set([3.0, 4.0], "f.kernel.0.amplitude", 2.0)),
+    ],
+)
+def test_an_action_may_set_a_parameter_of_what_an_earlier_one_sets(actions: Sequence[Action]) -> None:
+    require(actions, ["up"], noisy().document, None)
+    plan = dd.TrialPlan(20.0, events=[UP], actions=list(actions), measures=[Measure("end", "f.activation")])
+    assert dd.Experiment("e", noisy(), plan, trials=2).check() == []
+
+
+@pytest.mark.parametrize(
+    ("actions", "fault"),
+    [
+        ((INSIDE,), "kernel"),
+        ((Set(6.0, "f.kernel", [dd.Gaussian(1, 3)]), INSIDE), "kernel"),
+        ((INSIDE, Set(5.0, "f.kernel", [dd.Gaussian(1, 3)])), "kernel"),
+        ((KERNEL, Set(5.0, "f.kernel.0.sigma", -1.0)), "below its lower bound"),
+        ((Set(2.0, "f.kernle", []), Set(5.0, "f.kernle.0.amplitude", 2.0)), "no parameter"),
+    ],
+)
+def test_an_action_that_is_wrong_when_it_is_due_is_refused(actions: Sequence[Action], fault: str) -> None:
+    with pytest.raises(DeodarError, match=fault):
+        require(actions, [], noisy().document, None)
