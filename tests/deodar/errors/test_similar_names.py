@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from deodar.errors import did_you_mean
@@ -71,3 +73,12 @@ def test_the_nearest_is_proposed_and_of_equally_near_ones_the_last_by_the_alphab
 def test_without_a_similar_name_at_most_twelve_are_listed() -> None:
     assert did_you_mean("q", [f"number{k}" for k in range(20)]).count("number") == 12
     assert did_you_mean("q", []) == ""
+
+
+def test_a_misspelt_name_among_many_long_ones_is_found_soon() -> None:
+    """Comparisons end where no more slips are allowed, and equal words are compared once."""
+    fields = [f"working_memory_of_target_{chr(97 + k % 26) * 12}_{k:04}_number" for k in range(1000)]
+    names = [f"{field}.parameter_with_a_long_name_{k:02}" for field in fields for k in range(10)]
+    start = time.process_time()
+    assert nearest(names[5000].replace("memory", "memroy"), names) == names[5000]
+    assert time.process_time() - start < 8
