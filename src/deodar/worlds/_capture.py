@@ -30,7 +30,7 @@ NAME_A_VIDEO = Fix(
 
 VIDEO_FORMATS = (
     *("avi", "matroska", "mov", "mpeg", "mpegts", "mpegvideo", "m4v", "h264", "hevc", "ivf", "flv", "asf"),
-    *("ogg", "mxf", "gif", "apng", "mjpeg", "yuv4mpegpipe"),
+    *("ogg", "mxf", "gif", "apng", "mjpeg", "mpjpeg", "yuv4mpegpipe", "nut", "rm", "wtv"),
 )
 """Formats of FFmpeg that are read. Among its others are text, which it shows as pictures of letters, files
 without a format, and playlists, which name other files and addresses.
