@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 
@@ -169,6 +170,9 @@ def _measured(measure: BaseMeasure, samples: np.ndarray, axes: Axes | None) -> f
         if value is None:
             return None
         numbers = np.asarray(value)
+        if numbers.dtype.kind == "O":  # None among numbers is undefined
+            with contextlib.suppress(TypeError, ValueError):
+                numbers = numbers.astype(float)
         if numbers.dtype.kind not in "biuf":
             kind = type(measure)
             what = f"{position(kind, 'value')} returns {show(value)}; expected a number, several, or None"

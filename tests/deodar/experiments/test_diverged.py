@@ -98,11 +98,11 @@ def test_the_warning_points_to_the_call() -> None:
 def test_trials_run_one_by_one_give_the_same_rows() -> None:
     alone, together = experiment([0.1, 1e6, 0.3], actions=APART), experiment([0.1, 1e6, 0.3])
     assert together.setup().batched and not alone.setup().batched
-    one, many = finished(alone), finished(together)
+    table, table_together = finished(alone), finished(together)
     for name in ("outcome", "diverged", "awaited"):
-        assert one[name].values.tolist() == many[name].values.tolist()
+        assert table[name].values.tolist() == table_together[name].values.tolist()
     for name in ("duration", "late", "risen", "last", "risen to"):
-        np.testing.assert_allclose(one[name].values, many[name].values, atol=1e-4)
+        np.testing.assert_allclose(table[name].values, table_together[name].values, atol=1e-4)
 
 
 def test_a_sampled_coupling_that_diverges_gives_equal_rows_in_trials_and_batches() -> None:

@@ -53,3 +53,17 @@ def test_a_wrong_measure_is_named(measure: type[Any], says: str) -> None:
     plan = dd.TrialPlan(3, measures=[measure("size", "u.activation")])
     text = refused(lambda: dd.Trials(model, plan).run([0]), KindError, "measures.size: ", says)
     assert ("returns 'wide'; expected a number" in text) == (measure is Wordy)
+
+
+@dataclass(frozen=True)
+class Partial(Wordy):
+    def value(self, samples: np.ndarray, axes: dd.Axes | None) -> list[float | None]:
+        return [1.0, None]
+
+
+def test_an_undefined_number_among_others_is_nan() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [dd.Axis("x", 0, 20, samples=21)]))
+    plan = dd.TrialPlan(3, measures=[Partial("size", "u.activation")])
+    [trial] = dd.Trials(model, plan).run([0])
+    np.testing.assert_array_equal(trial.measures["size"], [1.0, np.nan])
