@@ -9,7 +9,7 @@ from deodar.model import kind_contract
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
 from deodar.model.kind_contract import errors_in
-from deodar.model.proposed import bound
+from deodar.model.proposed import CheckedDocument, bound
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring
 from deodar.registry import imported
@@ -48,5 +48,6 @@ def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
     for family in imported("deodar.model.checks"):
         warnings += family.check(wiring)
     place = {e.path: k for k, e in enumerate(doc.entries)}
-    bound_warnings = dict.fromkeys(bound(doc, w) for w in warnings)
+    checked = CheckedDocument(doc)
+    bound_warnings = dict.fromkeys(bound(checked, w) for w in warnings)
     return sorted(bound_warnings, key=lambda p: (p.severity, place.get(p.where, len(place))))

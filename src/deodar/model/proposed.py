@@ -3,17 +3,90 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Iterable, Iterator, Sequence
+import functools
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from deodar.errors import DeodarError, EditFix, Fix, Problem, UnknownName, did_you_mean, joined
 from deodar.model import document_files, edit, find
-from deodar.model.document import Document
+from deodar.model.document import Document, Leaf
 from deodar.model.document_graph import graph
+from deodar.model.parts import axes_in
+from deodar.model.resolve import reach
 from deodar.numerics.axes import Axis
 from deodar.proposed_edit import Disconnect, ProposedEdit, SetAxis, SetStep, SetValues
 
 
-def bound(doc: Document, problem: Problem) -> Problem:
+class CheckedDocument:
+    """A document whose problems get their edits: what all of them look up, computed once.
+
+    Args:
+        doc: a document without structural problems.
+    """
+
+    def __init__(self, doc: Document) -> None:
+        self.doc = doc
+
+    @functools.cached_property
+    def ids(self) -> dict[str, str]:
+        """The id of each element by its path."""
+        return {e.path: e.id for e in self.doc.entries}
+
+    @functools.cached_property
+    def links(self) -> dict[Leaf, str]:
+        """The name of the document parameter that drives each linked parameter."""
+        return self.doc.links()
+
+    @functools.cached_property
+    def axes(self) -> dict[str, Axis]:
+        """The axes by their keys."""
+        return document_files.axes(self.doc)
+
+    @functools.cached_property
+    def _neighbours(self) -> dict[str, set[str]]:
+        near: dict[str, set[str]] = {e.id: set() for e in self.doc.entries}
+        for c in self.doc.connections:
+            near[c.source].add(c.target)
+            near[c.target].add(c.source)
+        return near
+
+    @functools.cached_property
+    def _by_axis_name(self) -> dict[str, set[str]]:
+        having: dict[str, set[str]] = {}
+        for e in self.doc.entries:
+            for axis in axes_in(e.element):
+                having.setdefault(axis.name, set()).add(e.id)
+        return having
+
+    def concerned(self, edits: Sequence[ProposedEdit]) -> Document:
+        """Return the part of the document that edits concern, in which they do what they do in the whole.
+
+        Values concern their elements. Axes concern all elements that have an axis of these names, since keys
+        number them, and all that connections join with these elements.
+        """
+        values = [e.element or "" for e in edits if isinstance(e, SetValues)]
+        keys = [e.axis for e in edits if isinstance(e, SetAxis)]
+        if len(values) == len(edits) and all(path in self.ids for path in values):
+            return self._part({self.ids[path] for path in values}, False)
+        if len(keys) < len(edits) or any(key not in self.axes for key in keys):
+            return self.doc
+        having = [self._by_axis_name[self.axes[key].name] for key in keys]
+        part = self._part(reach(set[str]().union(*having), self._neighbours.__getitem__), True)
+        numbered = document_files.axes(part)
+        return part if all(numbered.get(key) == self.axes[key] for key in keys) else self.doc
+
+    def _part(self, ids: Collection[str], connected: bool) -> Document:
+        driving = (p for p in self.doc.parameters if any(ident in ids for ident, _ in p.links))
+        return dc.replace(
+            self.doc,
+            entries=tuple(e for e in self.doc.entries if e.id in ids),
+            connections=tuple(c for c in self.doc.connections if c.source in ids) if connected else (),
+            parameters=() if connected else tuple(driving),
+            groups=(),
+            uses=(),
+        )
+
+
+def bound(checked: CheckedDocument, problem: Problem) -> Problem:
     """Return a problem whose edits name the element that has it.
 
     An edit of a parameter that a document parameter drives becomes one of the document parameter. An edit
@@ -22,10 +95,11 @@ def bound(doc: Document, problem: Problem) -> Problem:
     if not isinstance(problem.fix, EditFix):
         return problem
     inside = [e.inside(problem.where) if isinstance(e, SetValues) else e for e in problem.fix.edits]
-    if shared := _also_driven(doc, inside):
+    if shared := _also_driven(checked, inside):
         return dc.replace(problem, fix=_text(problem.fix.with_edits(inside), f"First {shared}"))
-    edits = [new for e in problem.fix.edits for new in _bound(doc, problem.where, e)]
+    edits = [new for e in inside for new in _bound(checked, e)]
     fix = problem.fix.with_edits(edits)
+    doc = checked.concerned(edits)
     if not _in_order(doc, edits):  # the lines of its text would change other axes than the edit
         return dc.replace(problem, fix=joined(problem.fix.advice, problem.fix.otherwise))
     refused = _refused(doc, edits)
@@ -39,13 +113,13 @@ def _text(fix: EditFix, reason: str) -> Fix:
     return Fix(fix, fix.shell, fix.page).then(reason)
 
 
-def _also_driven(doc: Document, edits: Sequence[ProposedEdit]) -> str:
+def _also_driven(checked: CheckedDocument, edits: Sequence[ProposedEdit]) -> str:
     """Return what separates an edit from a document parameter that drives more than the edit sets; "" if none
     does.
     """
-    idents = {e.path: e.id for e in doc.entries} if doc.parameters else {}
+    doc = checked.doc
     new = {
-        (idents.get(e.element or "", ""), path): setting
+        (checked.ids.get(e.element or "", ""), path): setting
         for e in edits
         if isinstance(e, SetValues)
         for path, setting in e.values
@@ -85,13 +159,12 @@ def _refused(doc: Document, edits: Sequence[ProposedEdit]) -> Sequence[Problem]:
     return graph(new).problems if any(isinstance(e, SetAxis) for e in edits) else ()
 
 
-def _bound(doc: Document, where: str, proposed: ProposedEdit) -> Iterator[ProposedEdit]:
+def _bound(checked: CheckedDocument, proposed: ProposedEdit) -> Iterator[ProposedEdit]:
     if not isinstance(proposed, SetValues):
         yield proposed
         return
-    proposed = proposed.inside(where)
-    idents = [e.id for e in doc.entries if e.path == proposed.element]
-    links = {leaf: name for (ident, leaf), name in doc.links().items() if ident in idents}
+    ident = checked.ids.get(proposed.element or "", "")
+    links = {path: name for path, _ in proposed.values if (name := checked.links.get((ident, path)))}
     shared = tuple((links[path], setting) for path, setting in proposed.values if path in links)
     alone = tuple((path, setting) for path, setting in proposed.values if path not in links)
     if alone:

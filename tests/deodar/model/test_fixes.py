@@ -7,6 +7,7 @@ import copy
 import math
 import pickle
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from types import FrameType
@@ -20,7 +21,7 @@ from deodar.model import edit, new_elements
 from deodar.model.check import check
 from deodar.model.checks.resolution import with_cells
 from deodar.model.document import Document
-from deodar.model.proposed import apply, bound
+from deodar.model.proposed import CheckedDocument, apply, bound
 from deodar.proposed_edit import SetAxis
 from tests.deodar.model.proven_fix import faults, finding
 from tests.deodar.model.test_mistakes import KINDS, document
@@ -259,7 +260,7 @@ def test_an_edit_and_its_text_change_no_other_axis(axes: tuple[tuple[float, int,
 
 def test_edits_whose_text_would_change_other_axes_are_text() -> None:
     """One grid becomes equal to another one that becomes a third."""
-    doc = _circles((360, 73, False), (360, 72, False)).document
+    doc = CheckedDocument(_circles((360, 73, False), (360, 72, False)).document)
     longer = [SetAxis(key, (("samples", samples),)) for key, samples in (("heading", 72), ("heading_2", 71))]
     for order, names in ((longer, ()), (longer[::-1], tuple(longer[::-1]))):
         assert bound(doc, Problem("u0", "has grids", EditFix("Change them", order))).edits == names
@@ -346,3 +347,18 @@ def test_values_that_no_field_can_have_are_not_proposed(model: dd.Model) -> None
 def test_values_that_a_field_refuses_stay_as_they_are(values: dict[str, Any]) -> None:
     """The fix of which they are a part states the reason; the check does not raise."""
     assert with_cells(dd.Field("u", [X]), values) == values
+
+
+def test_checks_of_many_fixes_take_little_longer_than_those_of_few() -> None:
+    """Each fix is tried in the part of the document that it concerns."""
+    seconds: list[float] = []
+    for count in (20, 160):
+        model = dd.Model("m")
+        for k in range(count):
+            axis = dd.Axis(f"h{k}", 0, 360, samples=361, unit="deg")
+            source = model.add(dd.GaussianStimulus(f"s{k}", [axis], center=50, sigma=20, amplitude=6))
+            source >> model.add(dd.Field(f"u{k}", [axis], resting_level=5))
+        start = time.process_time()
+        assert sum(bool(p.edits) for p in check(model.document)) >= count
+        seconds.append(time.process_time() - start)
+    assert seconds[1] < 24 * seconds[0], seconds
