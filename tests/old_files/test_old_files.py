@@ -313,13 +313,13 @@ def test_parameters_of_a_package_keep_their_values(pooled: Path) -> None:
 
 
 def test_an_experiment_leaves_parameters_of_a_package_as_they_are(pooled: Path) -> None:
-    values = {f"{path}.{name}": value for path in "ksu" for name, value in STATED.items()}
-    actions = [{"kind": "Set", "at": 1, "path": path, "value": value} for path, value in values.items()]
+    values = {f"{path}.{name}": plain for path in "ksu" for name, plain in STATED.items()}
+    actions = [{"kind": "Set", "at": 1, "path": path, "value": plain} for path, plain in values.items()]
     factors = {"how": {"path": "k.windows", "levels": [[], [1.0]]}, "all": {"levels": {"old": values}}}
     content = {"experiment": 3, "name": "e", "model": pooled.name, "limit": 10, "actions": actions}
     new = migrate(content | {"factors": factors}, dd.load(pooled).document)
     converted: Any = {**values, "s.windows": None, "u.quadrature": "cell-0.1"}
-    ours = {path: value for path, value in converted.items() if path not in ("s.quadrature", "u.windows")}
+    ours = {path: plain for path, plain in converted.items() if path not in ("s.quadrature", "u.windows")}
     rows: Any = new["actions"]
     assert {row["path"]: row["value"] for row in rows}.items() >= ours.items()
     levels: Any = new["factors"]

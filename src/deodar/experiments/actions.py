@@ -385,12 +385,12 @@ def targets(number: int, actions: Sequence[Action], doc: Document) -> None:
         if around and any(a.when or isinstance(a.at, Sequence) for a in (action, *around.values())):
             find.target(doc, path)
             continue
-        now = doc
+        changed = doc
         for at, k in sorted((a.times[0], k) for k, a in around.items()):
             if (at, k) < (action.times[0], number):
                 with contextlib.suppress(DeodarError):  # the problem of that action, not of this one
-                    now = edit.change(now, around[k].path, around[k].value)
-        edit.change(now, path, value)
+                    changed = edit.change(changed, around[k].path, around[k].value)
+        edit.change(changed, path, value)
     for path in action.ports():
         find.shown(doc, path)
     if isinstance(action, Push):

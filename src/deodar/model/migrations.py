@@ -13,6 +13,7 @@ from typing import Any, cast
 
 from deodar import registry
 from deodar.codec import Json
+from deodar.element import Element
 from deodar.errors import UnknownName
 from deodar.model import find
 from deodar.model.document import Document
@@ -133,17 +134,17 @@ def _from_3(document: Mapping[str, Json]) -> dict[str, Json]:
 
 def _body_of_3(body: Any) -> Any:
     kind = cast("dict[str, Any]", body).get("kind") if isinstance(body, dict) else None
-    return values_of_3(body, lambda _: _known(kind))
+    return values_of_3(body, lambda _: _class_of(kind))
 
 
-def _kinds_by_id(elements: Any) -> dict[Any, type[Any] | None]:
+def _kinds_by_id(elements: Any) -> dict[Any, type[Element] | None]:
     """Return the classes of elements that state their ids, as all do that a file of deodar holds."""
     bodies = cast("dict[str, Any]", elements).values() if isinstance(elements, dict) else ()
     stated = [cast("dict[str, Any]", body) for body in bodies if isinstance(body, dict)]
-    return {str(body.get("id")): _known(body.get("kind")) for body in stated}
+    return {str(body.get("id")): _class_of(body.get("kind")) for body in stated}
 
 
-def _preset(preset: Any, kinds: Mapping[Any, type[Any] | None]) -> Any:
+def _preset(preset: Any, kinds: Mapping[Any, type[Element] | None]) -> Any:
     values = cast("dict[str, Any]", preset).get("values") if isinstance(preset, dict) else None
     if not isinstance(values, dict):
         return preset
@@ -155,7 +156,7 @@ def _preset(preset: Any, kinds: Mapping[Any, type[Any] | None]) -> Any:
     return {**preset, "values": converted}
 
 
-KindOf = Callable[[str], type[Any] | None]
+KindOf = Callable[[str], type[Element] | None]
 """A function that returns the class of the element whose parameter a path names; None: it is not known."""
 
 
@@ -164,29 +165,29 @@ def values_of_3(values: Any, kind_of: KindOf) -> Any:
     if not isinstance(values, dict):
         return values
     by_path = cast("dict[str, Any]", values)
-    return {path: value_of_3(path, value, kind_of) for path, value in by_path.items()}
+    return {path: value_of_3(path, plain, kind_of) for path, plain in by_path.items()}
 
 
-def value_of_3(path: Any, value: Any, kind_of: KindOf) -> Any:
+def value_of_3(path: Any, plain: Any, kind_of: KindOf) -> Any:
     """Convert the value of one parameter before document version 4, of which the name or path is known.
 
     Without windows a stimulus was always on, and `cell` was the rule `cell-0.1`. A parameter of the same name
     that cannot have the converted value belongs to a kind of a package and keeps its value.
     """
     name = path.rpartition(".")[2] if isinstance(path, str) else ""
-    if name == WINDOWS and value in ([], ()):
+    if name == WINDOWS and plain in ([], ()):
         declared = _declared(kind_of(path), name)
-        return None if declared is None or declared.optional else value
-    if name == QUADRATURE and value == "cell":
+        return None if declared is None or declared.optional else plain
+    if name == QUADRATURE and plain == "cell":
         declared = _declared(kind_of(path), name)
-        return "cell-0.1" if declared is None or "cell-0.1" in declared.choices else value
-    return value
+        return "cell-0.1" if declared is None or "cell-0.1" in declared.choices else plain
+    return plain
 
 
 def kind_lookup(doc: Document | None) -> KindOf:
     """Return the function that looks elements up in a document; without a document none is known."""
 
-    def kind_of(path: str) -> type[Any] | None:
+    def kind_of(path: str) -> type[Element] | None:
         try:
             entry = None if doc is None else find.target(doc, path).entry
         except UnknownName:  # the reader of the path reports it
@@ -196,7 +197,7 @@ def kind_lookup(doc: Document | None) -> KindOf:
     return kind_of
 
 
-def _known(kind: Any) -> type[Any] | None:
+def _class_of(kind: Any) -> type[Element] | None:
     """Return the class of a kind; None: there is none, which the reader of the document reports."""
     try:
         return registry.kind(kind) if isinstance(kind, str) else None
@@ -204,7 +205,7 @@ def _known(kind: Any) -> type[Any] | None:
         return None
 
 
-def _declared(kind: type[Any] | None, name: str) -> Parameter | None:
+def _declared(kind: type[Element] | None, name: str) -> Parameter | None:
     return None if kind is None else next((p for p in parameters(kind) if p.name == name), None)
 
 

@@ -43,11 +43,11 @@ class CheckedDocument:
 
     @functools.cached_property
     def _neighbours(self) -> dict[str, set[str]]:
-        near: dict[str, set[str]] = {e.id: set() for e in self.doc.entries}
+        neighbours: dict[str, set[str]] = {e.id: set() for e in self.doc.entries}
         for c in self.doc.connections:
-            near[c.source].add(c.target)
-            near[c.target].add(c.source)
-        return near
+            neighbours[c.source].add(c.target)
+            neighbours[c.target].add(c.source)
+        return neighbours
 
     @functools.cached_property
     def _by_axis_name(self) -> dict[str, set[str]]:
@@ -139,14 +139,14 @@ def _in_order(doc: Document, edits: Sequence[ProposedEdit]) -> bool:
     if len(axes) < 2:
         return True
     try:
-        together, each = apply(doc, axes), doc
+        together, in_turn = apply(doc, axes), doc
         for e in axes:
-            each = change_axis(each, e.axis, dict(e.values))
+            in_turn = change_axis(in_turn, e.axis, dict(e.values))
     except UnknownName:
         return False
     except DeodarError:  # an element refuses an axis, which the fix states
         return True
-    return [e.element for e in each.entries] == [e.element for e in together.entries]
+    return [e.element for e in in_turn.entries] == [e.element for e in together.entries]
 
 
 def _refused(doc: Document, edits: Sequence[ProposedEdit]) -> Sequence[Problem]:

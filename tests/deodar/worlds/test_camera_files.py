@@ -92,7 +92,7 @@ def test_a_video_that_is_closed_has_no_reader_until_the_next_reading(tmp_path: P
 
 
 def require_no_reader_once_closed(kind: Any, sensor: str, axes: Any, file: Path) -> None:
-    """Require that a world of a video has a reader while it is open alone, and then continues where it was."""
+    """Require that a world of a video has a reader while it is open alone, and then continues."""
     worlds = [kind(file), kind(file)]
     seen = worlds[0].sense(sensor, axes, 2000.0)
     assert len(readers(file)) == 2
