@@ -139,7 +139,7 @@ test("a file with errors opens as a page that lists every problem with its path"
     elements: Record<string, Record<string, unknown>>;
   };
   Object.assign(data.elements["u"] ?? {}, { tau: -1 });
-  Object.assign(data.elements["left"] ?? {}, { kind: "GausStimulus" });
+  Object.assign(data.elements["left"] ?? {}, { kind: "GausianStimulus" });
   writeFileSync(join(folder, "bad.json"), JSON.stringify(data));
   await file(page, /^Open…/);
   await page.getByRole("dialog").getByRole("button", { name: "bad.json" }).click();
