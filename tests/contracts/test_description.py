@@ -234,7 +234,7 @@ def test_range_and_default_of_a_parameter_are_valid_python() -> None:
     field = {p.name: p for p in KINDS["Field"].parameters}
     assert (field["tau"].range, field["tau"].typed) == ("at least 1e-06", "20")
     assert field["sigmoid"].typed == "Logistic(beta=4, threshold=0)"
-    assert (field["quadrature"].range, field["quadrature"].typed) == ("cell, point", "'point'")
+    assert (field["quadrature"].range, field["quadrature"].typed) == ("cell, cell-0.1, point", "'point'")
     assert (field["axes"].range, field["axes"].typed) == ("", "none")
     assert form(KINDS["Pattern"], "axes").typed == "required"
     assert form(KINDS["Logistic"], "beta").range == "1e-06 to 1000000"
