@@ -92,8 +92,8 @@ class SetAxis(ProposedEdit):
             arguments = ", ".join(f"{name}={_written(setting)}" for name, setting in self.values)
             return f'model.set_axis("{self.axis}", {arguments})'
         changes = ", ".join(f"{name} = {_written(setting, shell=True)}" for name, setting in self.values)
-        where = "in the file, " if place == "shell" else "axis "
-        return f"{where}axes.{self.axis}: {changes}" if place == "shell" else f"{where}{self.axis}: {changes}"
+        where = f"in the file, axes.{self.axis}" if place == "shell" else f"axis {self.axis}"
+        return f"{where}: {changes}"
 
 
 @dataclass(frozen=True)
