@@ -28,11 +28,11 @@ sys.path.insert(0, str(ROOT))
 from tests.deodar_studio.page import Page, page  # noqa: E402
 
 import deodar as dd  # noqa: E402
+from stops import status  # noqa: E402
 
 LIMIT = 3.0
 """Longest time that the manual states, s."""
 
-MOST_LOAD = 1.5
 STATUS = {signal.SIGINT: 0, signal.SIGTERM: 128 + signal.SIGTERM}
 State = contextlib.AbstractAsyncContextManager[None]
 
@@ -247,11 +247,7 @@ def main() -> int:
         late += times[-1] > LIMIT
         case_text = (CASES[name][0].__doc__ or "").strip().rstrip(".")
         print(f"{case_text:76} median {times[len(times) // 2]:.2f} s, longest {times[-1]:.2f} s", flush=True)
-    load = max(load, os.getloadavg()[0])
-    if load > MOST_LOAD * (os.cpu_count() or 1):
-        print(f"not judged: the load is {load:.1f}")
-        return 0
-    return 1 if late else 0
+    return status(load, late)
 
 
 if __name__ == "__main__":

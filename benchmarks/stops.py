@@ -444,6 +444,15 @@ def stops(name: str, tries: int, halt: float) -> list[Stop]:
         return list(CASES[name](Path(folder), tries, halt))
 
 
+def status(load: float, late: int) -> int:
+    """Return the exit status: 1 if something was late, unless the load, before or now, is too high."""
+    load = max(load, os.getloadavg()[0])
+    if load > MOST_LOAD * (os.cpu_count() or 1):
+        print(f"not judged: the load is {load:.1f}")
+        return 0
+    return 1 if late else 0
+
+
 def main() -> int:
     """Measure, print, and judge where the machine is quiet."""
     parser = argparse.ArgumentParser()
@@ -464,11 +473,7 @@ def main() -> int:
                 f" {len(milliseconds) - missed} of {len(milliseconds)}",
                 flush=True,
             )
-    load = max(load, os.getloadavg()[0])
-    if load > MOST_LOAD * (os.cpu_count() or 1):
-        print(f"not judged: the load is {load:.1f}")
-        return 0
-    return 1 if late else 0
+    return status(load, late)
 
 
 if __name__ == "__main__":
