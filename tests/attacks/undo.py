@@ -199,7 +199,7 @@ def _window(draw: Draw, before: int) -> dd.Window:
 def _listed(draw: Draw, doc: Document, leaf: str, how: Callable[[list[Any]], list[Any]]) -> Document:
     """Return a document in which one element has another list of parts."""
     chosen = _named(draw, doc, leaf)
-    old = list(getattr(chosen.element, leaf))
+    old = list(getattr(chosen.element, leaf) or ())
     new = how(old)
     if new == old:
         raise dd.errors.ModelError("nothing to change")

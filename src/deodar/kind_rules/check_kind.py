@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
-import json
 import threading
 import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
@@ -13,7 +12,7 @@ from typing import cast
 import jax
 import numpy as np
 
-from deodar import registry
+from deodar import codec, registry
 from deodar.batch.simulate import simulate
 from deodar.element import Element
 from deodar.errors import Problem, RunWarning, problems_of, show
@@ -248,7 +247,7 @@ def world_readings(kind: type[World]) -> Iterator[str]:
             yield f"{position(kind)} has axes of another shape in its example for the sensor {sensor!r}"
     description = world.describe()
     try:
-        same = json.loads(json.dumps(description)) == description
+        same = codec.parse(codec.text(description)) == description
     except (TypeError, ValueError):
         same = False
     if not same or description.get("world") != kind.__name__:
