@@ -1,6 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
+import { crowding } from "./bench/crowding";
 import { many } from "./bench/documents";
 import { button } from "./hands";
 import { startStudio } from "./studio";
@@ -12,6 +13,8 @@ const LONGEST_MS = 1000;
 const WINDOW_MS = 5000;
 /** A box that starves does so in every window; a machine with other work misses the time in some. */
 const WINDOWS = 4;
+/** Most times longer that a window lasts where other processes slow the machine down. */
+const MOST_CROWDED = 5;
 
 type Watched = {
   begun: number;
@@ -68,8 +71,11 @@ const begin = (page: Page) =>
     watched.picture = 0;
   });
 
-/** The number of boxes, the longest time that one of them was shown without a new drawing, and its limit. */
-const found = (page: Page) =>
+/**
+ * The number of boxes, the longest time that one of them was shown without a new drawing, and its limit, on a
+ * machine that is this many times slower because of other processes.
+ */
+const found = (page: Page, slower: number) =>
   page.evaluate((longest) => {
     const { gaps, picture } = (window as unknown as { watched: Watched }).watched;
     const now = performance.now();
@@ -81,14 +87,15 @@ const found = (page: Page) =>
       // until new values arrive, which are asked for with a picture, and once until they are drawn
       limit: longest + 2 * picture,
     };
-  }, LONGEST_MS);
+  }, LONGEST_MS * slower);
 
 /** What `found` of the first window in which each box was drawn in time, else of the last one. */
-async function drawn(page: Page, during: () => Promise<void>) {
+async function drawn(page: Page, during: (ms: number) => Promise<void>) {
   for (let left = WINDOWS; ; left--) {
+    const slower = Math.min(MOST_CROWDED, crowding());
     await begin(page);
-    await during();
-    const seen = await found(page);
+    await during(WINDOW_MS * slower);
+    const seen = await found(page, slower);
     if (left === 1 || (seen.boxes === COUNT && seen.gap <= seen.limit)) return seen;
     console.log(`a window is repeated: ${JSON.stringify(seen)}`);
   }
@@ -111,8 +118,8 @@ test("each of 200 boxes is redrawn once a second, also while the canvas is moved
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 4, y + 4);
-  const moved = await drawn(page, async () => {
-    const end = Date.now() + WINDOW_MS;
+  const moved = await drawn(page, async (ms) => {
+    const end = Date.now() + ms;
     for (let i = 0; Date.now() < end; i++) {
       await page.mouse.move(x + 12 * Math.sin(i / 12), y + 12 * Math.cos(i / 15));
     }
@@ -126,9 +133,9 @@ test("each of 200 boxes is redrawn once a second, also while the canvas is moved
   const session = await context.newCDPSession(page);
   await session.send("Emulation.setCPUThrottlingRate", { rate: SLOWER });
   await page.waitForTimeout(2000);
-  const slow = await drawn(page, () => page.waitForTimeout(WINDOW_MS));
+  const slow = await drawn(page, (ms) => page.waitForTimeout(ms));
   await session.send("Emulation.setCPUThrottlingRate", { rate: 1 });
   console.log(`slow: ${JSON.stringify(slow)}`);
   expect(slow.boxes).toBe(COUNT);
   expect(slow.gap).toBeLessThanOrEqual(slow.limit);
-});
+}, 400_000);
