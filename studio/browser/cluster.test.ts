@@ -13,7 +13,7 @@ let studio: Studio;
 
 beforeAll(async () => {
   studio = await startStudio();
-  writeTwoTargets(studio.folder);
+  await writeTwoTargets(studio.folder);
 });
 
 afterAll(() => studio.stop());

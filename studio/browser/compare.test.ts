@@ -1,4 +1,3 @@
-import { execFileSync } from "node:child_process";
 import { cpSync } from "node:fs";
 import { join } from "node:path";
 
@@ -6,7 +5,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
 import { button, drawn } from "./hands";
-import { python } from "./server";
+import { runPython } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
 
 let studio: Studio;
@@ -14,15 +13,15 @@ let studio: Studio;
 beforeAll(async () => {
   studio = await startStudio({ copies: ["examples/selection.json"] });
   const run = (out: string, ...words: string[]) =>
-    execFileSync(
-      python(),
+    runPython(
       ["-m", "deodar", "run", "selection.json", "--no-progress", "--duration", "400", "--out", out]
         .concat(["--record", "u.activation", "u.output", "--every", "2"])
         .concat(words),
-      { cwd: studio.folder, env: { ...process.env, DEODAR_STATE: studio.state }, stdio: "pipe" },
+      studio.folder,
+      { DEODAR_STATE: studio.state },
     );
-  run("one");
-  run("other", "--set", "left.amplitude=3");
+  await run("one");
+  await run("other", "--set", "left.amplitude=3");
   cpSync(join(studio.folder, "one"), join(studio.folder, "same"), { recursive: true });
 });
 

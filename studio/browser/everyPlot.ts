@@ -23,8 +23,8 @@ export const SHOWN: Record<string, [element: string, header: string]> = {
 type Shown = readonly [element: string, kind: string, settings?: object];
 
 /** Write `every.json` and the file of its arrays into a folder. */
-export function writeEveryPlot(folder: string): void {
-  runScript("every_plot", folder);
+export async function writeEveryPlot(folder: string): Promise<void> {
+  await runScript("every_plot", folder);
 }
 
 /** Write a copy of `every.json` with these plots side by side, in rows. */

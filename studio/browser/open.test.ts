@@ -1,4 +1,3 @@
-import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -7,7 +6,7 @@ import { afterAll, beforeAll, expect, onTestFinished, test } from "vitest";
 import { obstacles } from "./axe";
 import { button, drop, file, number, openExample, select, type } from "./hands";
 import type { Observer } from "./observer";
-import { python } from "./server";
+import { runPython } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
 
 const SELECTION = join(import.meta.dirname, "../../examples/selection.json");
@@ -96,9 +95,7 @@ test("a dropped document is opened, after a question if there are unsaved edits"
 
 test("a dropped package is opened", async () => {
   const { page, folder } = studio;
-  execFileSync(python(), ["-m", "deodar", "pack", "example:binding", "--out", "packed.deodar"], {
-    cwd: folder,
-  });
+  await runPython(["-m", "deodar", "pack", "example:binding", "--out", "packed.deodar"], folder);
   await drop(page, "packed.deodar", "", readFileSync(join(folder, "packed.deodar")));
   await observer.until(() => observer.document?.title === "binding" && observer.document.file === "");
   await expect.poll(() => title().innerText(), { message: "the page has it too" }).toBe("binding");

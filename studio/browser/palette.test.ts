@@ -157,7 +157,7 @@ test("the list of elements is a panel: a line is dragged to the canvas, or click
 
 test("the palette lists every registered kind, each with a sketch", async () => {
   const { page } = studio;
-  const registered = JSON.parse(runScript("kind_titles")) as string[];
+  const registered = JSON.parse(await runScript("kind_titles")) as string[];
   await page.keyboard.press("/");
   await option("Gaussian stimulus").waitFor();
   const lines = await palette()

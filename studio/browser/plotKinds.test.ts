@@ -16,7 +16,7 @@ let observer: Observer;
 
 beforeAll(async () => {
   studio = await startStudio(examplePackage());
-  writeEveryPlot(studio.folder);
+  await writeEveryPlot(studio.folder);
   observer = await studio.observe();
 });
 

@@ -1,4 +1,3 @@
-import { execFileSync } from "node:child_process";
 import { rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -6,7 +5,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
 import { box, button, choose, colours, drag, drawn, panel, select } from "./hands";
-import { python } from "./server";
+import { runPython } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
 
 const part = (kind: string, id: string, more: object) => ({ kind, id, axes: [], ...more });
@@ -31,17 +30,15 @@ const DRIVING = {
 let studio: Studio;
 
 const run = (...words: string[]) =>
-  execFileSync(python(), ["-m", "deodar", "run", "selection.json", "--no-progress", ...words], {
-    cwd: studio.folder,
-    env: { ...process.env, DEODAR_STATE: studio.state },
-    stdio: "pipe",
+  runPython(["-m", "deodar", "run", "selection.json", "--no-progress", ...words], studio.folder, {
+    DEODAR_STATE: studio.state,
   });
 
 beforeAll(async () => {
   studio = await startStudio({ copies: ["examples/selection.json"] });
   const how = ["--duration", "600", "--record", "u.activation", "u.output", "--every", "2"];
-  run(...how, "--out", "single");
-  run(...how, "--out", "trials", "--trials", "3", "--sweep", "left.amplitude=2,6");
+  await run(...how, "--out", "single");
+  await run(...how, "--out", "trials", "--trials", "3", "--sweep", "left.amplitude=2,6");
 });
 
 afterAll(() => studio.stop());
@@ -196,15 +193,15 @@ test("the world of a record shows its body, or states that it was not recorded",
   const { page } = studio;
   writeFileSync(join(studio.folder, "driving.json"), JSON.stringify(DRIVING));
   const drive = (out: string, ...ports: string[]) =>
-    execFileSync(
-      python(),
+    runPython(
       ["-m", "deodar", "run", "driving.json", "--no-progress", "--duration", "6400", "--out", out]
         .concat(["--world", "arena:blocks", "--record"])
         .concat(ports),
-      { cwd: studio.folder, env: { ...process.env, DEODAR_STATE: studio.state }, stdio: "pipe" },
+      studio.folder,
+      { DEODAR_STATE: studio.state },
     );
-  drive("drive", "pose.output");
-  drive("blind", "left.input");
+  await drive("drive", "pose.output");
+  await drive("blind", "left.input");
   const world = panel(page, "World");
   await open("drive");
   const canvas = world.getByRole("img", { name: /^The world from above/ });

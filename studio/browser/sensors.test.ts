@@ -56,7 +56,7 @@ test("a picture below the folder can be chosen in the header, with a preview", a
 
 test("a video and a record of another run are chosen in the header as what the sensor reads", async () => {
   const { page, folder } = studio;
-  runScript("sensor_files", folder);
+  await runScript("sensor_files", folder);
   const dialog = page.getByRole("dialog");
   const use = async (now: string, kind: string, file: string) => {
     await button(page, `World: ${now}; choose another one`).click();

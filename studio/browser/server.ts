@@ -1,9 +1,10 @@
 /** `deodar studio` in folders of its own, as a user starts it. */
-import { execFileSync, spawn } from "node:child_process";
+import { execFile, spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { connect } from "node:net";
 import { join } from "node:path";
 import type { Readable } from "node:stream";
+import { promisify } from "node:util";
 
 const ROOT = join(import.meta.dirname, "..", "..");
 const ADDRESS = /http:\/\/127\.0\.0\.1:\d+\S*(?=\s)/;
@@ -40,11 +41,18 @@ export function python(): string {
   return found;
 }
 
-/** Run `browser/python/NAME.py` in a folder, and return what it prints. */
-export function runScript(name: string, folder?: string): string {
-  const script = join(import.meta.dirname, "python", `${name}.py`);
-  return execFileSync(python(), [script], { cwd: folder, encoding: "utf8", stdio: "pipe" });
+/**
+ * Run Python with these arguments, and return what it prints. Connections to a studio are answered meanwhile:
+ * it would end them.
+ */
+export async function runPython(words: string[], folder?: string, env?: NodeJS.ProcessEnv): Promise<string> {
+  const options = { cwd: folder, env: { ...process.env, ...env } };
+  return (await promisify(execFile)(python(), words, options)).stdout;
 }
+
+/** Run `browser/python/NAME.py` in a folder, and return what it prints. */
+export const runScript = (name: string, folder?: string): Promise<string> =>
+  runPython([join(import.meta.dirname, "python", `${name}.py`)], folder);
 
 interface Child {
   output: Readable[];

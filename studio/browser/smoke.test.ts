@@ -12,7 +12,7 @@ let studio: Studio;
 
 beforeAll(async () => {
   studio = await startStudio(examplePackage());
-  writeEveryPlot(studio.folder);
+  await writeEveryPlot(studio.folder);
 });
 
 afterAll(() => studio.stop());

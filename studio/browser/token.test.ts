@@ -1,11 +1,10 @@
-import { execFileSync } from "node:child_process";
 import { rmSync } from "node:fs";
 import { join } from "node:path";
 
 import { expect, onTestFinished, test } from "vitest";
 
 import { box } from "./hands";
-import { python } from "./server";
+import { runPython } from "./server";
 import { startStudio, type Studio } from "./studio";
 
 /** The browser's messages for a server that does not run, or that requires another token. */
@@ -46,7 +45,7 @@ test("the file that the studio opens in the browser leads to the page", async ()
   context.setDefaultTimeout(60_000);
   onTestFinished(() => context.close());
   const page = await context.newPage();
-  await page.goto(execFileSync(python(), ["-c", code, url], { encoding: "utf8" }).trim());
+  await page.goto((await runPython(["-c", code, url])).trim());
   await box(page, "u").waitFor();
   expect(page.url()).toBe(new URL("/", url).href);
 });

@@ -1,6 +1,6 @@
 import { runScript } from "./server";
 
 /** Write `two-targets.json` with its model into a folder. */
-export function writeTwoTargets(folder: string): void {
-  runScript("two_targets", folder);
+export async function writeTwoTargets(folder: string): Promise<void> {
+  await runScript("two_targets", folder);
 }

@@ -2,7 +2,6 @@
  * Write every picture of the manual's chapter on the studio, light and dark, 1280 x 800, into the folder that
  * DEODAR_SHOTS names.
  */
-import { execFileSync } from "node:child_process";
 import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -12,7 +11,7 @@ import { expect, onTestFinished, test } from "vitest";
 import { frameOf, toPixels } from "../../src/world/plan";
 import { choose, openExample } from "../hands";
 import type { Observer } from "../observer";
-import { python } from "../server";
+import { runPython } from "../server";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
 import { writeTwoTargets } from "../twoTargets";
 
@@ -107,15 +106,14 @@ for (const colours of COLOURS) {
   test(`records, ${colours}`, async () => {
     const { page, folder } = await open(colours, { copies: ["examples/selection.json"] });
     const run = (out: string, amplitude: string) =>
-      execFileSync(
-        python(),
+      runPython(
         ["-m", "deodar", "run", "selection.json", "--no-progress", "--duration", "600", "--out", out]
           .concat(["--record", "u.activation", "u.output", "left.output", "right.output"])
           .concat(["--set", `right.amplitude=${amplitude}`]),
-        { cwd: folder, stdio: "pipe" },
+        folder,
       );
-    run("equal-inputs", "6");
-    run("stronger-right", "6.5");
+    await run("equal-inputs", "6");
+    await run("stronger-right", "6.5");
     const choose = async (which: string) => {
       const dialog = page.getByRole("dialog");
       await dialog.getByRole("button", { name: which }).click();
@@ -273,7 +271,7 @@ for (const colours of COLOURS) {
 
   test(`experiment, ${colours}`, async () => {
     const { page, folder } = await open(colours, {});
-    writeTwoTargets(folder);
+    await writeTwoTargets(folder);
     await page.keyboard.press("Control+o");
     const dialog = page.getByRole("dialog");
     await dialog.getByRole("button", { name: "two-targets.json", exact: true }).click();
