@@ -66,7 +66,7 @@ test("a warning appears and disappears on its box while a slider moves and the m
   await drag(page, thumb, (2 - (least as number)) / ((most as number) - (least as number)));
   const weak = mark("u", /^Warning: never reaches its threshold/);
   await weak.waitFor();
-  expect(await weak.getAttribute("title")).toMatch(/Make its inputs stronger than 5/);
+  expect(await weak.getAttribute("title")).toMatch(/make its inputs stronger than 5/);
   await button(page, "Pause").click();
   await shot(page, "marks-warning");
   await weak.focus();
