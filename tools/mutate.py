@@ -7,7 +7,8 @@
     python tools/mutate.py show                      print the share that is killed by all tests and by the
                                                      verdict, and every survivor
     python tools/mutate.py changed REV [--count 20]  judge mutants of the lines of `src` that changed since a
-                                                     revision, in ten minutes (`make mutants CHANGED=REV`)
+                                                     revision, in ten minutes after their tests are mapped
+                                                     (`make mutants CHANGED=REV`), or in `--minutes`
     python tools/mutate.py floor [FILE ...]          find for each source file the cheapest test that notices
                                                      when its public functions raise: tests/floor.csv
 
@@ -79,7 +80,7 @@ NOTE = "__note_call__"
 """Name among the built-in ones by which functions note that they are called."""
 
 MINUTES = 10.0
-"""How long mutants of a change are judged."""
+"""How long mutants of a change are judged, unless another time is stated."""
 
 Key = tuple[str, str, str]
 """What identifies a mutant of a commit: place, source before, source after."""
@@ -695,9 +696,12 @@ def beside(file: str) -> str:
     return next(p for p in (folder, *folder.parents) if p.is_dir()).relative_to(ROOT).as_posix()
 
 
-def judge_changes(root: Path, map_file: Path, commit: str, since: str, count: int) -> list[Row]:
-    """Judge mutants of the lines that changed since a revision, until MINUTES have passed."""
-    began = time.monotonic()
+def judge_changes(
+    root: Path, map_file: Path, commit: str, since: str, count: int, minutes: float
+) -> list[Row]:
+    """Judge mutants of the lines that changed since a revision, until the minutes have passed; the map of
+    their tests is completed first.
+    """
     command = ["git", "diff", "--unified=0", since, commit, "--", "src/*.py"]
     diff = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     lines = {file: numbers for file, numbers in changed_lines(diff).items() if (root / file).is_file()}
@@ -714,9 +718,10 @@ def judge_changes(root: Path, map_file: Path, commit: str, since: str, count: in
         note(root, map_file, ["-q", "-m", "fast or verdict", *missing])
     rows: list[Row] = []
     calls_by_test = calls(map_file)
+    began = time.monotonic()
     for mutant in drawn:
-        if time.monotonic() > began + 60 * MINUTES:
-            print(f"{len(drawn) - len(rows)} of {len(drawn)} were not judged in {MINUTES:g} minutes")
+        if time.monotonic() > began + 60 * minutes:
+            print(f"{len(drawn) - len(rows)} of {len(drawn)} were not judged in {minutes:g} minutes")
             break
         rows.append(judge(root, mutant, calls_by_test, commit))
         print(
@@ -761,6 +766,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         command.add_argument("--commit", default="HEAD", help="draw by this commit, and change its files")
         if name == "changed":
             command.add_argument("since", metavar="REV", help="lines that changed since this revision")
+            command.add_argument("--minutes", type=float, default=MINUTES, help="how long they are judged")
         if name in ("run", "changed"):
             count = COUNT if name == "run" else 20
             command.add_argument("--count", type=int, default=count, help="how many are drawn")
@@ -784,7 +790,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if given.command == "map":
             sys.exit(note(root, map_file, rest or ["tests"]))
         if given.command == "changed":
-            rows = judge_changes(root, map_file, commit, given.since, given.count)
+            rows = judge_changes(root, map_file, commit, given.since, given.count, given.minutes)
             print("\n".join(report(rows, equivalents())))
             return
         calls_by_test = calls(map_file)
