@@ -13,10 +13,10 @@ from pathlib import Path
 import deodar_native
 import numpy as np
 import pytest
+from tests.deodar.compiler.programs import executable
 
 import deodar as dd
 from deodar.cli import main
-from deodar.compiler.executable import executable
 from deodar.numerics import native
 from deodar.recording.provenance import KEY
 
@@ -27,7 +27,7 @@ ROUNDING = 1e-4
 
 def large() -> dd.Model:
     """Return two fields of a plane, of which one is slow, and two planes and a line for every kernel: the
-    planes share spectral modes, and the line has many lags.
+    planes share spectral modes, one has means over cells, and the line has many lags.
     """
     axes = [dd.Axis("x", 0, 60, samples=60), dd.Axis("y", 0, 50, samples=50)]
     kernel = [dd.Gaussian(5, 3, normalized=True)]
@@ -36,7 +36,10 @@ def large() -> dd.Model:
     v = model.add(dd.Field("v", axes, noise=0.5), ticks=2)
     u >> dd.Gain(0.5) >> v
     ring = [dd.Axis("x", 0, 40, samples=40, periodic=True), dd.Axis("y", 0, 40, samples=40, periodic=True)]
-    a, b = (model.add(dd.Field(name, ring, resting_level=-1, kernel=kernel, noise=1.0)) for name in "ab")
+    a, b = (
+        model.add(dd.Field(name, ring, resting_level=-1, kernel=kernel, noise=1.0, quadrature=q))
+        for name, q in (("a", "cell"), ("b", "point"))
+    )
     a >> dd.Convolve([dd.Gaussian(2, 2, normalized=True)]) >> b
     b >> dd.Convolve([dd.Gaussian(-2, 4, normalized=True)]) >> a
     z = dd.Axis("z", 0, 500, samples=500)
@@ -46,8 +49,8 @@ def large() -> dd.Model:
 
 def test_the_model_calls_every_kernel() -> None:
     text = executable(large()).chunk(())[0].as_text()
-    for name in ("noise", "line", "to_modes", "from_modes"):
-        assert f'"deodar_native_{name}_1"' in text
+    for name in ("noise", "line", "cells", "to_modes", "from_modes"):
+        assert f'"deodar_native_{name}_2"' in text
 
 
 def test_a_run_differs_from_one_without_kernels_by_rounding(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -111,7 +114,7 @@ def test_a_new_process_reads_programs_that_call_the_kernels_from_disk(place: Pat
     expected = dd.simulate(model, 20, record=RECORD)["u.activation"].values
     code = (
         "import sys, numpy as np, deodar as dd;"
-        "from deodar.compiler.executable import executable;"
+        "from tests.deodar.compiler.programs import executable;"
         "model = dd.load(sys.argv[1]);"
         "data = dd.simulate(model, 20, record=sys.argv[2:]);"
         "print(executable(model).traced, executable(model).compiled,"
@@ -119,6 +122,7 @@ def test_a_new_process_reads_programs_that_call_the_kernels_from_disk(place: Pat
     )
     done = subprocess.run(
         [sys.executable, "-c", code, str(path), *RECORD],
+        cwd=Path(__file__).parents[2],
         capture_output=True,
         text=True,
         check=True,

@@ -30,6 +30,7 @@ from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.exact import Exact, exact, split, wide
 from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.native import Kernels
 from deodar.numerics.positions import PositionCode, PositionUnits
 from deodar.numerics.scalar import Scalar
 from deodar.numerics.signs import Sign, product, sign_of
@@ -161,6 +162,8 @@ class Setting:
         noise: standard normal deviates over `Element.noise_axes`, or None.
         convolve: function of an array over the axes of the port that `Element.convolution` declares: the
             integral of the kernels times it, over the same axes. In `output` and `advance` only.
+        native: compiled functions for parts of the step, in `output` and `advance`; None where JAX computes
+            all.
     """
 
     ins: PortAxes
@@ -172,6 +175,7 @@ class Setting:
     time: Time = BEFORE
     noise: Array | None = None
     convolve: Callable[[Array], Array] = _undeclared
+    native: Kernels | None = None
 
     def full(self, axes: Axes, value: Scalar) -> Array:
         """Return an array over the axes, filled with one value."""

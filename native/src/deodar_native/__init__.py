@@ -26,11 +26,11 @@ CHOICE = "DEODAR_NATIVE"
 does not call this package if it is `off`.
 """
 
-INTERFACE = 1
+INTERFACE = 2
 """Version of the functions that deodar calls; deodar uses no package with another one."""
 
 _LIBRARY = Path(__file__).with_name("kernels.so")
-_HANDLERS = ("noise", "bits", "line", "to_modes", "from_modes")
+_HANDLERS = ("noise", "bits", "line", "to_modes", "from_modes", "cells")
 _BOUNDARIES = {"zero": 0, "periodic": 1, "reflect": 2}
 
 
@@ -78,6 +78,20 @@ def line(weights: Array, y: Array, boundary: str) -> Array:
     return _call(
         "line", jax.ShapeDtypeStruct(y.shape, y.dtype), weights, y, boundary=np.int64(_BOUNDARIES[boundary])
     )
+
+
+def cells(u: Array, beta: Array, threshold: Array, periodic: Sequence[bool]) -> Array:
+    """Return the means of a logistic output over the cells of a line or a plane, as
+    `deodar.numerics.quadrature.cell_means` computes them.
+
+    Args:
+        u: the activation, with one or two axes of more than one sample.
+        beta: steepness of the logistic function, one number.
+        threshold: its threshold, one number.
+        periodic: whether each axis is.
+    """
+    out = jax.ShapeDtypeStruct(u.shape, u.dtype)
+    return _call("cells", out, u, beta, threshold, periodic=np.asarray(periodic, np.int64))
 
 
 def to_modes(axes: Sequence[Modes], y: Array) -> Array:

@@ -162,6 +162,22 @@ ffi::Error plane_handler(ffi::ThreadPool pool, Reals y, Reals outer, Reals inner
   return ffi::Error::Success();
 }
 
+// u (..., samples) or (..., rows, columns), beta (...), threshold (...) -> as u
+ffi::Error cells_handler(ffi::ThreadPool pool, Reals u, Reals betas, Reals thresholds, ffi::Span<const int64_t> around,
+                         Numbers out) {
+  const size_t axes = around.size();
+  const Rows rows(out->dimensions(), axes);
+  const auto lengths = out->dimensions();
+  const int64_t columns = lengths.back(), lines = axes > 1 ? lengths[lengths.size() - 2] : 1;
+  const bool periodic[2] = {around[0] != 0, around.back() != 0};
+  in_pieces(pool, rows.count, [&](int64_t r) {
+    const Logistic g = {*rows.of(betas, r, 0), *rows.of(thresholds, r, 0)};
+    float* memory = scratch(kernels().cells_scratch(lines, columns));
+    kernels().cells(rows.of(u, r, axes), lines, columns, periodic, g, memory, out->typed_data() + r * lines * columns);
+  });
+  return ffi::Error::Success();
+}
+
 }  // namespace
 }  // namespace deodar
 
@@ -192,6 +208,14 @@ XLA_FFI_DEFINE_HANDLER_SYMBOL(deodar_line, deodar::line_handler,
                                   .Arg<deodar::Reals>()
                                   .Arg<deodar::Reals>()
                                   .Attr<int64_t>("boundary")
+                                  .Ret<ffi::Buffer<ffi::F32>>());
+XLA_FFI_DEFINE_HANDLER_SYMBOL(deodar_cells, deodar::cells_handler,
+                              ffi::Ffi::Bind()
+                                  .Ctx<ffi::ThreadPool>()
+                                  .Arg<deodar::Reals>()
+                                  .Arg<deodar::Reals>()
+                                  .Arg<deodar::Reals>()
+                                  .Attr<ffi::Span<const int64_t>>("periodic")
                                   .Ret<ffi::Buffer<ffi::F32>>());
 #define DEODAR_PLANE(name, forward)                                            \
   XLA_FFI_DEFINE_HANDLER_SYMBOL(name, deodar::plane_handler<forward>,          \

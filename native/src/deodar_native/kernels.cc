@@ -2,6 +2,7 @@
 // for each.
 #include "kernels.h"
 
+#include "cells.h"
 #include "line.h"
 #include "noise.h"
 #include "plane.h"
@@ -14,7 +15,8 @@
 namespace deodar {
 
 extern const Kernels DEODAR_TABLE(DEODAR_VECTORS);
-const Kernels DEODAR_TABLE(DEODAR_VECTORS) = {DEODAR_TEXT(DEODAR_VECTORS), bits, noise, line, line_scratch,
-                                              plane_to_modes, plane_from_modes, plane_scratch};
+const Kernels DEODAR_TABLE(DEODAR_VECTORS) = {
+    DEODAR_TEXT(DEODAR_VECTORS), bits,          noise, line,         line_scratch, plane_to_modes,
+    plane_from_modes,            plane_scratch, cells, cells_scratch};
 
 }  // namespace deodar

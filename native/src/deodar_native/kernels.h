@@ -18,6 +18,11 @@ struct PlaneModes {
   const float *outer_table, *inner_table;
 };
 
+// A logistic output function: 1 / (1 + exp(-beta (u - threshold))).
+struct Logistic {
+  float beta, threshold;
+};
+
 struct Kernels {
   const char* vectors;  // name of the instruction set
 
@@ -37,6 +42,12 @@ struct Kernels {
   void (*plane_to_modes)(const PlaneModes& modes, const float* y, float* scratch, float* out);
   void (*plane_from_modes)(const PlaneModes& modes, const float* given, float* scratch, float* y);
   int64_t (*plane_scratch)(const PlaneModes& modes);
+
+  // The mean of a logistic output over the cells of a line (one row) or a plane; `periodic` for each axis,
+  // `scratch` has `cells_scratch` floats.
+  void (*cells)(const float* u, int64_t rows, int64_t columns, const bool* periodic, const Logistic& g,
+                float* scratch, float* out);
+  int64_t (*cells_scratch)(int64_t rows, int64_t columns);
 };
 
 }  // namespace deodar

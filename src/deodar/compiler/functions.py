@@ -57,7 +57,7 @@ class Functions:
         axes: axes of what is convolved.
         choices: for each kind of boundaries how kernels are applied, where not by matrices.
         apart: whether matrices are not multiplied by the amplitudes.
-        kernels: compiled kernels for the convolution, if there are any.
+        kernels: compiled kernels for the convolution and the outputs, if there are any.
         tapped: the convolution by lags, where devices divide an axis.
     """
 
@@ -101,10 +101,11 @@ class Functions:
     def convolving(self, at: Setting) -> Setting:
         """The setting of an element in which `convolve` applies the mixed kernels."""
         if not self.convolves:
-            return own(at)
+            return own(at, native=self.kernels)
         mixture = at.constants.kernels
         return own(
             at,
+            native=self.kernels,
             convolve=lambda y: interaction.apply(
                 mixture, self.axes, y, self.choices, kernels=self.kernels, tapped=self.tapped
             ),

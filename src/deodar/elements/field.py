@@ -28,7 +28,6 @@ from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
 MOST_AXES = 4
-CELL_MEANS = {"cell": quadrature.cell_means, "cell-0.1": cell_means_0_1}
 MARGIN = 6.0
 """Assumed bound on the effect of noise, in standard deviations (exceeded about once in 10^9 samples)."""
 
@@ -81,7 +80,7 @@ class Field(Element):
     global_inhibition: Annotated[float, Live("activation", section="interaction")] = 0.0
     noise: Annotated[float, Live("activation", lower=0, neutral=0.0, section="noise")] = 0.0
     noise_length: Annotated[PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, section="noise")] = 0.0
-    quadrature: Annotated[str, Recompile(choices=(*CELL_MEANS, "point"), section="axes")] = "point"
+    quadrature: Annotated[str, Recompile(choices=("cell", "cell-0.1", "point"), section="axes")] = "point"
 
     convolution: ClassVar[Convolution | None] = Convolution("output", into="input")
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {
@@ -172,12 +171,12 @@ class Field(Element):
 
     def output(self, at: Setting) -> Arrays:
         u = at.state["activation"]
-        g = self._output(u)
+        g = self._output(at, u)
         return {"output": g, "activation": u, "interaction": self._interaction(at, g)}
 
     def advance(self, at: Setting) -> Arrays:
         u, h, s = at.state["activation"], self.resting_level, at.inputs["input"]
-        change = -u + h + s + self._interaction(at, self._output(u))
+        change = -u + h + s + self._interaction(at, self._output(at, u))
         return {"activation": euler(u, change, self.tau, at.time.dt, self._noise(at))}
 
     @classmethod
@@ -198,12 +197,12 @@ class Field(Element):
     ) -> Mapping[str, np.ndarray] | None:
         return {"activation": state["activation"] + dt / self.tau * amount}
 
-    def _output(self, u: Array) -> Array:
-        return (
-            self.sigmoid(u)
-            if self.quadrature == "point"
-            else CELL_MEANS[self.quadrature](self.sigmoid, u, tuple(self.axes))
-        )
+    def _output(self, at: Setting, u: Array) -> Array:
+        if self.quadrature == "point":
+            return self.sigmoid(u)
+        if self.quadrature == "cell":
+            return quadrature.cell_means(self.sigmoid, u, tuple(self.axes), at.native)
+        return cell_means_0_1(self.sigmoid, u, tuple(self.axes))
 
     def _output_bounds(self, u: Interval) -> Interval:
         of_g = self.sigmoid.bounds(u)

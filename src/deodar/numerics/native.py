@@ -26,9 +26,9 @@ LEAST_LINE = 15_000
 """Lags times samples from which a convolution over one axis is a call of a kernel, which costs 0.1 us."""
 
 LARGEST_PLANE = 40_000
-"""Samples of a plane up to which a kernel transforms it: a kernel uses one core, XLA all of them."""
+"""Samples of a plane up to which kernels compute it: a kernel uses one core, XLA all of them."""
 
-INTERFACE = 1
+INTERFACE = 2
 """Version of the functions below; a distribution that states another one is not used."""
 
 
@@ -65,6 +65,10 @@ class Kernels(Protocol):
         """Return what `convolution.tapped` computes."""
         ...
 
+    def cells(self, u: Array, beta: Array, threshold: Array, periodic: Sequence[bool]) -> Array:
+        """Return what `quadrature.cell_means` computes for a logistic function over one or two axes."""
+        ...
+
     def to_modes(self, axes: Sequence[Modes], y: Array) -> Array:
         """Return the spectral modes of a plane, with an origin of phases of their own."""
         ...
@@ -88,6 +92,11 @@ def transforms(found: Kernels, waves: Sequence[Modes]) -> bool:
         and math.prod(w.samples for w in waves) <= LARGEST_PLANE
         and found.vectors() != "plain"
     )
+
+
+def means_of_cells(axes: int, samples: int) -> bool:
+    """Return whether a kernel computes the means of an output over so many axes and samples."""
+    return axes <= 2 and samples <= LARGEST_PLANE
 
 
 def version(found: Kernels | None) -> str:

@@ -42,9 +42,11 @@ import jax.numpy as jnp
 from jax import Array
 from jax.lax import optimization_barrier, slice_in_dim
 
+from deodar.numerics import native
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval
-from deodar.numerics.sigmoids import SigmoidFunction
+from deodar.numerics.native import Kernels
+from deodar.numerics.sigmoids import Logistic, SigmoidFunction
 
 AT_SAMPLES = tuple(c / 230400 for c in (29, -519, 5547, -24792, 52024, 165822, 52024, -24792, 5547, -519, 29))
 """v(i) from u(i - 5) to u(i + 5)."""
@@ -60,26 +62,29 @@ BESIDE = 8
 """Samples beyond the ends that the rule reads."""
 OVERSHOOT = (2 * 29 + 2 * 316 + 2494 - 1920) / 3840
 """Share of the range of g by which the output may leave it: the weights of o with its signs."""
-FLAT = 1e-12
-"""Square of the slope, in activation per two samples, below which no direction is preferred."""
+FLAT = 1e-9
+"""Fourth power of the slope, in activation per two samples, below which no direction is preferred."""
 
 
-def cell_means(g: SigmoidFunction, u: Array, axes: Axes) -> Array:
+def cell_means(g: SigmoidFunction, u: Array, axes: Axes, kernels: Kernels | None = None) -> Array:
     """Return the mean of g over the cell of each sample; on a node, and along axes of one sample, g itself.
 
-    Beyond the end of an axis that is not periodic, u continues in a straight line.
+    Beyond the end of an axis that is not periodic, u continues in a straight line. A compiled kernel computes
+    the rule for a logistic g over one and two axes, where there are `kernels`.
     """
     long = long_axes(axes)
     if not long:
         return g(u)
+    if kernels is not None and type(g) is Logistic and native.means_of_cells(len(long), u.size):
+        u_long = u.reshape([axes[d].samples for d in long])
+        beta, threshold = (jnp.asarray(x, u.dtype) for x in (g.beta, g.threshold))
+        return kernels.cells(u_long, beta, threshold, [axes[d].periodic for d in long]).reshape(u.shape)
     if len(long) == 1:
         return _along(g, u, axes, long[0])
-    slopes = [_steps(u, d, periodic=axes[d].periodic) ** 2 for d in long]
-    whole = sum(slopes, jnp.asarray(FLAT, u.dtype))
-    shares = [(s / whole) ** 2 + FLAT for s in slopes]
+    weights = [_steps(u, d, periodic=axes[d].periodic) ** 4 + FLAT for d in long]
     means = [_along(g, u, axes, d) for d in long]
-    blended = sum((w * o for w, o in zip(shares[1:], means[1:], strict=True)), shares[0] * means[0])
-    return optimization_barrier(blended / sum(shares[1:], shares[0]))
+    blended = sum((w * o for w, o in zip(weights[1:], means[1:], strict=True)), weights[0] * means[0])
+    return optimization_barrier(blended / sum(weights[1:], weights[0]))
 
 
 def bounds(g: Interval) -> Interval:
