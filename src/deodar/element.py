@@ -206,6 +206,8 @@ class Element(Part):
         direct: for each output port that depends on inputs of the same step, the names of these inputs; other
             output ports depend on the state only.
         follows: for an input port that has the axes of another input port, the name of that port.
+        bounded_inputs: input ports that use an output of a field as a number between 0 and 1, for example as
+            a rate; they read the `bounded_port` of the source in place of the connected port.
         external: input without connections, with the axes of `output`; its value comes from outside the
             model: from the world for a `Sensor` and classes derived from it, else it is 0. "": none.
         stateful: whether the element has a state, as it has if it defines `advance`; if not, all outputs
@@ -232,6 +234,7 @@ class Element(Part):
     optional: ClassVar[Mapping[str, str]] = {}
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     follows: ClassVar[Mapping[str, str]] = {}
+    bounded_inputs: ClassVar[tuple[str, ...]] = ()
     external: ClassVar[str] = ""
     stateful: ClassVar[bool] = False
     reads_own_output: ClassVar[tuple[str, ...]] = ()
@@ -323,6 +326,13 @@ class Element(Part):
         Parameters that are moments or durations need no mention, nor do output functions that jump.
         """
         return ()
+
+    def bounded_port(self, port: str) -> str:
+        """Return the output port that `bounded_inputs` read in place of `port`.
+
+        For a port whose values may leave the range of the element's sigmoid it is one whose values do not.
+        """
+        return port
 
     def kernels(self) -> Sequence[Kernel]:
         """Return the kernels that `Setting.convolve` applies, summed."""

@@ -106,7 +106,7 @@ def test_the_description_of_a_field_is_complete() -> None:
     assert (field.title, field.room) == ("Field", "elements")
     assert field.equation[0].startswith(r"\tau \frac{du}{dt} = -u + h")
     assert "Amari (1977)" in field.reference
-    assert list(field.ports) == ["input", "output", "activation", "interaction"]
+    assert list(field.ports) == ["input", "output", "bounded", "activation", "interaction"]
     assert field.levels == {
         "activation": {"threshold": "sigmoid.threshold", "resting level": "resting_level"}
     }

@@ -68,19 +68,24 @@ CENTRAL = {1: 45 / 60, 2: -9 / 60, 3: 1 / 60}
 DEBLUR = {0: 1247 / 960, 1: -79 / 480, -1: -79 / 480, 2: 29 / 1920, -2: 29 / 1920}
 
 
-def cell_means(g, u, axes):
+def cell_means(g, u, axes, last=None):
     """Return the mean of g over cells: along each axis, weighted by the fourth power of the slope."""
     out = np.zeros(u.shape)
     for place in np.ndindex(*u.shape):
         slopes = [beside(u, place, d, 1, a) - beside(u, place, d, -1, a) for d, a in enumerate(axes)]
         shares = [s**4 + 1e-9 for s in slopes]
-        along = [line_mean(g, u, place, d, a) for d, a in enumerate(axes)]
+        along = [line_mean(g, u, place, d, a, last or DEBLUR) for d, a in enumerate(axes)]
         out[place] = np.dot(shares, along) / sum(shares)
     return out
 
 
-def line_mean(g, u, place, d, axis):
-    """Return the output at a position along axis d.
+def bounded_cell_means(g, u, axes):
+    """Return the same without the last line of the rule."""
+    return cell_means(g, u, axes, {0: 1.0})
+
+
+def line_mean(g, u, place, d, axis, last):
+    """Return the output at a position along axis d; `last` are the weights of the blurred means.
 
     The values of activation at and between samples are sums of their differences, which are the weights of
     the output applied to the central difference of order 6. The first of them follows from C.
@@ -108,7 +113,7 @@ def line_mean(g, u, place, d, axis):
         pieces = {-1.0: 1, -0.5: 3, 0.0: 3, 0.5: 1}
         return sum(w / 8 * mean(g, v[k + a], v[k + a + 0.5]) for a, w in pieces.items())
 
-    return sum(w * blurred(k) for k, w in DEBLUR.items())
+    return sum(w * blurred(k) for k, w in last.items())
 
 
 def cell_means_0_1(g, u, axes):

@@ -105,6 +105,7 @@ class Quotient(Coupling):
     least: Annotated[float, Live(lower=1e-30)] = 1e-6
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "divisor")
+    bounded_inputs: ClassVar[tuple[str, ...]] = ("divisor",)
     follows: ClassVar[Mapping[str, str]] = {"divisor": "input"}
 
     def jumps_at(self) -> Sequence[str]:
@@ -319,6 +320,8 @@ class Pointwise(Coupling):
     """
 
     function: Annotated[str, Recompile(choices=tuple(FUNCTIONS))] = "abs"
+
+    bounded_inputs: ClassVar[tuple[str, ...]] = ("input",)
 
     def output(self, at: Setting) -> Arrays:
         return {"output": FUNCTIONS[self.function](at.inputs["input"])}

@@ -67,6 +67,8 @@ class AdaptiveWeights(Coupling):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
     optional: ClassVar[Mapping[str, str]] = {"gate": "gated", "pre": "apart"}
+    # a rate below 0 would make the weights grow without bound
+    bounded_inputs: ClassVar[tuple[str, ...]] = ("input", "post", "pre")
 
     def polarity(self) -> Sign:
         return "±"

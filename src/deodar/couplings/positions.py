@@ -109,6 +109,8 @@ class MaximumPosition(Coupling):
     absent: Annotated[float, Live("axis")] = 0.0
 
     jumps: ClassVar[bool] = True
+    # at the edge of a plateau an output beyond 1 would be the largest
+    bounded_inputs: ClassVar[tuple[str, ...]] = ("input",)
 
     def jumps_at(self) -> Sequence[str]:
         return "input", "least"

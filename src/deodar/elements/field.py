@@ -63,6 +63,9 @@ class Field(Element):
         input: s, the sum of all connections, over `axes`.
         output: g(u), over `axes`; its mean over each cell with `quadrature="cell"`, which leaves the range of
             g at edges by up to 0.1.
+        bounded: the same mean with its blur, which stays in the range of g, over `axes`; only with
+            `quadrature="cell"` and axes. Ports that use an output as a number between 0 and 1 read it in
+            place of `output`.
         activation: u, over `axes`.
         interaction: the sum of both integral terms, over `axes`.
 
@@ -97,7 +100,11 @@ class Field(Element):
 
     def outputs(self, ins: PortAxes) -> PortAxes:
         axes = tuple(self.axes)
-        return {"output": axes, "activation": axes, "interaction": axes}
+        ports = {"output": axes, "activation": axes, "interaction": axes}
+        return ports | ({"bounded": axes} if self._overshoots else {})
+
+    def bounded_port(self, port: str) -> str:
+        return "bounded" if port == "output" and self._overshoots else port
 
     def kernels(self) -> Sequence[Kernel]:
         return self.kernel
@@ -161,7 +168,8 @@ class Field(Element):
         )
         drawn = total((h - spread, h + spread), inputs["input"], interaction)
         u = hull(u, drawn)
-        return {"activation": u, "output": self._output_bounds(u), "interaction": interaction}
+        bounded = {"bounded": self.sigmoid.bounds(u)} if self._overshoots else {}
+        return {"activation": u, "output": self._output_bounds(u), "interaction": interaction} | bounded
 
     def init(self, at: Setting) -> Arrays:
         return {"activation": at.full(tuple(self.axes), self.resting_level)}
@@ -172,7 +180,10 @@ class Field(Element):
     def output(self, at: Setting) -> Arrays:
         u = at.state["activation"]
         g = self._output(at, u)
-        return {"output": g, "activation": u, "interaction": self._interaction(at, g)}
+        ports = {"output": g, "activation": u, "interaction": self._interaction(at, g)}
+        if self._overshoots:
+            ports["bounded"] = quadrature.bounded_cell_means(self.sigmoid, u, tuple(self.axes))
+        return ports
 
     def advance(self, at: Setting) -> Arrays:
         u, h, s = at.state["activation"], self.resting_level, at.inputs["input"]
@@ -206,7 +217,12 @@ class Field(Element):
 
     def _output_bounds(self, u: Interval) -> Interval:
         of_g = self.sigmoid.bounds(u)
-        return quadrature.bounds(of_g) if self.quadrature == "cell" and self.axes else of_g
+        return quadrature.bounds(of_g) if self._overshoots else of_g
+
+    @property
+    def _overshoots(self) -> bool:
+        """Whether the output may leave the range of the sigmoid."""
+        return self.quadrature == "cell" and bool(self.axes)
 
     def _interaction(self, at: Setting, g: Array) -> Array:
         inhibition = self.global_inhibition * cell(tuple(self.axes)) * jnp.sum(g)

@@ -86,6 +86,7 @@ class MemoryTrace(Element):
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
     optional: ClassVar[Mapping[str, str]] = {"gate": "gated"}
+    bounded_inputs: ClassVar[tuple[str, ...]] = ("input",)
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return () if port == "gate" else tuple(self.axes)

@@ -269,6 +269,8 @@ class _Resolver:
                 f"Output ports: {', '.join(source.outs)}",
             )
             return None
+        if c.target_port in node.element.bounded_inputs:
+            c = dc.replace(c, source_port=source.element.bounded_port(c.source_port))
         if c.reads == "delayed":
             ident = f"{source.id}.{c.source_port}~"
             if ident not in self.nodes:

@@ -96,7 +96,7 @@ def transforms(found: Kernels, waves: Sequence[Modes]) -> bool:
 
 def means_of_cells(axes: int, samples: int) -> bool:
     """Return whether a kernel computes the means of an output over so many axes and samples."""
-    return axes <= 2 and samples <= LARGEST_PLANE
+    return 1 <= axes <= 2 and samples <= LARGEST_PLANE
 
 
 def version(found: Kernels | None) -> str:

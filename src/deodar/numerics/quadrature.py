@@ -30,7 +30,9 @@ k^6 for linear g.
 Over more axes the output is the mean of the outputs along each of them, weighted by the fourth power of the
 slope along each: an edge is averaged along the axis that it crosses, and a hill is the same along all.
 
-The output leaves the range of g at an edge, by up to 0.05 over one axis and 0.1 over two.
+The output leaves the range of g at an edge, by up to 0.05 over one axis and 0.1 over two. Where it is used
+as a number between 0 and 1, the means m take its place: they stay in the range of g, and over one axis their
+sum is that of the output.
 """
 
 from __future__ import annotations
@@ -58,6 +60,8 @@ FROM_HALVES = tuple(c / 15360 for c in (29, -229, 1546, 7166, -919, 87))
 """o(i) from q(i - 3 + 1/4) to q(i + 2 + 1/4), the first halves of intervals, and in reverse from the second
 halves.
 """
+BLURRED_FROM_HALVES = (0.0, 0.0, 1 / 8, 3 / 8, 0.0, 0.0)
+"""m(i) from the same, all weights positive."""
 BESIDE = 8
 """Samples beyond the ends that the rule reads."""
 OVERSHOOT = (2 * 29 + 2 * 316 + 2494 - 1920) / 3840
@@ -73,18 +77,28 @@ def cell_means(g: SigmoidFunction, u: Array, axes: Axes, kernels: Kernels | None
     the rule for a logistic g over one and two axes, where there are `kernels`.
     """
     long = long_axes(axes)
+    if kernels is None or type(g) is not Logistic or not native.means_of_cells(len(long), u.size):
+        return _means(g, u, axes, FROM_HALVES)
+    over_long = u.reshape([axes[d].samples for d in long])
+    beta, threshold = (jnp.asarray(x, u.dtype) for x in (g.beta, g.threshold))
+    return kernels.cells(over_long, beta, threshold, [axes[d].periodic for d in long]).reshape(u.shape)
+
+
+def bounded_cell_means(g: SigmoidFunction, u: Array, axes: Axes) -> Array:
+    """Return the same before the last line of the rule: blurred, and in the range of g."""
+    return _means(g, u, axes, BLURRED_FROM_HALVES)
+
+
+def _means(g: SigmoidFunction, u: Array, axes: Axes, weights: Sequence[float]) -> Array:
+    long = long_axes(axes)
     if not long:
         return g(u)
-    if kernels is not None and type(g) is Logistic and native.means_of_cells(len(long), u.size):
-        u_long = u.reshape([axes[d].samples for d in long])
-        beta, threshold = (jnp.asarray(x, u.dtype) for x in (g.beta, g.threshold))
-        return kernels.cells(u_long, beta, threshold, [axes[d].periodic for d in long]).reshape(u.shape)
     if len(long) == 1:
-        return _along(g, u, axes, long[0])
-    weights = [_steps(u, d, periodic=axes[d].periodic) ** 4 + FLAT for d in long]
-    means = [_along(g, u, axes, d) for d in long]
-    blended = sum((w * o for w, o in zip(weights[1:], means[1:], strict=True)), weights[0] * means[0])
-    return optimization_barrier(blended / sum(weights[1:], weights[0]))
+        return _along(g, u, axes, long[0], weights)
+    shares = [_steps(u, d, periodic=axes[d].periodic) ** 4 + FLAT for d in long]
+    means = [_along(g, u, axes, d, weights) for d in long]
+    blended = sum((w * o for w, o in zip(shares[1:], means[1:], strict=True)), shares[0] * means[0])
+    return optimization_barrier(blended / sum(shares[1:], shares[0]))
 
 
 def bounds(g: Interval) -> Interval:
@@ -93,8 +107,8 @@ def bounds(g: Interval) -> Interval:
     return g[0] - beyond, g[1] + beyond
 
 
-def _along(g: SigmoidFunction, u: Array, axes: Axes, d: int) -> Array:
-    """Return the rule over axis d.
+def _along(g: SigmoidFunction, u: Array, axes: Axes, d: int, weights: Sequence[float]) -> Array:
+    """Return the rule over axis d, with weights of the first halves of intervals.
 
     Values at and between samples are one array, and barriers stand where an array has several readers:
     otherwise the compiler computes exponentials once for each reader, and without vectors.
@@ -111,7 +125,7 @@ def _along(g: SigmoidFunction, u: Array, axes: Axes, d: int) -> Array:
     near, far = optimization_barrier(
         (g.mean(first[0], middle[0], first[1], middle[1]), g.mean(last[0], middle[0], last[1], middle[1]))
     )
-    return weighted(near, d, n, FROM_HALVES) + weighted(far, d, n, FROM_HALVES[::-1])
+    return weighted(near, d, n, weights) + weighted(far, d, n, weights[::-1])
 
 
 def _steps(y: Array, d: int, *, periodic: bool) -> Array:
@@ -135,9 +149,8 @@ def long_axes(axes: Axes) -> list[int]:
 
 def weighted(y: Array, d: int, count: int, weights: Sequence[float]) -> Array:
     """Return weighted sums of successive samples along axis d."""
-    return sum(
-        (c * cut(y, d, k, count) for k, c in enumerate(weights) if k), weights[0] * cut(y, d, 0, count)
-    )
+    first, *others = (c * cut(y, d, k, count) for k, c in enumerate(weights) if c)
+    return sum(others, first)
 
 
 def terms(at: tuple[Array, ...] | None, d: int, start: int, count: int) -> tuple[Array, ...] | None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.numerics.quadrature import cell_means
+from deodar.numerics.quadrature import bounded_cell_means, cell_means
 from deodar.numerics.quadrature_0_1 import cell_means_0_1
 from deodar.numerics.sigmoids import Absolute, Linear, SemiLinear, Step
 from tests.oracle import fields
@@ -31,7 +31,11 @@ def bumpy(axes, seed=0):
     return u
 
 
-RULES = {"cell": (cell_means, fields.cell_means), "cell-0.1": (cell_means_0_1, fields.cell_means_0_1)}
+RULES = {
+    "cell": (cell_means, fields.cell_means),
+    "cell, bounded": (bounded_cell_means, fields.bounded_cell_means),
+    "cell-0.1": (cell_means_0_1, fields.cell_means_0_1),
+}
 
 
 @pytest.mark.parametrize("rule", RULES)
