@@ -81,7 +81,7 @@ def working_memory() -> dd.Model:
     """A peak that outlives its input."""
     model = dd.Model("working memory")
     # as points its edges are narrower than a sample: it would not drift
-    u = model.add(field("u", 18, 0.3, noise=0.2, quadrature="cell"))
+    u = model.add(field("u", 18, 0.3, noise=0.13, noise_length=1, quadrature="cell"))
     model.add(dd.GaussianStimulus("cue", [X], center=35, sigma=5, amplitude=6, windows=[(100, 300)])) >> u
     model.describe(
         notes=(

@@ -62,11 +62,22 @@ def _two_grids() -> dd.Model:
     return _model(dd.Field("u", [HEADING]), stimulus)
 
 
+def _white(of_field: bool) -> dd.Model:
+    """A field with means over cells and white noise, of its own or of an element."""
+    field = dd.Field("u", [X], noise=0.1 * of_field, quadrature="cell")
+    model = _model(field)
+    if not of_field:
+        model.add(dd.Noise("noise", [X], amplitude=0.2)) >> model["u"]
+    return model
+
+
 FURTHER = {
     "on without any input": _model(dd.Field("u", [X], resting_level=5, global_inhibition=1)),
     "below the rounding": _model(dd.Field("u", [X], tau=1e9)),
     "a linked parameter": _linked(),
     "two grids": _two_grids(),
+    "white noise over cells": _white(True),
+    "white noise of an element": _white(False),
     "a hat of equal widths": _model(dd.Field("u", [X], kernel=[dd.MexicanHat(10, 5, 4, 5)])),
 }
 CASES = [case for group in KINDS.values() for case in group["cases"]]

@@ -10,6 +10,7 @@ import numpy as np
 from deodar.elements.field import Field
 from deodar.errors import DeodarError, Problem, assign
 from deodar.leaves import per_axis, replace
+from deodar.model.checks.noise import correlated
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.separable import Gaussian, MexicanHat, TruncatedGaussian
@@ -58,9 +59,8 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             else ""
         )
         advice = "Average the output over cells"
-        yield warning(
-            n, sentence, assign(advice, {"quadrature": "cell"}, f"Or write {finer}" if finer else "")
-        )
+        cells = {"quadrature": "cell", **correlated(e)}
+        yield warning(n, sentence, assign(advice, cells, f"Or write {finer}" if finer else ""))
 
 
 def with_cells(field: Field, values: Mapping[str, EditValue]) -> dict[str, EditValue]:
@@ -74,7 +74,7 @@ def with_cells(field: Field, values: Mapping[str, EditValue]) -> dict[str, EditV
             new = replace(new, path, setting)
     except DeodarError:  # the fix with these values states the reason
         return dict(values)
-    return {**values, "quadrature": "cell"} if _steep(new) else dict(values)
+    return {**values, "quadrature": "cell", **correlated(new)} if _steep(new) else dict(values)
 
 
 def _limit(field: Field) -> float:

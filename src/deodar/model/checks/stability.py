@@ -11,6 +11,7 @@ from deodar.elements.field import Field
 from deodar.elements.stimuli import BoxStimulus, GaussianStimulus
 from deodar.errors import EditFix, Problem, assign, joined
 from deodar.model.checks.activation import off_at_rest
+from deodar.model.checks.noise import correlated
 from deodar.model.checks.resolution import with_cells
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
@@ -154,4 +155,6 @@ def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
             f"its inputs {' and '.join(m.path for m in inputs)} are equal, they compete, and noise is 0:"
             " rounding decides which one wins"
         )
-        yield warning(n, sentence, assign("Give it noise", {"noise": 0.1}, "Or make one input stronger"))
+        length = correlated(dc.replace(e, noise=0.1)) if e.quadrature == "cell" else {}
+        noise = {"noise": 0.1, **length}
+        yield warning(n, sentence, assign("Give it noise", noise, "Or make one input stronger"))

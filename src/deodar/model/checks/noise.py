@@ -1,0 +1,51 @@
+"""Noise that is white in space, whose effect on a field has no limit on finer grids."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from deodar.element import Element
+from deodar.elements.changing_stimuli import Noise
+from deodar.elements.field import Field
+from deodar.errors import Problem, assign
+from deodar.leaves import per_axis
+from deodar.model.wiring import Wiring, warning
+from deodar.proposed_edit import rounded
+
+
+def check(wiring: Wiring) -> Iterator[Problem]:
+    """Check the noise of fields with means over cells, their own and that of sources: their results are meant
+    to be those of a fine grid.
+    """
+    fields = [n for n in wiring.declared if isinstance(n.element, Field) and n.element.quadrature == "cell"]
+    noisy = {m.id for n in fields for m in (n, *wiring.sources(n))}
+    for n in wiring.declared:
+        if n.id in noisy and (values := correlated(n.element)):
+            sentence = (
+                "its noise is white in space, which has no limit on a grid: with more samples drift and rates"
+                " change, whatever the quadrature"
+            )
+            advice = "Give it a length of one step, and the strength that keeps the integral of the noise"
+            yield warning(n, sentence, assign(advice, values))
+
+
+def correlated(element: Element) -> dict[str, float | tuple[float, ...]]:
+    """Return a correlation length of one step for noise that is white in space, and the strength with which
+    its integral over the axes stays the same; empty for an element without such noise.
+
+    The correlation exp(-d^2 / (2 length^2)) has the integral length sqrt(2 pi) along each axis, and white
+    noise of strength q has the integral q^2.
+    """
+    if isinstance(element, Field):
+        (strength, length), q, lengths = ("noise", "noise_length"), element.noise, element.noise_length
+    elif isinstance(element, Noise):
+        (strength, length), q, lengths = ("amplitude", "length"), element.amplitude, element.length
+    else:
+        return {}
+    axes = tuple(element.axes)
+    if q <= 0 or not any(a.samples > 1 for a in axes) or any(map(float, per_axis(lengths, axes))):
+        return {}
+    steps = tuple(rounded(a.step) for a in axes)
+    at_a_point = q / math.sqrt(math.prod(math.sqrt(2 * math.pi) * s for s in steps))
+    return {length: steps[0] if len(set(steps)) == 1 else steps, strength: rounded(at_a_point)}
