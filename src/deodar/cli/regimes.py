@@ -12,6 +12,7 @@ from deodar.cli._answer import CommandAnswer
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.confirmation import Confirmation
+    from deodar.analysis.continuation.grid_errors import GridError
     from deodar.analysis.regimes import Regimes
 
 HELP = (
@@ -27,6 +28,10 @@ def arguments(parser: _options.CommandParser) -> None:
         "-o --out", "FIGURE", "the figure, .png or .svg (default: FILE-regimes-001.png, -002, ...)", Path
     )
     parser.flag("--force", "replace the figure if it exists")
+    parser.flag(
+        "--resolution",
+        "also compute by how much the grid changes each threshold, with the field's quadrature and with cell",
+    )
     _options.add_json(parser)
     parser.add_argument(
         "--precision",
@@ -59,6 +64,7 @@ def run(args: argparse.Namespace) -> CommandAnswer:
     from rich.console import Console
 
     from deodar.analysis.continuation.confirmation import confirmed
+    from deodar.analysis.continuation.grid_errors import grid_errors
     from deodar.analysis.regimes import regimes
     from deodar.figures import _files
     from deodar.figures.regimes import regimes_figure
@@ -78,10 +84,17 @@ def run(args: argparse.Namespace) -> CommandAnswer:
         )
         status.update("folds")
         folds = confirmed(measured)
+        status.update("grids")
+        errors = grid_errors(measured) if args.resolution else []
     _files.save_figure(regimes_figure(measured), target, args.force)
     computed = {name: fold.data() for name, fold in folds.items()}
-    fields = measured.data() | {"folds": computed, "figure": str(target)}
-    return CommandAnswer(fields, [_table(measured), _folds(folds), f"\nFigure: {target}"])
+    fields = measured.data() | {
+        "folds": computed,
+        "resolution": [e.data() for e in errors] if args.resolution else None,
+        "figure": str(target),
+    }
+    rows = [_table(measured), _folds(folds), *map(_grid_error, errors)]
+    return CommandAnswer(fields, [*rows, f"\nFigure: {target}"])
 
 
 def _table(measured: Regimes) -> str:
@@ -103,6 +116,16 @@ def _folds(folds: Mapping[str, Confirmation]) -> str:
         outside = fold.value is not None and not fold.inside
         parts.append(f"{NAMES[name]} {threshold}{', OUTSIDE the interval above' if outside else ''}")
     return f"  {'computed as folds':26}{'; '.join(parts)}"
+
+
+def _grid_error(error: GridError) -> str:
+    """Return what the grid changes with one quadrature, at one position of the input."""
+    place = f"{error.quadrature}, {'between samples' if error.between else 'on a sample'}"
+    parts = [
+        f"{NAMES[name]} {'not found' if percent is None else f'{percent:+.2f} %'}"
+        for name, percent in error.percent.items()
+    ]
+    return f"  {place:26}{'; '.join(parts) or 'no threshold is a fold'}"
 
 
 NAMES = {"detection": "detection", "reverse": "reverse detection", "forgetting": "forgetting"}

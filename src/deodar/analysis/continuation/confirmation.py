@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from deodar.analysis.continuation.continuation import continuation
+from deodar.analysis.isolated import Isolated
 from deodar.analysis.regimes import STRONG, Regimes
 from deodar.analysis.thresholds import Transition
 from deodar.codec import JsonObject
@@ -48,21 +49,31 @@ def confirmed(measured: Regimes) -> dict[str, Confirmation]:
     Args:
         measured: the measured regime of a field.
     """
+    return folds(measured.isolated, measured)
+
+
+def folds(isolated: Isolated, measured: Regimes) -> dict[str, Confirmation]:
+    """Compute the thresholds of an isolated field as folds.
+
+    Args:
+        isolated: the measured field, or the same field on another grid.
+        measured: the measured regime, which states near which values the folds are.
+    """
     up = measured.thresholds.detection
     if up is None or not up.jump:
         return {}
-    model = Model(document=measured.isolated.session.document, trusted=True)
+    model = Model(document=isolated.session.document, trusted=True)
     for name in ("input", "second", "boost"):
         model.set(f"{name}.amplitude", 0.0)
     transitions = {name: t for name, t in measured.transitions.items() if name in NAMES}
     first = min(0.0, 1.5 * transitions["reverse"].value) if "reverse" in transitions else 0.0
     over_input = _Ramp("input.amplitude", (first, 1.5 * up.after), {})
     out = _compared(model, over_input, transitions, ("detection", "reverse"))
-    if "forgetting" in transitions and not _central(measured):
+    if "forgetting" in transitions and not _central(isolated):
         why = "the input is not in the middle of each axis"
         out["forgetting"] = Confirmation(None, False, why)
     elif "forgetting" in transitions:
-        boost, reach = transitions["forgetting"].value, REACH * measured.isolated.scale
+        boost, reach = transitions["forgetting"].value, REACH * isolated.scale
         over_boost = _Ramp(
             "boost.amplitude", (boost + reach, boost - reach), {"input.amplitude": STRONG * up.after}
         )
@@ -70,9 +81,8 @@ def confirmed(measured: Regimes) -> dict[str, Confirmation]:
     return out
 
 
-def _central(measured: Regimes) -> bool:
+def _central(isolated: Isolated) -> bool:
     """Return whether the localised input is in the middle of each axis, about which states may be even."""
-    isolated = measured.isolated
     return all(
         abs(center - float(axis.points[[0, -1]].mean())) < 1e-6 * axis.range
         for center, axis in zip(isolated.center, isolated.axes, strict=True)

@@ -1,0 +1,57 @@
+"""Thresholds on a field's own grid against those of a finer one, in percent."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import deodar as dd
+from deodar.analysis.continuation.grid_errors import grid_errors
+from deodar.cli import main
+from deodar.errors import AnalysisError
+
+
+def driven(quadrature: str) -> dd.Field:
+    """A field whose peaks need their input, at 2.5 samples a kernel width."""
+    x = dd.Axis("x", 0, 100, samples=50, periodic=True)
+    kernel = [dd.Gaussian(12, 5, normalized=True)]
+    return dd.Field("u", [x], kernel=kernel, global_inhibition=0.3, quadrature=quadrature)
+
+
+def test_sums_over_points_depend_on_the_grid_where_means_over_cells_do_not() -> None:
+    """Reverse detection, where the edges of the peak decide, for an input between two samples."""
+    errors = {(e.quadrature, e.between): e.percent for e in grid_errors(dd.regimes(driven("point")))}
+    assert set(errors) == {(q, b) for q in ("point", "cell") for b in (False, True)}
+    for percent in errors.values():
+        assert set(percent) >= {"detection", "reverse"}
+    assert errors["point", True]["reverse"] == pytest.approx(-6.9, abs=0.3)
+    for between in (False, True):
+        for name in ("detection", "reverse"):
+            assert errors["cell", between][name] == pytest.approx(0, abs=0.2)
+
+
+def test_a_field_that_has_no_finer_grid_is_refused() -> None:
+    with pytest.raises(AnalysisError, match="a node has no grid"):
+        grid_errors(dd.regimes(dd.Field("u", [], kernel=[dd.Gaussian(8)])))
+
+
+def test_the_command_prints_percentages_and_has_them_as_data(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = dd.Model("m")
+    model.add(driven("cell"))
+    dd.save(model, tmp_path / "m.json")
+    command = ["regimes", str(tmp_path / "m.json"), "u", "--resolution", "-o", str(tmp_path / "m.png")]
+    assert main([*command, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert [(e["quadrature"], e["between_samples"]) for e in answer["resolution"]] == [
+        ("cell", False),
+        ("cell", True),
+    ]
+    assert main([*command, "--force"]) == 0
+    page = capsys.readouterr().out
+    for place, error in zip(("on a sample", "between samples"), answer["resolution"], strict=True):
+        (row,) = [text for text in page.splitlines() if f"cell, {place}" in text]
+        assert f"reverse detection {error['percent']['reverse']:+.2f} %" in row
