@@ -9,9 +9,9 @@ from typing import Annotated, Any, TypeVar
 
 import msgspec
 
-from deodar.errors import DeodarError, DocumentError, UnknownName, did_you_mean
+from deodar.errors import DeodarError, DocumentError
 from deodar.importers import stored_report
-from deodar.model import building, clipboard, document_files, edit, fits, plain_values, script
+from deodar.model import building, clipboard, fits, plain_values, proposed, script
 from deodar.model.building import Around, BoxPosition, ElementPort, EndPorts
 from deodar.model.document import Document
 from deodar_studio.catalogue import templates
@@ -259,14 +259,9 @@ async def change_axis(hub: Hub, page: Page, *, key: Text, axis: Mapping[str, Any
 
     `axis` has the properties of the new one: name, lower, upper, samples, periodic, unit.
     """
-
-    def change(doc: Document) -> Document:
-        known = document_files.axes(doc)
-        if key not in known:
-            raise UnknownName(f"the document has no axis {key!r}", fix=did_you_mean(key, known))
-        return edit.replace_axis(doc, known[key], plain_values.axis(axis))
-
-    return answer(cost=await hub.project.history.change(change))
+    new = dc.asdict(plain_values.axis(axis))
+    cost = await hub.project.history.change(lambda doc: proposed.change_axis(doc, key, new))
+    return answer(cost=cost)
 
 
 @changes()
