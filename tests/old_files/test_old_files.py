@@ -327,3 +327,24 @@ def test_an_experiment_leaves_parameters_of_a_package_as_they_are(pooled: Path) 
     assert levels["how"] == factors["how"]
     pooled.with_name("e.json").write_text(json.dumps(content | {"actions": actions[:1]}))
     assert dd.Experiment.load(pooled.with_name("e.json")).plan.actions == (dd.Set(1, "k.windows", []),)
+
+
+def test_unsaved_edits_of_an_experiment_leave_parameters_of_a_package_as_they_are(
+    pooled: Path, tmp_path: Path
+) -> None:
+    """As its file, they are converted with the document of the model."""
+    unsaved, name = tmp_path / "unsaved", "0123456789abcdef"
+    unsaved.mkdir()
+    pooled.rename(unsaved / f"{name}.json")
+    paths = ("k.windows", "s.windows")
+    content = {
+        "name": "e",
+        "actions": [{"kind": "Set", "at": 1, "path": path, "value": []} for path in paths],
+    }
+    for version in ({}, {"version": 3}):
+        note = {"title": "e", "experiment": {**version, "data": content, "file": ""}}
+        (unsaved / f"{name}.note").write_text(json.dumps(note))
+        experiment = StateStore(tmp_path).experiment(name)
+        assert experiment is not None
+        rows: Any = experiment.data["actions"]
+        assert [row["value"] for row in rows] == [[], None]

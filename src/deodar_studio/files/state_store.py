@@ -116,6 +116,9 @@ class StateStore:
     def experiment(self, name: str) -> StoredExperiment | None:
         """Return the experiment that is stored under a name; None: it is a document.
 
+        One of an older version is converted with the stored document of its model, which knows the kinds of
+        the elements that paths name. If the document cannot be read, the names of parameters alone decide.
+
         Raises:
             DocumentError: it is of a later version.
         """
@@ -128,7 +131,11 @@ class StateStore:
         version = stated.get("version", UNSTATED)
         with reading(name, DocumentError):
             file_version.require_readable("an experiment", version, VERSION, stated)
-        plain = migrate({**experiment.data, "experiment": version}, None)
+        doc = None
+        if version != VERSION:
+            with contextlib.suppress(DeodarError):
+                doc = document_files.load(self._document(name))
+        plain = migrate({**experiment.data, "experiment": version}, doc)
         del plain["experiment"]
         return dc.replace(experiment, data=plain)
 
