@@ -38,7 +38,7 @@ from deodar.model.document import Document
 from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.exact import Exact, split
-from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.kernels._base import Kernel, Term, is_sampled, sampled, samples_amplitude
 from deodar.numerics.sigmoids import SigmoidFunction
 from deodar.parameters import Part, parameters
 
@@ -230,7 +230,7 @@ def _parts(part: Part, prefix: str = "") -> Iterator[tuple[Part, str]]:
 
 def _weights(kernel: Kernel, axes: Axes, at: Setting) -> list[Array]:
     """Return the weights of each term of a kernel along each axis, at a few lags."""
-    samples = kernel.samples(axes, at.dtype) if axes else None
+    samples = sampled(kernel, axes, at.dtype) if axes else None
     if samples is not None:
         return [samples]
     weights: list[Array] = []
@@ -247,7 +247,11 @@ def _weights(kernel: Kernel, axes: Axes, at: Setting) -> list[Array]:
 
 
 def _amplitudes(kernel: Kernel) -> list[Array]:
-    """Return the amplitude of each term of a kernel."""
+    """Return the amplitude of each term of a kernel, or that of its array."""
+    if is_sampled(kernel):
+        if fault := misshapen(samples_amplitude(kernel), ()):
+            _raise(kernel, "", f"has an amplitude that is {fault}")
+        return [jnp.asarray(samples_amplitude(kernel))]
     amplitudes = [term.amplitude for term in kernel.terms()]
     for amplitude in amplitudes:
         if fault := misshapen(amplitude, ()):

@@ -21,7 +21,7 @@ from deodar.leaves import per_axis
 from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.choice import Choice, Shards, bounds, bucket, choose
-from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.kernels._base import Kernel, Term, sampled, samples_amplitude
 from deodar.numerics.native import Kernels
 from deodar.numerics.scalar import Scalar
 from deodar.numerics.transforms import from_waves, to_waves
@@ -164,7 +164,8 @@ def mix(
     for kernel, w in zip(kernels, weights, strict=True):
         key = boundaries(kernel, axes)
         if "spectrum" in w:
-            out["spectra"][key] = out["spectra"].get(key, 0.0) + kernel.amplitude * w["spectrum"]  # type: ignore[attr-defined]
+            scaled = samples_amplitude(kernel) * w["spectrum"]
+            out["spectra"][key] = out["spectra"].get(key, 0.0) + scaled
         for term, matrices in zip(kernel.terms(), w.get("matrices", ()), strict=False):
             if apart:
                 out["terms"].append(matrices)
@@ -259,7 +260,7 @@ def _product(gains: Sequence[Array]) -> Array:
 
 def _weights(kernel: Kernel, axes: Axes, dtype: DTypeLike, choice: Choice | None) -> KernelWeights:
     ends = convolution.boundaries(kernel.boundary, axes)
-    samples = kernel.samples(axes, dtype)
+    samples = sampled(kernel, axes, dtype)
     if samples is not None:
         return {"spectrum": convolution.spectrum(samples, axes, ends, dtype)}
     if choice is None:

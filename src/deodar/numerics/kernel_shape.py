@@ -9,7 +9,7 @@ import numpy as np
 
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.convolution import boundaries
-from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels._base import Kernel, sampled, samples_amplitude
 
 
 def lag_axis(axis: Axis) -> Axis:
@@ -34,11 +34,11 @@ def kernel_shape(kernels: Sequence[Kernel], axes: Axes) -> tuple[Axes, np.ndarra
     lags = [a.points for a in lag_axes] + [np.zeros(1)] * len(axes[2:])
     total = np.zeros([len(lag) for lag in lags])
     for kernel in kernels:
-        sampled = kernel.samples(axes, np.float32)
-        if sampled is None:
+        array = sampled(kernel, axes, np.float32)
+        if array is None:
             total += _separable(kernel, axes, lags)
         else:
-            total += kernel.amplitude * _sampled(np.asarray(sampled), lags)  # type: ignore[attr-defined]
+            total += np.asarray(samples_amplitude(kernel)) * _cut(np.asarray(array), lags)
     return lag_axes, total.reshape([a.samples for a in lag_axes])
 
 
@@ -54,7 +54,7 @@ def _separable(kernel: Kernel, axes: Axes, lags: Sequence[np.ndarray]) -> np.nda
     return total
 
 
-def _sampled(weights: np.ndarray, lags: Sequence[np.ndarray]) -> np.ndarray:
+def _cut(weights: np.ndarray, lags: Sequence[np.ndarray]) -> np.ndarray:
     """Return an array around lag 0, cut or filled with 0 to the number of lags."""
     for d, lag in enumerate(lags):
         spare = (weights.shape[d] - len(lag)) // 2

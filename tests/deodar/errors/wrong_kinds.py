@@ -235,6 +235,30 @@ class Termless(dd.Kernel):
 
 
 @dataclass(frozen=True)
+class Uncentred(dd.Kernel):
+    """A kernel whose array has no middle sample."""
+
+    def samples(self, axes: dd.Axes, dtype: Any) -> Any:
+        return jnp.ones([4] * len(axes), dtype)
+
+
+@dataclass(frozen=True)
+class Flat(dd.Kernel):
+    """A kernel whose array has too few axes."""
+
+    def samples(self, axes: dd.Axes, dtype: Any) -> Any:
+        return jnp.ones((), dtype)
+
+
+@dataclass(frozen=True)
+class Undecided(dd.Kernel):
+    """A kernel that has neither an array nor terms."""
+
+    def samples(self, axes: dd.Axes, dtype: Any) -> Any:
+        return None
+
+
+@dataclass(frozen=True)
 class Cutting(dd.SigmoidFunction):
     def __call__(self, u: Any) -> Any:
         return u[:3]
@@ -282,6 +306,9 @@ WRONG: dict[type[Any], tuple[str, ...]] = {
     LiveWidth: ("LiveWidth.terms.along in wrong_kinds.py", "live parameter kernel.0.width", "dd.Rebuild"),
     Short: ("Short.terms in wrong_kinds.py", "an array of shape [2"),
     Termless: ("Termless in wrong_kinds.py, line", "has no method terms"),
+    Uncentred: ("Uncentred.samples in wrong_kinds.py", "shape [4] for 1 axis", "an odd number of samples"),
+    Flat: ("Flat.samples in wrong_kinds.py", "shape [] for 1 axis", "an odd number of samples"),
+    Undecided: ("Undecided.samples in wrong_kinds.py", "returns None in place of an array", "an odd number"),
     Cutting: ("Cutting.__call__ in wrong_kinds.py", "[3] in place of [21]"),
     Branching: ("Branching.__call__ in wrong_kinds.py", ASKS),
     Uncallable: ("Uncallable in wrong_kinds.py, line", "has no method __call__"),

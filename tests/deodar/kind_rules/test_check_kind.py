@@ -12,6 +12,7 @@ import pytest
 
 import deodar as dd
 from deodar import registry
+from deodar.numerics.kernel_shape import kernel_shape
 from tests.deodar.errors.refused import paragraph
 from tests.deodar.errors.wrong_kinds import Asking, Cutting, LiveWidth, Narrow, Throwing
 from tests.deodar.experiments.test_wrong_measures import Ragged, Wordy
@@ -44,6 +45,27 @@ class Exponential(dd.Kernel):
 
 
 @dataclass(frozen=True)
+class Ring(dd.Kernel):
+    """A kernel that `samples` alone defines: it depends on the distance, not on each axis by itself."""
+
+    amplitude: Annotated[float, dd.Live("activation")] = 0.1
+    radius: Annotated[float, dd.Rebuild("axis", lower=1e-6)] = 4.0
+
+    def samples(self, axes: dd.Axes, dtype: Any) -> Any:
+        lags = [a.step * jnp.arange(-9, 10, dtype=dtype) for a in axes]
+        distance = jnp.sqrt(sum(lag**2 for lag in jnp.meshgrid(*lags, indexing="ij")))
+        return jnp.exp(-((distance - self.radius) ** 2))
+
+
+@dataclass(frozen=True)
+class Disc(dd.Kernel):
+    """A kernel of an array, without a parameter."""
+
+    def samples(self, axes: dd.Axes, dtype: Any) -> Any:
+        return jnp.full([3] * len(axes), 0.1, dtype)
+
+
+@dataclass(frozen=True)
 class Softsign(dd.SigmoidFunction):
     beta: Annotated[float, dd.Live("1/activation")] = 1.0
 
@@ -69,9 +91,43 @@ class Lamp(dd.World):
         return ()
 
 
-@pytest.mark.parametrize("kind", [Halving, Exponential, Softsign, Lamp], ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize(
+    "kind", [Halving, Exponential, Ring, Disc, Softsign, Lamp], ids=lambda kind: kind.__name__
+)
 def test_a_kind_that_keeps_the_rules_has_no_problems(kind: Any) -> None:
     assert dd.check_kind(dd.register(kind)) == []
+
+
+X = dd.Axis("x", 0, 20, samples=21)
+Y = dd.Axis("y", 0, 8, samples=9)
+
+
+@pytest.mark.parametrize("kind", [Ring, Disc])
+@pytest.mark.parametrize("axes", [(X,), (X, Y)], ids=len)
+def test_a_kernel_of_samples_acts_as_its_array_does(kind: Any, axes: dd.Axes) -> None:
+    kernel = dd.register(kind)()
+    array = np.asarray(kernel.samples(axes, np.float32))
+    custom = dd.Custom(array, amplitude=getattr(kernel, "amplitude", 1.0))
+    shapes, ends = list[np.ndarray](), list[np.ndarray]()
+    for k in (kernel, custom):
+        model = dd.Model("m")
+        source = dd.GaussianStimulus("s", axes, center=4, sigma=2, amplitude=6)
+        model.add(source) >> model.add(dd.Field("u", axes, kernel=[k]))
+        ends.append(dd.simulate(model, 50, record="u.activation")["u.activation"].values[-1])
+        shapes.append(kernel_shape([k], axes)[1])
+    np.testing.assert_allclose(ends[0], ends[1], rtol=1e-5)
+    np.testing.assert_array_equal(shapes[0], shapes[1])
+    assert kernel.polarity() == "±"
+
+
+def test_a_node_has_no_kernel_of_samples_and_none_is_shifted() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("n", kernel=[dd.register(Ring)()]))
+    [problem] = model.check()
+    assert problem.where.startswith("n (") and problem.severity == "problem"
+    assert problem.what.startswith("kernel.0: is an array over the axes of a field, and a node has none")
+    with pytest.raises(dd.errors.ParameterError, match="an array of weights cannot be shifted"):
+        dd.Shifted(Ring())
 
 
 @dataclass(frozen=True)

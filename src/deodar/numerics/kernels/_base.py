@@ -7,6 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
+
+from deodar.errors import KindError
+from deodar.kind_errors import misshapen, position
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import BOUNDARIES
@@ -53,7 +57,8 @@ class Term:
 class Kernel(Part):
     """The base class of interaction kernels k(x - x'), for fields of any dimension.
 
-    A kernel is a sum of separable terms, or the array that `samples` returns.
+    A kernel is the sum of the separable terms that `terms` returns, or the array that `samples` returns; a
+    class defines one of the two.
     """
 
     boundary: Annotated[Sequence[str] | None, Recompile(choices=BOUNDARIES)] = dc.field(
@@ -61,8 +66,13 @@ class Kernel(Part):
     )
 
     def terms(self) -> Sequence[Term]:
-        """Return the separable terms; amplitudes are live, `along` may only use parameters that rebuild."""
-        raise NotImplementedError
+        """Return the separable terms; amplitudes are live, `along` may only use parameters that rebuild.
+
+        A kernel that `samples` alone defines has none.
+        """
+        if not is_sampled(self):
+            raise NotImplementedError
+        return ()
 
     def widths(self) -> Sequence[PerAxis]:
         """Return the widths of a sum of Gaussians (each one number, or one for each axis), in the order of
@@ -73,8 +83,11 @@ class Kernel(Part):
         return ()
 
     def samples(self, axes: Axes, dtype: DTypeLike) -> Array | None:
-        """Return the kernel as an array around lag zero on the grid of `axes`, or None if it is its
-        `terms`.
+        """Return the weights around lag zero on the grid of `axes`, or None if the kernel is its `terms`.
+
+        The array has an odd number of samples along each axis, of which the middle one is lag zero, and any
+        number of them. It uses parameters that rebuild. A parameter `amplitude` multiplies it in each step,
+        and may be live.
         """
         return None
 
@@ -83,11 +96,21 @@ class Kernel(Part):
         return ANY
 
     def polarity(self) -> Sign:
-        """Return whether the kernel excites, inhibits, or does both at different distances."""
+        """Return whether the kernel excites, inhibits, or does both at different distances.
+
+        That of an array is not known here, and counts as both.
+        """
+        if is_sampled(self):
+            return "±"
         return sign_of(*(term.amplitude for term in self.terms()))
 
     def validate_axes(self, axes: Axes) -> Iterator[str]:
         """Yield the mismatches between this kernel and the axes of its field."""
+        if not axes and is_sampled(self):
+            yield (
+                "is an array over the axes of a field, and a node has none. For the self-excitation of a node"
+                " take a kernel of terms, such as Gaussian"
+            )
         if self.boundary is not None and len(self.boundary) not in (1, len(axes)):
             yield f"boundary has {len(self.boundary)} entries for {len(axes)} axes"
         for p in parameters(type(self)):
@@ -107,6 +130,38 @@ class Kernel(Part):
                         " Project([]) and a Gain"
                     )
                     break
+
+
+def is_sampled(kernel: Kernel) -> bool:
+    """Return whether a kernel is defined by `samples` alone."""
+    cls = type(kernel)
+    return cls.samples is not Kernel.samples and cls.terms is Kernel.terms
+
+
+def sampled(kernel: Kernel, axes: Axes, dtype: DTypeLike) -> Array | None:
+    """Return what `samples` of a kernel returns; None: the kernel is its terms.
+
+    Raises:
+        KindError: it has no middle sample, or is None in a class that has no terms.
+    """
+    samples = kernel.samples(axes, dtype)
+    if samples is None and not is_sampled(kernel):
+        return None
+    fault = misshapen(samples, None)
+    if samples is not None and not fault:
+        shape = list(np.shape(samples))
+        if len(shape) != len(axes) or not all(count % 2 for count in shape):
+            fault = f"an array of shape {shape} for {len(axes)} {'axis' if len(axes) == 1 else 'axes'}"
+    if fault:
+        cls = type(kernel)
+        fix = "Return an array with an odd number of samples along each axis; the middle one is lag zero"
+        raise KindError(f"{position(cls, 'samples')} returns {fault}", fix=fix, kind=cls.__name__)
+    return samples
+
+
+def samples_amplitude(kernel: Kernel) -> Scalar:
+    """Return the factor of what `samples` returns: the parameter `amplitude`, or 1 if there is none."""
+    return getattr(kernel, "amplitude", 1.0)
 
 
 def validate_kernels(kernels: Sequence[Kernel], axes: Axes) -> Iterator[str]:

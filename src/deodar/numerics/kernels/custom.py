@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -16,7 +16,7 @@ from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.convolution import along
 from deodar.numerics.intervals import ANY, Interval, hull, signed
-from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
@@ -67,9 +67,6 @@ class Custom(Kernel):
     def polarity(self) -> Sign:
         return product(sign_of(self.weights), sign_of(self.amplitude))
 
-    def terms(self) -> Sequence[Term]:
-        return ()
-
     def samples(self, axes: Axes, dtype: DTypeLike) -> Array:
         table = self.weights.data if isinstance(self.weights, FrozenArray) else self.weights
         weights = jnp.asarray(table, dtype)
@@ -90,7 +87,7 @@ class Custom(Kernel):
         if isinstance(self.spacing, tuple) and len(self.spacing) != len(axes):
             yield f"spacing has {len(self.spacing)} values for {len(axes)} axes"
         shape = self.weights.shape if isinstance(self.weights, FrozenArray) else ()
-        if len(shape) != len(axes):
+        if axes and len(shape) != len(axes):
             yield f"weights has {len(shape)} axes, the field {len(axes)}"
         elif any(n % 2 == 0 for n in shape):
             yield f"weights has an even number of samples ({list(shape)}); its middle must be distance zero"

@@ -14,7 +14,7 @@ from jax import Array
 from deodar.leaves import is_neutral, on_axis, per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, hull, signed
-from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.kernels._base import Kernel, Term, is_sampled
 from deodar.numerics.scalar import Scalar
 from deodar.parameters import Live, PerAxis, Rebuild
 from deodar.registry import register
@@ -337,8 +337,8 @@ class Shifted(Kernel):
         return along
 
     def validate(self) -> Iterator[tuple[str, str]]:
-        if type(self.kernel).__name__ == "Custom":
-            yield "kernel", "a custom array cannot be shifted; shift the array itself"
+        if is_sampled(self.kernel):
+            yield "kernel", "an array of weights cannot be shifted; shift the array itself"
         if self.kernel.boundary is not None:
             yield (
                 "kernel.boundary",
