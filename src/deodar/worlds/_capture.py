@@ -8,7 +8,7 @@ import os
 import shutil
 import tempfile
 import threading
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +38,14 @@ without a format, and playlists, which name other files and addresses.
 
 FILE_OPTIONS = f"protocol_whitelist;file|format_whitelist;{','.join(VIDEO_FORMATS)}"
 """Options with which a file is opened, in the form of OpenCV."""
+
+LEVELS = ("OPENCV_FFMPEG_LOGLEVEL", "OPENCV_FFMPEG_DEBUG")
+"""Variables of the environment that state which messages of FFmpeg OpenCV prints."""
+
+UNCONVERTED = "Cannot convert interlaced"
+"""What FFmpeg writes of an interlaced picture that OpenCV 5.0 asks it to convert."""
+
+DEINTERLACE = "Convert the video first: ffmpeg -i FILE -vf yadif NEW.mp4"
 
 NO_MEMORY = -4
 """OpenCV's number of the error of an allocation that failed."""
@@ -81,17 +89,56 @@ def silence() -> Generator[None]:
                 log.setLogLevel(level)
 
 
-def pictures_of(file: str) -> Generator[np.ndarray]:
+@contextlib.contextmanager
+def standard_error() -> Generator[Callable[[], str]]:
+    """Collect what libraries write to the standard error of this process.
+
+    Yields:
+        A function that returns what was written since its last call.
+    """
+
+    def written() -> str:
+        if not file.tell():  # both descriptors have one position
+            return ""
+        file.seek(0)
+        text = file.read()
+        file.seek(0)
+        file.truncate()
+        return text.decode(errors="replace")
+
+    with tempfile.TemporaryFile(buffering=0) as file:
+        before = os.dup(2)
+        os.dup2(file.fileno(), 2)
+        try:
+            yield written
+        finally:
+            os.dup2(before, 2)
+            os.close(before)
+
+
+def pictures_of(file: str, where: str) -> Generator[np.ndarray]:
     """Yield pictures per second (0: no video), and each picture (height, width, 3); in a child process.
 
     Raises:
         MemoryError: a picture does not fit into the memory of the child.
+        WorldError: a picture cannot be converted; it names `where`.
     """
+    with standard_error() as written:
+        for array in _arrays_of(file):
+            # OpenCV returns such a picture with what the memory held before
+            if UNCONVERTED in written():
+                raise WorldError("has interlaced pictures, which OpenCV does not convert", where, DEINTERLACE)
+            yield array
+
+
+def _arrays_of(file: str) -> Generator[np.ndarray]:
     cv2 = opencv("reading a video")
     os.environ["OPENCV_FFMPEG_CAPTURE_OPTIONS"] = FILE_OPTIONS
     # other readers of OpenCV know formats besides these
     reader = cv2.CAP_FFMPEG if cv2.CAP_FFMPEG in cv2.videoio_registry.getStreamBackends() else cv2.CAP_ANY
     with silence():
+        for name in LEVELS:  # without them FFmpeg writes its errors to the standard error, at once
+            os.environ.pop(name, None)
         opened = cv2.VideoCapture(file, reader)
     yield np.array([opened.get(RATE) if opened.isOpened() else 0.0])
     try:
@@ -104,7 +151,7 @@ def pictures_of(file: str) -> Generator[np.ndarray]:
 
 def video_pictures(path: Path, where: str) -> Generator[np.ndarray]:
     """Yield what `pictures_of` yields; errors name `where`."""
-    return GuardedFile(WorldError, where).items(pictures_of, str(path))
+    return GuardedFile(WorldError, where).items(pictures_of, str(path), where)
 
 
 class VideoReader:

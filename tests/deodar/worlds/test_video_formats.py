@@ -35,10 +35,10 @@ NO_VIDEOS = {
 }
 
 
-def written(path: Path, *options: str) -> Path:
-    """Write the video of a red square in the format of a file's ending."""
+def written(path: Path, *options: str, source: Path = SQUARE) -> Path:
+    """Write the video of a red square, or another source, in the format of a file's ending."""
     program = imageio_ffmpeg.get_ffmpeg_exe()
-    subprocess.run([program, "-loglevel", "error", "-i", str(SQUARE), *options, str(path)], check=True)
+    subprocess.run([program, "-loglevel", "error", "-i", str(source), *options, str(path)], check=True)
     return path
 
 
@@ -87,6 +87,39 @@ def test_formats_of_videos_are_read(ending: str, tmp_path: Path):
     assert world.size == (64, 48)
     first, later = world.picture(0.0), world.picture(400.0)
     assert np.argmax(first[24, :, 0]) < 17 and 17 < np.argmax(later[24, :, 0]) < 40
+
+
+INTERLACED = ("-vf", "fps=50,tinterlace=interleave_top", "-flags", "+ildct+ilme")
+"""Options of ffmpeg with which each picture has the lines of two moments."""
+
+
+@pytest.mark.parametrize("kind", [dd.Video, dd.Camera, dd.EventFile])
+@pytest.mark.parametrize("coder", ["libx264", "mpeg4", "mpeg2video"])
+def test_an_interlaced_video_is_read_or_refused(coder: str, kind: Any, tmp_path: Path):
+    """OpenCV 5.0 returns undefined pictures of it; other versions convert them."""
+    options = (*INTERLACED, "-c:v", coder, "-pix_fmt", "yuv420p")
+    file = written(tmp_path / "lines.mkv", *options)
+    try:
+        world = kind(str(file))
+        world.reset(0)
+    except WorldError as error:
+        (problem,) = error.problems
+        assert problem.where.endswith("lines.mkv") and "has interlaced pictures" in problem.what
+        assert "ffmpeg -i FILE -vf yadif NEW.mp4" in problem.fix
+        converted = written(tmp_path / "new.mp4", "-vf", "yadif", source=file)
+        assert 100 < dd.Video(converted).picture(0.0).mean() < 200
+    else:
+        assert kind is not dd.Video or 100 < world.picture(0.0).mean() < 200
+
+
+def test_what_libraries_write_of_an_error_is_collected(capfd: pytest.CaptureFixture[str]):
+    with _capture.standard_error() as written:
+        assert written() == ""
+        for text in ("one\n", "two\n" * 10_000, "\N{GREEK SMALL LETTER ALPHA}"):
+            os.write(2, text.encode())
+            assert written() == text and written() == ""
+    os.write(2, b"after")
+    assert capfd.readouterr().err == "after"
 
 
 @pytest.mark.parametrize("content", [LETTERS.encode(), b"", bytes(range(256)) * 100])

@@ -133,7 +133,7 @@ def test_without_opencv_the_error_names_the_package_to_install(
     monkeypatch.setitem(sys.modules, "cv2", None)
     says = r"needs the package opencv-python-headless.*pip install 'deodar\[vision\]'"
     with pytest.raises(MissingExtra, match=says):
-        next(_capture.pictures_of(str(film)))
+        next(_capture.pictures_of(str(film), "film"))
     with pytest.raises(MissingExtra, match=says):
         Camera(0).reset(0)
 
