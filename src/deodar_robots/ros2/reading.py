@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from typing import Annotated, Any, TypeAlias, TypeVar
 
 import msgspec
 import numpy as np
@@ -16,6 +16,10 @@ from deodar_robots.ros2.message_types import Unreadable
 
 T = TypeVar("T")
 ArraySamples = Annotated[list[Annotated[int, Meta(gt=0, le=10**6)]], Meta(max_length=7)]
+
+
+Decode: TypeAlias = Callable[[], np.ndarray]
+"""A function that decodes one message; it raises Unreadable."""
 
 
 class TopicSensor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -80,16 +84,24 @@ class Reading:
         """Return the signal of the sensor."""
         raise NotImplementedError
 
-    def take(self, message: Any) -> np.ndarray:
-        """Return what a message says, with finite numbers.
+    def take(self, message: Any) -> np.ndarray | Decode:
+        """Return what a message says, with finite numbers, or a function that decodes it.
+
+        Messages of all topics arrive in one thread. A type that takes long to decode returns a function,
+        which the reader of the sensor calls.
 
         Raises:
             Unreadable: the message has another shape, or numbers that are not finite.
         """
         raise NotImplementedError
 
+    def read(self, message: Any) -> np.ndarray:
+        """Return what a message says, decoded; raise Unreadable as `take` does."""
+        taken = self.take(message)
+        return taken() if callable(taken) else taken
+
     def sampled(self, taken: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
-        """Return the reading over axes, from what `take` returned."""
+        """Return the reading over axes, from what a message says."""
         return taken
 
     def shape_of(self, dimensions: int, example: str) -> tuple[int, ...]:

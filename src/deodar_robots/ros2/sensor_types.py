@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar
@@ -15,7 +16,7 @@ from deodar.worlds._base import Signal
 from deodar.worlds._image import PICTURE, sampled
 from deodar_robots.ros2 import compressed
 from deodar_robots.ros2.message_types import MOST_BYTES, Unreadable, full_name
-from deodar_robots.ros2.reading import Reading, TopicSensor, chosen_fields, entries, finite
+from deodar_robots.ros2.reading import Decode, Reading, TopicSensor, chosen_fields, entries, finite
 from deodar_robots.ros2.wire import require_topic
 
 
@@ -291,13 +292,16 @@ class CompressedReading(Reading):
     def declared(self) -> Signal:
         return Signal(PICTURE.meaning, None, period=self.entry.period)
 
-    def take(self, message: Any) -> np.ndarray:
+    def take(self, message: Any) -> Decode:
+        return functools.partial(self._decoded, message.data, message.format)
+
+    def _decoded(self, content: np.ndarray, form: str) -> np.ndarray:
         guard = GuardedFile(WorldError, self.entry.topic, PICTURE_MEMORY, PICTURE_SECONDS)
         try:
-            return guard.call(compressed.pixels_of, message.data.tobytes(), MOST_BYTES)
+            return guard.call(compressed.pixels_of, content.tobytes(), MOST_BYTES)
         except WorldError as error:
             problem = error.problems[0]
-            raise Unreadable(f"its picture {problem.what}; it says {message.format!r}") from None
+            raise Unreadable(f"its picture {problem.what}; it says {form!r}") from None
 
     def sampled(self, taken: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
         return sampled(taken, axes, sensor)

@@ -12,12 +12,15 @@ import numpy as np
 from deodar.errors import WorldError
 from deodar.worlds._link_state import LinkState
 from deodar_robots.ros2.message_types import Unreadable, from_bytes
-from deodar_robots.ros2.reading import Reading
+from deodar_robots.ros2.reading import Decode, Reading
 from deodar_robots.ros2.wire import Attachment, type_of_wire
 
 
 class TopicInbox:
     """Readings from topics. Memory is bounded: the newest reading of each sensor is kept.
+
+    What takes long to decode, such as a compressed picture, is kept as it came until the sensor is read. So
+    it delays no message of another topic, and a message that a newer one replaces is not decoded.
 
     A message that is cut or damaged, of another type, without an attachment, with a number that goes back,
     with undefined numbers or of another shape is counted and never read. Methods may be called by any thread.
@@ -34,6 +37,10 @@ class TopicInbox:
         self.counts: Counter[str] = Counter()
         self._sensors, self._hashes = dict(sensors), dict(hashes)
         self._changed = threading.Condition()
+        self._decoding = {name: threading.Lock() for name in sensors}
+        self._beginnings = 0
+        self._undecoded: dict[str, tuple[Decode, float]] = {}
+        self._damaged: dict[str, float] = {}
         self._newest: dict[str, tuple[np.ndarray, float]] = {}
         self._last: dict[str, Attachment] = {}
         self._refused: dict[str, Unreadable] = {}
@@ -44,7 +51,9 @@ class TopicInbox:
     def begin(self) -> None:
         """Forget all readings."""
         with self._changed:
+            self._beginnings += 1
             self._newest.clear()
+            self._undecoded.clear()
             self._refused.clear()
             self._heard = time.monotonic()
 
@@ -59,7 +68,7 @@ class TopicInbox:
         """
         now = time.monotonic()
         readers = {n: (t, r) for n, (place, t, r) in self._sensors.items() if place == topic}
-        taken: dict[str, np.ndarray] = {}
+        taken: dict[str, np.ndarray | Decode] = {}
         refused: dict[str, Unreadable] = {}
         attachment = None
         try:
@@ -79,8 +88,11 @@ class TopicInbox:
                 taken, refused = {}, dict.fromkeys(readers, Unreadable("its sequence number goes back"))
             self.counts["refused" if refused else "accepted"] += 1
             for name, value in taken.items():
-                self._newest[name] = value, now
-                self._refused.pop(name, None)
+                if callable(value):
+                    self._undecoded[name] = value, now
+                else:
+                    self._newest[name] = value, now
+                    self._refused.pop(name, None)
                 self._received[name] += 1
                 self._heard = now
             self._refused |= refused
@@ -107,11 +119,50 @@ class TopicInbox:
 
     def wait_for(self, names: Sequence[str], seconds: float) -> bool:
         """Return whether all these sensors have a reading within some seconds."""
-        with self._changed:
-            return self._changed.wait_for(lambda: all(n in self._newest for n in names), seconds)
+        until = time.monotonic() + seconds
+        while True:
+            with self._changed:
+                if all(n in self._newest for n in names):
+                    return True
+                seconds = max(0.0, until - time.monotonic())
+                if not self._changed.wait_for(lambda: self._arrived(names), seconds):
+                    return False
+            for name in names:
+                self._decode(name)
+
+    def _arrived(self, names: Sequence[str]) -> bool:
+        return all(name in self._newest or name in self._undecoded for name in names)
+
+    def _decode(self, name: str) -> None:
+        """Decode the newest message for a sensor, unless it is decoded; one that cannot be is refused."""
+        topic = self._sensors[name][0]
+        with self._decoding[name]:
+            with self._changed:
+                beginnings = self._beginnings
+                decode, moment = self._undecoded.pop(name, (None, 0.0))
+            if decode is None:
+                return
+            try:
+                reading: np.ndarray | Unreadable = decode()
+            except Unreadable as error:
+                reading = error
+            with self._changed:
+                if beginnings != self._beginnings:
+                    return
+                if isinstance(reading, Unreadable):
+                    self._refused[name] = reading
+                    self._received[name] -= 1
+                    if self._damaged.get(topic) != moment:  # several sensors may read one message
+                        self._damaged[topic] = moment
+                        self.counts.update(accepted=-1, refused=1)
+                else:
+                    self._newest[name] = reading, moment
+                    self._refused.pop(name, None)
+                self._changed.notify_all()
 
     def reading(self, name: str) -> tuple[np.ndarray, float] | None:
         """Return what the newest message said for a sensor, and its age in s."""
+        self._decode(name)
         with self._changed:
             found = self._newest.get(name)
             return None if found is None else (found[0], time.monotonic() - found[1])

@@ -131,7 +131,7 @@ class ROSBag(World):
         held = self._newest.get(sensor)
         if held is None or held[0] != stamp:
             try:
-                held = self._newest[sensor] = stamp, reading.take(from_bytes(raw, type))
+                held = self._newest[sensor] = stamp, reading.read(from_bytes(raw, type))
             except Unreadable as error:
                 moment = (stamp - self._origin) / 1e6
                 text = f"the message of {topic} at {moment:g} ms is refused: {error}"

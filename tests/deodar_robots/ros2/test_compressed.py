@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import struct
+import threading
 import zlib
 from pathlib import Path
 
@@ -15,8 +16,10 @@ from PIL import Image
 
 import deodar as dd
 from deodar.errors import WorldError
+from deodar.guarded.guarded_file import GuardedFile
 from deodar_robots.ros2.message_types import Unreadable, header, make, to_bytes
 from deodar_robots.ros2.sensor_types import readings
+from deodar_robots.ros2.topic_inbox import TopicInbox
 from deodar_robots.ros_bag.bag_file import write_bag
 
 TYPE = "sensor_msgs/msg/CompressedImage"
@@ -64,14 +67,14 @@ def bag(folder: Path, *contents: bytes) -> dd.ROSBag:
 def test_a_child_decodes_the_picture(kind: str, monkeypatch: pytest.MonkeyPatch):
     content = encoded((200, 100, 50), kind, (16, 16))
     monkeypatch.setattr(Image, "open", lambda *args, **named: pytest.fail("decoded in this process"))
-    pixels = reading().take(message(content))
+    pixels = reading().read(message(content))
     assert pixels.shape == (16, 16, 3) and np.abs(pixels.astype(int) - (200, 100, 50)).max() < 6
 
 
 def test_a_picture_that_needs_gigabytes_is_refused_with_its_topic(tmp_path: Path):
     for side, size in ((9000, "9000 x 9000"), (60_000, "too many")):
         with pytest.raises(Unreadable, match=f"its picture has {size} pixels; at most 22369621 are read"):
-            reading().take(message(stating(side, side)))
+            reading().read(message(stating(side, side)))
     world = bag(tmp_path / "bag", encoded((255, 0, 0)), stating(60_000, 60_000), encoded((0, 0, 255)))
     assert world.sense("eye", AXES, 0.0)[0, 0].tolist() == [1, 0, 0]
     with pytest.raises(WorldError, match="message of /eye at 100 ms is refused: its picture has too many"):
@@ -80,16 +83,104 @@ def test_a_picture_that_needs_gigabytes_is_refused_with_its_topic(tmp_path: Path
 
 def test_a_child_that_was_killed_is_reported_and_the_next_picture_is_read():
     pictures = reading()
-    assert pictures.take(message(encoded((255, 0, 0))))[0, 0].tolist() == [255, 0, 0]
+    assert pictures.read(message(encoded((255, 0, 0))))[0, 0].tolist() == [255, 0, 0]
     assert children()
     for child in children():
         os.kill(child.pid, 9)
     refused = 0
     for _ in range(3):  # each of two idle children may have been killed
         try:
-            pixels = pictures.take(message(encoded((0, 0, 255))))
+            pixels = pictures.read(message(encoded((0, 0, 255))))
             break
         except Unreadable as error:
             refused += 1
             assert "its picture cannot be read: its reader ended by SIGKILL" in str(error)
     assert refused and pixels[0, 0].tolist() == [0, 0, 255]
+
+
+# ------------------------------------------------------------------------------ pictures among other messages
+
+KEY = "0/eye/sensor_msgs::msg::dds_::CompressedImage_/hash"
+NUMBERS = "std_msgs/msg/Float32MultiArray"
+
+
+class Inbox:
+    """An inbox of two sensors of one topic of pictures, and of a topic of numbers."""
+
+    def __init__(self) -> None:
+        topics = {
+            "eye": {"topic": "/eye", "type": TYPE},
+            "again": {"topic": "/eye", "type": TYPE},
+            "numbers": {"topic": "/numbers", "type": NUMBERS, "shape": [2]},
+        }
+        self.inbox = TopicInbox(readings(topics), {TYPE: "hash", NUMBERS: "hash"})
+        self.sent = 0
+
+    def picture(self, content: bytes) -> None:
+        self._offer("/eye", KEY, to_bytes(message(content)))
+
+    def numbers(self) -> None:
+        raw = b"\0\1\0\0" + struct.pack("<III2f", 0, 0, 2, 1.0, 2.0)
+        self._offer("/numbers", "0/numbers/std_msgs::msg::dds_::Float32MultiArray_/hash", raw)
+
+    def _offer(self, topic: str, key: str, raw: bytes) -> None:
+        self.sent += 1
+        self.inbox.offer(topic, key, raw, struct.pack("<qqB16s", self.sent, 0, 16, bytes(16)))
+
+    def pixel(self, name: str = "eye") -> list[int]:
+        newest = self.inbox.reading(name)
+        assert newest is not None
+        return newest[0][0, 0].tolist()
+
+
+def test_messages_arrive_while_a_picture_is_decoded(monkeypatch: pytest.MonkeyPatch):
+    topics, begun, ended = Inbox(), threading.Event(), threading.Event()
+    calls: list[int] = []
+
+    def decoded(*arguments: object) -> np.ndarray:
+        calls.append(len(calls))
+        begun.set()
+        assert ended.wait(60)
+        return np.full((3, 4, 3), len(calls), np.uint8)
+
+    monkeypatch.setattr(GuardedFile, "call", decoded)
+    for _ in range(5):
+        topics.picture(encoded((255, 0, 0)))
+    assert not calls, "a picture that nobody reads is not decoded"
+    pixels: list[list[int]] = []
+    reader = threading.Thread(target=lambda: pixels.append(topics.pixel()))
+    reader.start()
+    assert begun.wait(60)
+    topics.numbers()
+    topics.picture(encoded((0, 0, 255)))
+    newest = topics.inbox.reading("numbers")
+    assert newest is not None and newest[0].tolist() == [1, 2]
+    ended.set()
+    reader.join()
+    assert pixels == [[1, 1, 1]] and topics.pixel() == topics.pixel() == [2, 2, 2] and len(calls) == 2
+    assert topics.inbox.state("robot").by_sensor == {"eye": 6, "again": 6, "numbers": 1}
+
+
+def test_a_damaged_picture_is_refused_where_it_is_read_and_the_one_before_stays():
+    topics = Inbox()
+    for content in (encoded((255, 0, 0)), b"no picture"):
+        topics.picture(content)
+        assert topics.pixel() == topics.pixel("again") == [255, 0, 0]
+    assert "is no JPEG or PNG file" in str(topics.inbox.refused("eye"))
+    assert topics.inbox.counts == {"accepted": 1, "refused": 1}
+    assert topics.inbox.state("robot").by_sensor == {"eye": 1, "again": 1}
+    topics.picture(encoded((0, 0, 255)))
+    assert topics.pixel() == [0, 0, 255] and topics.inbox.refused("eye") is None
+    topics.inbox.begin()
+    assert topics.inbox.reading("eye") is None
+
+
+def test_a_sensor_waits_for_a_picture_that_can_be_read():
+    topics = Inbox()
+    topics.picture(b"no picture")
+    assert not topics.inbox.wait_for(["eye"], 0.0)
+    later = threading.Timer(0.2, lambda: topics.picture(encoded((0, 0, 255))))
+    later.start()
+    topics.picture(b"no picture")
+    assert topics.inbox.wait_for(["eye"], 60.0) and topics.pixel() == [0, 0, 255]
+    later.join()

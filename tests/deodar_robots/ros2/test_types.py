@@ -26,7 +26,7 @@ GRID = [dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 1, 2), dd.Axis("channel", 0, 2, 3
 def read(raw: bytes, type: str, **settings) -> np.ndarray:
     """Return what a sensor takes of a message."""
     ((_, name, reading),) = readings({"a": {"topic": "/a", "type": type, **settings}}).values()
-    return reading.take(from_bytes(raw, name))
+    return reading.read(from_bytes(raw, name))
 
 
 def picture(content: bytes, encoding: str, step: int, width: int = 4, height: int = 2, big: int = 0) -> bytes:
