@@ -13,6 +13,8 @@ from typing import Any
 import pytest
 import uvicorn
 
+from deodar.errors import DocumentError
+from deodar_studio.files import content
 from deodar_studio.live.unwaited import UnwaitedThreads
 from deodar_studio.project import run
 from deodar_studio.web import app, serve
@@ -64,6 +66,38 @@ def test_a_studio_ends_while_a_change_is_compiled_or_a_world_waits(root: Path) -
         ended.set()
     while hubs[0].working():
         assert time.monotonic() - since < 2 * SOON
+
+
+@pytest.mark.parametrize("begins", [True, False], ids=["while it opens", "before it opens"])
+def test_a_studio_ends_while_its_first_document_is_opened(
+    root: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, begins: bool
+) -> None:
+    begun, ended, ready = threading.Event(), threading.Event(), list[str]()
+
+    def loaded(*arguments: Any) -> Any:
+        begun.set()
+        ended.wait()
+        raise DocumentError("nothing is left that takes it")
+
+    monkeypatch.setattr(content, "load", loaded)
+    server, bound = serve.prepare(Service(root, root / "node.json", port=0), ready.append)
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [bound]})
+    if not begins:
+        server.handle_exit(signal.SIGINT, None)
+    thread.start()
+    try:
+        assert not begins or begun.wait(SOON)
+        since = time.monotonic()
+        if begins:
+            server.handle_exit(signal.SIGINT, None)
+        thread.join(SOON)
+        assert not thread.is_alive() and time.monotonic() - since < SOON
+    finally:
+        ended.set()
+        thread.join()
+        bound.close()
+    assert not ready, "the address of a studio that ends is not printed, and no browser is opened"
+    assert not caplog.records
 
 
 def test_threads_that_work_are_told_from_those_that_have_ended() -> None:
@@ -131,6 +165,9 @@ class WorkingServer:
 
     def working(self) -> bool:
         return True
+
+    def end(self) -> None:
+        pass
 
 
 def test_the_process_of_a_studio_does_not_wait_for_a_thread(

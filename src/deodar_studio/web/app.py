@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 from collections.abc import AsyncGenerator, Callable
 from pathlib import Path
@@ -56,6 +57,8 @@ class Studio:
     ) -> None:
         self._service, self._ready, self._ended = service, ready, ended
         self._hub: Hub | None = None
+        self._opening: asyncio.Task[None] | None = None
+        self._ends = False
         routes = [
             Route("/", self._page),
             Route("/examples/{name}", self._picture),
@@ -72,18 +75,26 @@ class Studio:
     async def _life(self, app: Starlette) -> AsyncGenerator[None]:
         service = self._service
         self._hub = Hub(service.root, service.trust, service.world, service.private, service.unattended)
-        hub, file = self._hub, service.file
-        if file is not None:
-            try:
-                await hub.project.queue.run(lambda: hub.open(file.resolve(), True, True))
-            except DeodarError as error:
-                hub.project.file.refuse(file.name, error.problems)
+        self._opening = asyncio.create_task(_open(self._hub, service.file))
+        if self._ends:
+            self._opening.cancel()
         try:
-            self._ready()
+            await asyncio.wait([self._opening])
+            if not self._opening.cancelled():
+                self._opening.result()
+                self._ready()
             yield
             await self._hub.close()
         finally:
             self._ended()
+
+    def end(self) -> None:
+        """Leave the first document, if it is being opened; the server closes its application only after that.
+        Signal handlers may call it.
+        """
+        self._ends = True
+        if self._opening is not None and not self._opening.done():
+            self._opening.get_loop().call_soon_threadsafe(self._opening.cancel)
 
     def working(self) -> bool:
         """Return whether a thread still works after the application has closed."""
@@ -123,6 +134,16 @@ class Studio:
     async def _socket(self, socket: WebSocket) -> None:
         assert self._hub is not None
         await PageConnection(socket, self._hub).run()
+
+
+async def _open(hub: Hub, file: Path | None) -> None:
+    """Open the first document; one that cannot be opened is shown with its problems."""
+    if file is None:
+        return
+    try:
+        await hub.project.queue.run(lambda: hub.open(file.resolve(), True, True))
+    except DeodarError as error:
+        hub.project.file.refuse(file.name, error.problems)
 
 
 class _Assets(StaticFiles):

@@ -43,12 +43,13 @@ class StudioServer(uvicorn.Server):
 
     def __init__(self, config: uvicorn.Config, studio: Studio) -> None:
         super().__init__(config)
-        self.working = studio.working
+        self.working, self._end = studio.working, studio.end
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """End after a signal; a second one must not skip the rest of motors and the storing of edits."""
         super().handle_exit(sig, frame)
         self.force_exit = False
+        self._end()
 
 
 def serve(service: Service, browser: bool, say: Callable[[str], None]) -> int:
