@@ -25,7 +25,7 @@ class ProposedEdit(abc.ABC):
         """Return what to write at a place."""
 
     @abc.abstractmethod
-    def data(self) -> dict[str, Any]:
+    def plain_data(self) -> dict[str, Any]:
         """Return the edit as plain data, for programs that read the answer of a command."""
 
 
@@ -50,7 +50,7 @@ class SetValues(ProposedEdit):
         """Return the new values by their paths in the document."""
         return {f"{self.element}.{path}" if self.element else path: setting for path, setting in self.values}
 
-    def data(self) -> dict[str, Any]:
+    def plain_data(self) -> dict[str, Any]:
         """Return the edit as plain data."""
         return {"set": self.paths()}
 
@@ -82,7 +82,7 @@ class SetAxis(ProposedEdit):
     axis: str
     values: tuple[tuple[str, EditValue], ...]
 
-    def data(self) -> dict[str, Any]:
+    def plain_data(self) -> dict[str, Any]:
         """Return the edit as plain data."""
         return {"axis": self.axis, "set": dict(self.values)}
 
@@ -102,7 +102,7 @@ class SetStep(ProposedEdit):
 
     dt: float
 
-    def data(self) -> dict[str, Any]:
+    def plain_data(self) -> dict[str, Any]:
         """Return the edit as plain data."""
         return {"dt": self.dt}
 
@@ -121,7 +121,7 @@ class Disconnect(ProposedEdit):
     source: str
     target: str
 
-    def data(self) -> dict[str, Any]:
+    def plain_data(self) -> dict[str, Any]:
         """Return the edit as plain data."""
         return {"disconnect": [self.source, self.target]}
 
@@ -130,6 +130,75 @@ class Disconnect(ProposedEdit):
         if place == "script":
             return f"model.disconnect({self.source!r}, {self.target!r})"
         return f"remove the connection {self.source} -> {self.target}"
+
+
+@dataclass(frozen=True)
+class SetReads(ProposedEdit):
+    """Set which instant a connection reads.
+
+    Attributes:
+        source: path of its output port.
+        target: path of its input port.
+        reads: previous, current or delayed; "": none is stated.
+    """
+
+    source: str
+    target: str
+    reads: str
+
+    def plain_data(self) -> dict[str, Any]:
+        """Return the edit as plain data."""
+        return {"connection": [self.source, self.target], "set": {"reads": self.reads}}
+
+    def at(self, place: Medium) -> str:
+        """Return what to write at a place."""
+        if place == "script":
+            ends = f"{self.source!r}, {self.target!r}"
+            reads = f", reads={self.reads!r}" if self.reads else ""
+            return f"model.disconnect({ends}) and model.connect({ends}{reads})"
+        reads = f"with reads = {self.reads}" if self.reads else "without reads"
+        where = "in the file, " if place == "shell" else ""
+        return f"{where}the connection {self.source} -> {self.target} {reads}"
+
+
+@dataclass(frozen=True)
+class InsertCoupling(ProposedEdit):
+    """Put a new coupling over the axes of a port into the connection to it.
+
+    Attributes:
+        ends: path of the source and its output port, path of the target and its input port.
+        kind: kind of the coupling.
+        axes: names of its axes, those of the input port.
+        rename: names of axes of the source, each with the one that it becomes.
+    """
+
+    ends: tuple[str, str, str, str]
+    kind: str
+    axes: tuple[str, ...]
+    rename: tuple[tuple[str, str], ...]
+
+    def values(self) -> dict[str, Any]:
+        """Return the parameters of the coupling, without its axes."""
+        return {"rename": dict(self.rename)} if self.rename else {}
+
+    def plain_data(self) -> dict[str, Any]:
+        """Return the edit as plain data."""
+        source, out, target, port = self.ends
+        wire = [f"{source}.{out}", f"{target}.{port}"]
+        return {"insert": self.kind, "connection": wire, "set": self.values()}
+
+    def at(self, place: Medium) -> str:
+        """Return what to write at a place."""
+        values = "".join(f", {name}={setting!r}" for name, setting in self.values().items())
+        coupling = f"{self.kind}([{', '.join(self.axes)}]{values})"
+        source, out, target, port = self.ends
+        if place != "script":
+            where = "in the file, " if place == "shell" else ""
+            return f"{where}put a {coupling} into the connection {source}.{out} -> {target}.{port}"
+        first, last = (
+            path if path.replace(".", "_").isidentifier() else f"model[{path!r}]" for path in (source, target)
+        )
+        return f"{first} >> {coupling} >> {last}"
 
 
 def rounded(setting: float, digits: int = 2) -> float:

@@ -41,6 +41,6 @@ def problem_data(problems: Sequence[Problem]) -> list[dict[str, Any]]:
     """Return problems as plain data, with what to type in a shell, and as edits of the document."""
     return [
         {"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix_at("shell")}
-        | ({"edits": [e.data() for e in p.edits]} if p.edits else {})
+        | ({"edits": [e.plain_data() for e in p.edits]} if p.edits else {})
         for p in problems
     ]

@@ -9,7 +9,7 @@ from deodar.model import kind_contract
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
 from deodar.model.kind_contract import errors_in
-from deodar.model.proposed import CheckedDocument, bound
+from deodar.model.proposed import CheckedDocument, bound, proven
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring
 from deodar.registry import imported
@@ -20,7 +20,7 @@ def check(doc: Document) -> list[Problem]:
     and the problems of the document's own step.
     """
     if structural := problems(doc):
-        return structural
+        return proven(doc, structural)
     nodes = graph(doc).nodes
     try:
         with errors_in(doc):

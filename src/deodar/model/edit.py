@@ -299,6 +299,13 @@ def disconnect(doc: Document, source: str, source_port: str, target: str, target
     return dc.replace(doc, connections=tuple(c for c in doc.connections if c.ends != ends))
 
 
+def set_reads(doc: Document, ends: tuple[str, str, str, str], reads: str) -> Document:
+    """Return a document in which a connection, given by its ends, reads another instant."""
+    source, target = (find.entry(doc, ident) for ident in (ends[0], ends[2]))
+    new = connect(disconnect(doc, *ends), source, ends[1], target, ends[3], reads).connections[-1]
+    return dc.replace(doc, connections=tuple(new if c.ends == ends else c for c in doc.connections))
+
+
 def put(doc: Document, ident: str, path: str, value: Any) -> Document:
     """Return a document with another value of one parameter of an element; a linked parameter is refused."""
     entry = find.entry(doc, ident)

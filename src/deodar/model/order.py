@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from deodar.errors import Problem
+from deodar.errors import EditFix, Problem
+from deodar.model.paths import quote
 from deodar.model.resolve import Instant, Node
+from deodar.proposed_edit import SetReads
 
 NodeRole = Literal["output", "advance"]
 Act = tuple[str, NodeRole, Instant]
@@ -56,7 +58,7 @@ class _Walk:
                     "a loop of connections that read 'current'" if current else "a loop without a state in it"
                 )
                 problem = Problem(
-                    n.path, f"{loop_kind}: {names}", "Let one of them read 'previous', or 'delayed'"
+                    n.path, f"{loop_kind}: {names}", self._fix(self.path[self.path.index(act) :])
                 )
                 if problem not in self.problems:
                     self.problems.append(problem)
@@ -73,6 +75,22 @@ class _Walk:
         self.depth[act] = depth
         self.acts.append(act)
         return depth
+
+    def _fix(self, loop: Sequence[Act]) -> str:
+        """Return the fix of a loop of evaluations, each of which needs the next one: another instant for a
+        connection of the document that reads the new state.
+        """
+        for (ident, _, _), (needed, _, instant) in zip(loop, [*loop[1:], loop[0]], strict=True):
+            target, source = self.by[ident], self.by[needed]
+            reads = [(port, slot) for port, slots in target.reads.items() for slot in slots]
+            ports = [(port, out) for port, (i, out, when) in reads if i == needed and when]
+            if instant and ports and target.declared and source.declared:
+                edits = [
+                    SetReads(f"{source.path}.{quote(out)}", f"{target.path}.{quote(port)}", "previous")
+                    for port, out in ports
+                ]
+                return EditFix("Let one of them read 'previous'", edits, "Or let it read 'delayed'")
+        return "Let one of them read 'previous', or 'delayed'"
 
     def _needs(self, n: Node, role: NodeRole) -> list[str]:
         if role == "advance":

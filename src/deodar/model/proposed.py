@@ -7,13 +7,24 @@ import functools
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from deodar.errors import DeodarError, EditFix, Fix, Problem, UnknownName, did_you_mean, joined
-from deodar.model import document_files, edit, find
+from deodar.model import building, document_files, edit, find
 from deodar.model.document import Document, Leaf
 from deodar.model.document_graph import graph
 from deodar.model.parts import axes_in
 from deodar.model.resolve import reach
 from deodar.numerics.axes import Axis
-from deodar.proposed_edit import Disconnect, ProposedEdit, SetAxis, SetStep, SetValues
+from deodar.proposed_edit import (
+    Disconnect,
+    InsertCoupling,
+    ProposedEdit,
+    SetAxis,
+    SetReads,
+    SetStep,
+    SetValues,
+)
+
+MOST_TRIED = 20
+"""Most edits for structural problems that are tried in one document; each one is resolved as a whole."""
 
 
 class CheckedDocument:
@@ -108,6 +119,30 @@ def bound(checked: CheckedDocument, problem: Problem) -> Problem:
     return dc.replace(problem, fix=fix)
 
 
+def proven(doc: Document, structural: Sequence[Problem]) -> list[Problem]:
+    """Return the structural problems of a document; edits that do not solve theirs, or that bring another
+    one, become text.
+    """
+    tried = [p for p in structural if isinstance(p.fix, EditFix)][:MOST_TRIED]
+    return [p if p in tried and _solves(doc, p, structural) else _as_text(p) for p in structural]
+
+
+def _solves(doc: Document, problem: Problem, before: Sequence[Problem]) -> bool:
+    try:
+        after = graph(apply(doc, problem.edits)).problems
+    except DeodarError:
+        return False
+    return problem not in after and set(after) <= set(before)
+
+
+def _as_text(problem: Problem) -> Problem:
+    """Return a problem whose fix is text without an edit."""
+    fix = problem.fix
+    if not isinstance(fix, EditFix):
+        return problem
+    return dc.replace(problem, fix=joined(fix.advice, fix.otherwise))
+
+
 def _text(fix: EditFix, reason: str) -> Fix:
     """Return the text of a fix, without its edits, and what has to be done before."""
     return Fix(fix, fix.shell, fix.page).then(reason)
@@ -189,16 +224,26 @@ def apply(doc: Document, edits: Iterable[ProposedEdit]) -> Document:
                 doc = edit.change_all(doc, proposed.paths())
             case SetAxis():
                 pass
+            case InsertCoupling(ends=(source, out, target, port)):
+                first, last = find.element(doc, source), find.element(doc, target)
+                around = building.Around(wire=(first.id, out, last.id, port))
+                doc, _ = building.add(doc, proposed.kind, proposed.values(), around=around)
             case SetStep():
                 doc = edit.describe(doc, dt=proposed.dt)
             case Disconnect():
-                source, source_port = find.port(doc, proposed.source)
-                target, target_port = find.port(doc, proposed.target, "")
-                target_port = target_port or target.element.ports()[0]
-                doc = edit.disconnect(doc, source.id, source_port, target.id, target_port)
+                doc = edit.disconnect(doc, *_ends(doc, proposed))
+            case SetReads():
+                doc = edit.set_reads(doc, _ends(doc, proposed), proposed.reads)
             case _:
                 raise TypeError(f"{type(proposed).__name__} is no edit of a document")
     return doc
+
+
+def _ends(doc: Document, proposed: Disconnect | SetReads) -> tuple[str, str, str, str]:
+    """Return the ends of the connection that an edit is about."""
+    source, source_port = find.port(doc, proposed.source)
+    target, target_port = find.port(doc, proposed.target, "")
+    return source.id, source_port, target.id, target_port or target.element.ports()[0]
 
 
 def change_axis(doc: Document, key: str, values: dict[str, object]) -> Document:

@@ -15,12 +15,14 @@ from typing import Any, Literal, TypeVar
 from deodar.couplings.delays import Delay
 from deodar.couplings.projections import Project
 from deodar.element import Element
-from deodar.errors import KindError, Problem
+from deodar.errors import EditFix, KindError, Problem
 from deodar.kind_errors import errors_of_kind
 from deodar.leaves import leaves
 from deodar.model.document import Connection, Document, Entry
-from deodar.numerics.axes import Axes, describe, shape
+from deodar.model.paths import quote
+from deodar.numerics.axes import Axes, Axis, describe, shape
 from deodar.parameters import parameters
+from deodar.proposed_edit import InsertCoupling, SetReads
 
 T = TypeVar("T")
 Instant = Literal[0, 1]
@@ -162,15 +164,30 @@ class _Resolver:
                     ident, fault, "Connect something to it whose axes are known, or put a Project into it"
                 )
             else:
-                self.problem(
-                    ident,
-                    f"a loop without a state in it: {loop}",
-                    "Put a field, or a connection with reads='delayed', into it",
-                )
+                self.problem(ident, f"a loop without a state in it: {loop}", self.delay(ring))
             return None
         with self.problems_of(entry):
             return self.resolved(entry)
         return None
+
+    def delay(self, ring: Sequence[str]) -> EditFix:
+        """Return the fix of a loop without a state: a delay, where possible in front of an element that other
+        connections give its axes.
+        """
+        closings: list[tuple[bool, list[Connection]]] = []
+        for source, target in zip([ring[-1], *ring], ring, strict=False):
+            ports = sorted(self._direct_ports(self.entries[target].element))
+            arriving = [c for port in ports for c in self.into.get((target, port), [])]
+            closing = [c for c in arriving if c.source == source and c.reads != "delayed"]
+            closings.append((len(closing) == len(arriving), closing))
+        _, closing = min(closings, key=lambda alone_and_closing: alone_and_closing[0])
+        delays = [self.reads(c, "delayed") for c in closing]
+        return EditFix("Delay one of its connections by a step", delays, "Or put a field into it")
+
+    def reads(self, c: Connection, instant: str) -> SetReads:
+        """Return the edit that lets a connection read another instant."""
+        source, target = self.entries[c.source].path, self.entries[c.target].path
+        return SetReads(f"{source}.{quote(c.source_port)}", f"{target}.{quote(c.target_port)}", instant)
 
     def resolved(self, entry: Entry) -> Node | None:
         """Return the node of an element, with the axes at its ports."""
@@ -293,7 +310,7 @@ class _Resolver:
                 f"the connection {source.path}.{c.source_port} -> {node.path}.{c.target_port} says"
                 f" {c.reads!r}, but {source.path} shows no state: its output is of the same instant as its"
                 " input",
-                "Leave reads out, or write reads='delayed'",
+                EditFix("Leave reads out", [self.reads(c, "")], "Or write reads='delayed'"),
             )
             return None
         return (source.id, c.source_port, 1 if c.reads == "current" else 0)
@@ -337,7 +354,8 @@ class _Resolver:
                 node.id,
                 f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}:"
                 f" {reason}",
-                f"Write: {_remedy(source.path, node.path, axes, want, bool(_unlike(axes, want)))}",
+                self.renaming((source, slot, node, port), axes, want)
+                or f"Write: {_remedy(source.path, node.path, axes, want)}",
             )
             return None
         key = ",".join(f"{a.name}:{a.samples}" for a in want)
@@ -355,6 +373,19 @@ class _Resolver:
                 declared=False,
             )
         return (ident, "output", 0)
+
+    def renaming(self, ends: tuple[Node, Slot, Node, str], axes: Axes, want: Axes) -> EditFix | None:
+        """Return the fix of two ports whose axes differ by the name of one axis; None: they differ more."""
+        missing, extra = _apart(want, axes), _apart(axes, want)
+        if _unlike(axes, want) or not len(missing) == len(extra) == 1:
+            return None
+        if not dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
+            return None
+        source, slot, node, port = ends
+        ident, out, _ = slot if slot[0] == source.id else self.nodes[slot[0]].reads["input"][0]
+        renamed = ((extra[0].name, missing[0].name),)
+        between = (self.nodes[ident].path, out, node.path, port)
+        return EditFix("Write", [InsertCoupling(between, "Project", tuple(a.name for a in want), renamed)])
 
     def inspect(self, entry: Entry, node: Node) -> None:
         """Report parameters that do not fit the axes."""
@@ -471,7 +502,13 @@ def _unlike(axes: Axes, want: Axes) -> list[str]:
     return [a.name for a in axes if a.name in targets and not a.fits(targets[a.name])]
 
 
-def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) -> str:
+def _apart(axes: Axes, others: Axes) -> list[Axis]:
+    """Return the axes whose names others lack."""
+    names = {b.name for b in others}
+    return [a for a in axes if a.name not in names]
+
+
+def _remedy(source: str, target: str, axes: Axes, want: Axes) -> str:
     """Return what to write between two ports that do not fit.
 
     First the coupling that keeps the positions of the source, then the loss of a `Project` or a `Resample`.
@@ -484,13 +521,10 @@ def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) 
         return f"{ends[0]} >> {coupling} >> {ends[1]}"
 
     names = ", ".join(a.name for a in want)
-    if other_grid:
+    if _unlike(axes, want):
         return _regrid(chain, axes, want, names)
-    missing = [a for a in want if a.name not in [b.name for b in axes]]
-    extra = [a for a in axes if a.name not in [b.name for b in want]]
+    missing, extra = _apart(want, axes), _apart(axes, want)
     one_axis = len(missing) == len(extra) == 1
-    if one_axis and dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
-        return chain(f"Project([{names}], rename={{{extra[0].name!r}: {missing[0].name!r}}})")
     ways = _diagonal(chain, axes, want, names)
     ways.append(f"{chain(f'Weights(w, [{names}])')} with an array w that says which place goes where")
     if one_axis:

@@ -17,12 +17,13 @@ import pytest
 
 import deodar as dd
 from deodar.errors import EditFix, ModelError, Problem
-from deodar.model import edit, new_elements
+from deodar.model import edit, fits, new_elements
 from deodar.model.check import check
 from deodar.model.checks.resolution import with_cells
 from deodar.model.document import Document
-from deodar.model.proposed import CheckedDocument, apply, bound
-from deodar.proposed_edit import SetAxis
+from deodar.model.document_graph import graph
+from deodar.model.proposed import MOST_TRIED, CheckedDocument, apply, bound
+from deodar.proposed_edit import InsertCoupling, SetAxis
 from tests.deodar.model.proven_fix import faults, finding
 from tests.deodar.model.test_mistakes import KINDS, document
 
@@ -96,6 +97,123 @@ FURTHER_EDITS = [
     for problem in check(model.document)
     if problem.edits
 ]
+
+
+Y = dd.Axis("y", 0, 100, samples=101)
+Z = dd.Axis("z", 0, 10, samples=11)
+
+
+def _flat(name: str, axes: list[dd.Axis]) -> dd.Field:
+    """Return a field whose output follows each input."""
+    return dd.Field(name, axes, resting_level=-1, sigmoid=dd.Logistic(beta=1))
+
+
+def _loop(axes_known: bool = True) -> dd.Model:
+    """Return a model with two gains that read each other; one of them reads a field, too."""
+    model = _model(dd.Field("u", [X]))
+    first, second = model.add(dd.Gain(0.5, name="g > h")), model.add(dd.Gain(0.5, name="a"))
+    first >> second >> first
+    if axes_known:
+        model["u"] >> first
+        second >> model.add(_flat("v", [X]))
+    return model
+
+
+def _reading(reads: str, back: str = "", through: bool = False) -> dd.Model:
+    """Return a model with a connection that states an instant."""
+    model = _model(dd.Field("u", [X]), dd.GaussianStimulus("s", [X], center=50, amplitude=9))
+    source: Any = model["u"] >> dd.Gain(2.0, name="g") if through else model["u"]
+    model.connect(source, model.add(_flat("v", [X])), reads=reads)
+    if back:
+        model.connect("v", "u", reads=back)
+    return model
+
+
+def _joined(source: list[dd.Axis], target: list[dd.Axis], reads: str = "") -> dd.Model:
+    """Return a model of two fields over other axes."""
+    model = dd.Model("m")
+    model.add(dd.GaussianStimulus("s", source, center=5, amplitude=9)) >> model.add(dd.Field("u", source))
+    model.connect("u", model.add(_flat("v w", target)), reads=reads)
+    return model
+
+
+STRUCTURAL = {
+    "a loop without a state": _loop(),
+    "a loop of current reads": _reading("current", back="current"),
+    "a coupling with an instant": _reading("current", through=True),
+    "another name of an axis": _joined([X], [Y]),
+    "another name, read after a delay": _joined([X], [Y], "delayed"),
+    "another name and another unit": _joined([X], [dd.Axis("y", 0, 100, samples=51, unit="mm")]),
+    "another name of one axis of two": _joined([X, Z], [Y, Z]),
+}
+"""Models with one problem of their structure, whose fix is one edit."""
+
+DECISIONS = {
+    "which axes": (_loop(axes_known=False), "nothing states the axes of the loop"),
+    "other bounds": (_joined([X], [dd.Axis("x", 0, 50, samples=51)]), "the axes may be meant to be one"),
+    "other names": (_joined([X, Z], [Y, dd.Axis("w", 0, 10, 11)]), "each axis may become either"),
+    "other dimensions": (_joined([X], [Z]), "which place goes where is not known, or what is lost"),
+    "no source": (dd.Model("m"), "which element the gain is for"),
+}
+"""Models with problems of their structure whose fix is text, and why. So are those of worlds: the document
+does not say which world has a sensor, or which unit is meant.
+"""
+DECISIONS["no source"][0].add(dd.Gain(2.0, name="g"))
+
+
+@pytest.mark.parametrize("name", STRUCTURAL)
+def test_the_fix_of_a_structure_is_proven_and_made_by_the_model(name: str) -> None:
+    model = STRUCTURAL[name]
+    (problem,) = check(model.document)
+    assert problem.severity == "problem" and faults(model.document, problem) == []
+    for place in ("script", "shell", "page"):
+        assert problem.fix_at(place) and all(e.at(place) in problem.fix_at(place) for e in problem.edits)
+    assert all(isinstance(e.plain_data(), dict) and pickle.loads(pickle.dumps(e)) == e for e in problem.edits)
+    copied = dd.Model(document=model.document)
+    copied.apply_fix(problem)
+    assert not graph(copied.document).problems
+
+
+@pytest.mark.parametrize("name", [n for n in STRUCTURAL if "name" not in n])
+def test_the_text_of_an_instant_makes_the_edit(name: str) -> None:
+    (problem,) = check(STRUCTURAL[name].document)
+    typed = dd.Model(document=STRUCTURAL[name].document)
+    text = problem.fix.partition(": ")[2].partition(". Or")[0]
+    for call in text.split(" and "):
+        eval(call, {"model": typed})
+    assert set(typed.document.connections) == set(apply(STRUCTURAL[name].document, problem.edits).connections)
+
+
+@pytest.mark.parametrize("name", [n for n in STRUCTURAL if "name" in n])
+def test_the_studio_offers_the_coupling_of_the_fix_first(name: str) -> None:
+    doc = STRUCTURAL[name].document
+    (problem,) = check(doc)
+    (insert,) = problem.edits
+    assert isinstance(insert, InsertCoupling)
+    source, target = (next(e for e in doc.entries if e.path == path) for path in ("u", "v w"))
+    axes: Any = [e.element.axes for e in (source, target)]  # type: ignore[attr-defined]
+    best, *_ = fits.offers(axes[0], axes[1], lambda axis: axis.name)
+    fixed = apply(doc, problem.edits)
+    (coupling,) = [e for e in fixed.entries if e.id not in doc.by_id()]
+    assert (best.kind, best.note) == (type(coupling.element).__name__, "")
+    assert fits._converts(type(coupling.element), {"axes": axes[1], **insert.values()}, *axes) == ""  # pyright: ignore[reportPrivateUsage]
+
+
+@pytest.mark.parametrize("name", DECISIONS)
+def test_a_structure_that_needs_a_decision_has_text(name: str) -> None:
+    model, reason = DECISIONS[name]
+    problems = check(model.document)
+    assert problems and reason and all(p.fix and not p.edits for p in problems)
+
+
+def test_few_edits_of_a_structure_are_tried() -> None:
+    """Each is tried in the whole document."""
+    model = dd.Model("m")
+    for k in range(MOST_TRIED + 5):
+        model.add(dd.Field(f"u{k}", [X], noise=0.1)) >> model.add(dd.Field(f"v{k}", [Y]))
+    problems = check(model.document)
+    assert [bool(p.edits) for p in problems] == [True] * MOST_TRIED + [False] * 5
+    assert problems[-1].fix == "Write"
 
 
 @pytest.mark.parametrize(("name", "problem"), FURTHER_EDITS)
