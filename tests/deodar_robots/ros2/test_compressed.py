@@ -146,7 +146,7 @@ def test_messages_arrive_while_a_picture_is_decoded(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(GuardedFile, "call", decoded)
     for _ in range(5):
         topics.picture(encoded((255, 0, 0)))
-    assert not calls, "a picture that nobody reads is not decoded"
+    assert not calls, "a picture of a sensor that is not read is not decoded"
     pixels: list[list[int]] = []
     reader = threading.Thread(target=lambda: pixels.append(topics.pixel()))
     reader.start()
