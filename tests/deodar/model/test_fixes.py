@@ -9,14 +9,16 @@ import pickle
 import sys
 import time
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
-from typing import Any
+from typing import Annotated, Any, ClassVar
 
 import pytest
 
 import deodar as dd
-from deodar.errors import EditFix, ModelError, Problem
+from deodar import registry
+from deodar.errors import EditFix, ModelError, Problem, assign
 from deodar.model import edit, fits, new_elements
 from deodar.model.check import check
 from deodar.model.checks.resolution import with_cells
@@ -285,6 +287,32 @@ def test_a_fix_is_written_for_each_reader_and_made_by_the_model() -> None:
     model.apply_fix(problem)
     assert model.get("u.resting_level") == -5 and model.check() == []
     assert model.undo() and model.get("u.resting_level") == 5
+
+
+@dataclass(frozen=True)
+class Doubling(dd.Coupling):
+    """A coupling of a user, which warns of a strength."""
+
+    strength: Annotated[float, dd.Live()] = 3.0
+    direct: ClassVar = {"output": ("input",)}
+
+    def output(self, at: dd.Setting) -> dd.Arrays:
+        return {"output": self.strength * at.inputs["input"]}
+
+    def warnings(self, ins: Any) -> Iterator[tuple[str, str]]:
+        if self.strength > 2:
+            yield "is too strong", assign("Weaken it", {"strength": 2.0})
+
+
+def test_fixes_are_made_in_a_document_with_a_kind_of_a_user(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "_kinds", dict(registry.kinds()))
+    model = _model(dd.Field("u", [X], resting_level=5, global_inhibition=1))
+    model["u"] >> model.add(dd.register(Doubling)(name="d")) >> model.add(_flat("v", [X]))
+    for where, path, number in (("d", "d.strength", 2.0), ("u", "u.resting_level", -5)):
+        problem = next(p for p in check(model.document) if p.where == where and p.edits)
+        model.apply_fix(problem)
+        assert model.get(path) == number
+    assert not {"d", "u"} & {p.where for p in check(model.document) if p.edits}
 
 
 def test_a_fix_of_a_linked_parameter_sets_the_document_parameter() -> None:
