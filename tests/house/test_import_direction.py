@@ -21,7 +21,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "plugins docstring declarations file_version",
         "names registry extensions part_type family codec",
         "credentials sealed npz regular_file private_file kind_errors",
-        "parameters guarded",
+        "parameters guarded user_key",
         "leaves part_data",
         "numerics",
         "element",

@@ -8,33 +8,20 @@ port opens no other one.
 
 from __future__ import annotations
 
-import contextlib
-import hashlib
-import hmac
-import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
-from deodar import private_file
 from deodar.codec import Json
 from deodar.errors import WorldError, first_line
 from deodar.model.written import STATES, states
+from deodar.user_key import USER, UserKey
 
 _AUTH = "transport/auth/usrpwd/"
-_USER = "deodar"
 
 
 @dataclass(frozen=True)
-class RobotKey:
-    """The key of a port.
-
-    Attributes:
-        path: its file, `deodar:PASSWORD`, which Zenoh reads as a dictionary of users.
-        password: the password.
-    """
-
-    path: Path
-    password: str = field(repr=False)
+class RobotKey(UserKey):
+    """The key of a port, whose file Zenoh reads as a dictionary of users."""
 
     def of_server(self) -> dict[str, Json]:
         """Return the settings of Zenoh for the side that listens."""
@@ -42,15 +29,7 @@ class RobotKey:
 
     def of_client(self) -> dict[str, Json]:
         """Return the settings of Zenoh for the side that connects."""
-        return {f"{_AUTH}user": _USER, f"{_AUTH}password": self.password}
-
-    def proof(self, challenge: bytes) -> bytes:
-        """Return what only a program with the key can answer to a challenge."""
-        return hmac.digest(self.password.encode(), challenge, hashlib.sha256)
-
-    def proven(self, challenge: bytes, proof: bytes) -> bool:
-        """Return whether a proof answers a challenge."""
-        return hmac.compare_digest(self.proof(challenge), proof)
+        return {f"{_AUTH}user": USER, f"{_AUTH}password": self.password}
 
 
 def path_of(host: str, port: int) -> Path:
@@ -72,10 +51,7 @@ def key_at(host: str, port: int) -> RobotKey:
             fix=f"State a folder in the variable {STATES}",
         ) from None
     try:
-        with contextlib.suppress(FileExistsError):
-            if not path.exists():
-                private_file.write(path, f"{_USER}:{private_file.new()}\n")
-        return RobotKey(path, _password(path))
+        return RobotKey.at(path)
     except (OSError, ValueError) as error:
         remove = "Remove it; the next robot at this port makes another one"
         raise WorldError(
@@ -83,14 +59,3 @@ def key_at(host: str, port: int) -> RobotKey:
             where=str(path),
             fix=remove if path.exists() else f"State a folder that you can write in the variable {STATES}",
         ) from None
-
-
-def _password(path: Path) -> str:
-    """Return the password in a file; another process may be about to write it."""
-    limit = time.monotonic() + 1.0
-    while not (text := private_file.read(path)) and time.monotonic() < limit:
-        time.sleep(0.02)
-    user, _, password = text.strip().partition(":")
-    if user != _USER or not private_file.FORM.match(password):
-        raise ValueError(f"it does not hold {_USER}: and a password")
-    return password
