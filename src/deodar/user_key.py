@@ -16,7 +16,7 @@ from typing import Self
 from deodar import private_file
 
 USER = "deodar"
-"""What stands before the password in the file of a key."""
+"""The first part of the file of a key; the password follows."""
 
 WRITING = 1.0
 """Seconds in which another process that makes a key must have written it."""

@@ -266,6 +266,8 @@ class Executable:
         with precision_context(self.precision):
             if not self.across or not isinstance(executable, Compiled):
                 return executable(*args)
+            assert self.distribution is not None
+            hosts.connect(self.distribution.devices)
             with hosts.calling(True):
                 return executable(*jax.tree.map(_argument, args, executable.input_shardings[0]))
 

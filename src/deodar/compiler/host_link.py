@@ -1,24 +1,27 @@
-"""The lines of text between hosts that compute one model together: each is linked with the first one.
+"""The links between hosts that compute one model together: each is linked with the first one.
 
-A message is a line of JSON. Links also carry signs of life, so that a host whose process, computer or network
-has ended is known after `SILENT` seconds, and one whose process has ended at once.
+A message is a line of JSON, or bytes of JAX (`host_stream.py`); each proves that it is of the other host
+(`proven_link.py`). Links also carry signs of life, so that a host whose process, computer or network has
+ended is known after `SILENT` seconds, and one whose process has ended at once.
 """
 
 from __future__ import annotations
 
 import contextlib
-import importlib.metadata
 import os
 import queue
-import socket
 import sys
 import threading
 import time
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Generator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from deodar import codec
-from deodar.errors import HostsError, show
+from deodar.compiler.gloo_port import GlooPort
+from deodar.compiler.host_stream import HostStream
+from deodar.compiler.proven_link import ProvenLink
+from deodar.errors import HostsError
 
 BEAT = 1.0
 """Seconds between two signs of life of a host."""
@@ -37,29 +40,11 @@ PARTING = 5.0
 GRACE = 2.0
 """Seconds that the other hosts wait for an answer of the first one beyond the time limit."""
 
-HELLO_SECONDS = 2.0
-"""Seconds in which who connects to the first host must say which host it is."""
-
-RETRY = 0.2
-"""Seconds between two attempts to reach the first host."""
-
-REACH = 10.0
-"""Seconds in which the other hosts must reach the port of the first one that JAX uses."""
-
-ALIKE = "Install the same versions and start all hosts alike"
-"""What to do if hosts differ."""
-
-EVERYWHERE = "Start the same script on every host, with its own number"
-"""What to do if a host does not come."""
-
 CAUSE = "Its output has the cause. Start the run again on all hosts"
 """What to do if a host has ended."""
 
-FIREWALL = "JAX needs this port, which the system chooses: let the firewall of host 0 pass all ports"
-"""What to do if a port of the first host cannot be reached."""
-
-HERE = ("localhost", "127.0.0.1", "[::1]")
-"""Hosts that are this machine."""
+STREAM = b"\0"
+"""First byte of a message with bytes of JAX; one of JSON begins otherwise."""
 
 HostMessage = dict[str, Any]
 
@@ -68,7 +53,7 @@ class HostLinks:
     """The links of this host: with all others on the first host, with the first one on the others.
 
     Args:
-        links: the sockets by the number of the other host.
+        links: the links by the number of the other host.
         index: number of this host.
         count: number of hosts.
         timeout: seconds after which a host that does not answer is given up.
@@ -77,18 +62,23 @@ class HostLinks:
         lost: the hosts that have ended.
         inside: since when this process waits in a program of several hosts; 0: it does not.
         failed: whether the run has ended with an error.
+        gloo: the port of Gloo, when JAX has started.
+        connected: the groups of devices of several hosts that are connected, by their numbers.
     """
 
-    def __init__(self, links: Mapping[int, socket.socket], index: int, count: int, timeout: float) -> None:
+    def __init__(self, links: Mapping[int, ProvenLink], index: int, count: int, timeout: float) -> None:
         self.index, self.count, self.timeout = index, count, timeout
         self.lost: set[int] = set()
         self.inside = 0.0
         self.failed = False
+        self.gloo: GlooPort | None = None
+        self.connected = set[tuple[int, ...]]()
         self._links = dict(links)
         self._number = 0
         self._inbox = {k: queue.SimpleQueue[HostMessage | None]() for k in links}
         self._heard = dict.fromkeys(links, time.monotonic())
-        self._sending = threading.Lock()
+        self._streams = {k: HostStream(link, STREAM) for k, link in links.items()}
+        self._ready = threading.Event()
         self._closed = threading.Event()
 
     def begin(self) -> None:
@@ -107,9 +97,38 @@ class HostLinks:
         """Close the links; the others find that this host has ended."""
         self._closed.set()
         for link in self._links.values():
-            with contextlib.suppress(OSError):
-                link.shutdown(socket.SHUT_RDWR)
             link.close()
+
+    @property
+    def address(self) -> str:
+        """The address of this machine at which the other hosts reach it."""
+        return next(iter(self._links.values())).address
+
+    @contextlib.contextmanager
+    def carrying(self, path: Path) -> Generator[None]:
+        """Carry what JAX sends to a socket of this machine, at a path, to that of the first host, and back.
+
+        JAX must connect while the context is open; what it has connected stays.
+
+        Raises:
+            HostsError: the first host has ended, or is not ready in time.
+        """
+        if self.index == 0:
+            for k, stream in self._streams.items():
+                run = lambda k=k, stream=stream: self._reach(k, stream, path)  # noqa: E731
+                threading.Thread(target=run, daemon=True, name=f"deodar-jax-{k}").start()
+            yield
+            return
+        if not self._ready.wait(self.timeout) or self.lost:
+            raise HostsError(lost_hosts(self.lost) or "host 0 has not started JAX", fix=CAUSE)
+        with self._streams[0].listening(path, self.timeout):
+            yield
+
+    def _reach(self, k: int, stream: HostStream, path: Path) -> None:
+        """Connect another host with JAX of the first one, which starts meanwhile."""
+        if stream.reach(path, self.timeout):
+            self._send(k, {"ready": True})
+            stream.run()
 
     # ---------------------------------------------------------------------------------------------- exchanges
 
@@ -207,8 +226,8 @@ class HostLinks:
                 return message
 
     def _send(self, k: int, message: HostMessage) -> None:
-        with contextlib.suppress(OSError), self._sending:  # its reader finds that it has ended
-            self._links[k].sendall(f"{codec.line(message)}\n".encode())
+        with contextlib.suppress(OSError):  # its reader finds that it has ended
+            self._links[k].send(codec.line(message).encode())
 
     def _send_all(self, message: HostMessage) -> None:
         for k in self._links:
@@ -217,13 +236,17 @@ class HostLinks:
     # ------------------------------------------------------------------------------------------ signs of life
 
     def _read(self, k: int) -> None:
-        with contextlib.suppress(OSError, ValueError), self._links[k].makefile("r", encoding="utf-8") as file:
-            for line in file:
-                message = codec.parse(line)
-                assert isinstance(message, dict)
+        with contextlib.suppress(OSError):
+            while content := self._links[k].receive():
                 self._heard[k] = time.monotonic()
+                if content.startswith(STREAM):
+                    self._streams[k].deliver(content[len(STREAM) :])
+                    continue
+                message = message_of(content)
                 if "lost" in message:
                     self._lose(int(str(message["lost"])))
+                elif "ready" in message:
+                    self._ready.set()
                 elif "n" in message:
                     self._inbox[k].put(message)
         self._lose(k)
@@ -248,6 +271,9 @@ class HostLinks:
             self._send_all({"lost": k})
         for inbox in self._inbox.values() if self.index else [self._inbox[k]]:
             inbox.put(None)
+        if k in self._streams:
+            self._streams[k].close()
+        self._ready.set()  # who waits for it finds that the host has ended
 
 
 def lost_hosts(lost: Collection[int]) -> str:
@@ -258,217 +284,8 @@ def lost_hosts(lost: Collection[int]) -> str:
     return f"host {named} has ended" if len(lost) == 1 else f"the hosts {named} have ended"
 
 
-def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLinks, int]:
-    """Return the links with the other hosts, and a port of the first host that is free for JAX.
-
-    Raises:
-        HostsError: one does not come in time, differs in the number of hosts or in versions, or cannot reach
-            the port for JAX.
-    """
-    host, _, port = address.rpartition(":")
-    hello: HostMessage = {"host": index, "about": {"hosts": count, **_versions()}}
-    until = time.monotonic() + timeout
-    if index:
-        place = host.strip("[]"), int(port)
-        link, answer = _call(place, hello, until, timeout)
-        links = {0: link}
-        jax_port = int(_word(answer, "port", link))
-        reason = _unreached((place[0], jax_port))
-        _tell([link], {"reached": not reason, "reason": reason})
-        # longer than the first host waits, so that it is the one that says which host has ended
-        _word(_next_words(link, 3 * REACH), "start", link)
-    else:
-        links = _welcome((host, int(port)), count, hello, until, timeout)
-        jax_port = _probed(links, host)
-    for link in links.values():
-        link.settimeout(None)
-        link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    return HostLinks(links, index, count, timeout), jax_port
-
-
-def _word(answer: HostMessage, name: str, link: socket.socket) -> Any:
-    """Return what the first host says by this name.
-
-    Raises:
-        HostsError: it refuses this host, or has ended.
-    """
-    if name in answer:
-        return answer[name]
-    link.close()
-    raise HostsError(
-        answer.get("error", "host 0 has ended, or does not answer"), fix=answer.get("fix", CAUSE)
-    )
-
-
-def _probed(links: dict[int, socket.socket], host: str) -> int:
-    """Return a port of the first host that is free, and which all others have reached.
-
-    Raises:
-        HostsError: one of them cannot reach it, or has ended.
-    """
-    with _opened(0, len(links), host) as server:
-        free_port = int(server.getsockname()[1])
-        _tell(links.values(), {"port": free_port})
-        until = time.monotonic() + 2 * REACH
-        # all are read: closing a link with words that are not read would also lose those that are sent
-        answers = {k: _next_words(link, max(RETRY, until - time.monotonic())) for k, link in links.items()}
-    for k, answer in sorted(answers.items()):
-        if not answer.get("reached"):
-            text, fix = f"host {k} has ended, or does not answer", CAUSE
-            if reason := answer.get("reason"):
-                text, fix = f"host {k} cannot reach port {free_port} of host 0 ({reason})", FIREWALL
-            _refuse(links.values(), text, fix)
-            raise HostsError(text, fix=fix)
-    # JAX opens the port again at once
-    _tell(links.values(), {"start": True})
-    return free_port
-
-
-def _unreached(place: tuple[str, int]) -> str:
-    """Return why a port cannot be reached; "" if it can."""
-    try:
-        socket.create_connection(place, REACH).close()
-    except OSError as error:
-        return error.strerror or str(error)
-    return ""
-
-
-def _next_words(link: socket.socket, seconds: float) -> HostMessage:
-    """Return the next message of a link; empty if it does not come in time, or the link ends."""
-    link.settimeout(seconds)
-    try:
-        return _line(link)
-    except OSError:
-        return {}
-
-
-def loopback(host: str) -> str:
-    """Return the address at which the first host listens if all hosts are processes of one machine, which
-    other machines then do not reach; "" for another host.
-    """
-    return {"localhost": "127.0.0.1"}.get(host, host) if host in HERE else ""
-
-
-def _opened(port: int, backlog: int, host: str = "") -> socket.socket:
-    """Return a socket that listens at a port, of the loopback alone if `host` is there; 0: a free port."""
-    if bound := loopback(host):
-        family = socket.AF_INET6 if ":" in bound else socket.AF_INET
-        return socket.create_server((bound.strip("[]"), port), family=family, backlog=backlog)
-    dual = socket.has_dualstack_ipv6()
-    family = socket.AF_INET6 if dual else socket.AF_INET
-    return socket.create_server(("", port), family=family, backlog=backlog, dualstack_ipv6=dual)
-
-
-def _versions() -> dict[str, str]:
-    return {name: importlib.metadata.version(name) for name in ("deodar", "jax", "jaxlib", "numpy")}
-
-
-def _call(
-    place: tuple[str, int], hello: HostMessage, until: float, timeout: float
-) -> tuple[socket.socket, HostMessage]:
-    """Reach the first host, and wait for its answer, which it gives when all have come."""
-    reason = "no answer"
-    while time.monotonic() < until:
-        link = None
-        try:
-            link = socket.create_connection(place, max(0.1, until - time.monotonic()))
-            link.sendall(f"{codec.line(hello)}\n".encode())
-            # a little longer than the first host waits, so that it is the one that says who is missing
-            link.settimeout(max(0.1, until - time.monotonic()) + 2 * RETRY)
-            if answer := _line(link):
-                return link, answer
-        except OSError as error:
-            reason = error.strerror or str(error)
-        if link is not None:
-            link.close()
-        time.sleep(RETRY)
-    raise HostsError(
-        f"the first host cannot be reached at {place[0]}:{place[1]} within {timeout:g} s, or not all hosts"
-        f" have come ({reason})",
-        fix="Start the same script on every host; the address is that of host 0",
-    )
-
-
-def _welcome(
-    place: tuple[str, int], count: int, hello: HostMessage, until: float, timeout: float
-) -> dict[int, socket.socket]:
-    """Wait on the first host for all others."""
-    links: dict[int, socket.socket] = {}
-    host, port = place
-    try:
-        server = _opened(port, count, host)
-    except OSError as error:
-        raise HostsError(
-            f"port {port} cannot be opened on this host ({error.strerror})", fix="Choose another port"
-        ) from None
-    with server:
-        while time.monotonic() < until:
-            server.settimeout(max(0.01, until - time.monotonic()))
-            with contextlib.suppress(TimeoutError):
-                link, _ = server.accept()
-                greeting = _next_words(link, HELLO_SECONDS)
-                _drop_ended(links)
-                if not greeting:  # no host, or one that calls again
-                    link.close()
-                    continue
-                k = greeting.get("host")
-                if not isinstance(k, int) or not 0 < k < count or k in links:
-                    _refuse([link], f"host {show(k)} is not one of {count}, or has come already", ALIKE)
-                    continue
-                links[k] = link
-                if greeting.get("about") != hello["about"]:
-                    text = f"host {k} differs from host 0: {greeting.get('about')} and {hello['about']}"
-                    _refuse(links.values(), text, ALIKE)
-                    raise HostsError(text, fix=ALIKE)
-            if len(links) == count - 1:
-                break
-    if len(links) < count - 1:
-        _drop_ended(links)
-        missing = ", ".join(str(k) for k in range(1, count) if k not in links)
-        text = f"host {missing} has not come within {timeout:g} s"
-        _refuse(links.values(), text, EVERYWHERE)
-        raise HostsError(text, fix=EVERYWHERE)
-    return links
-
-
-def _drop_ended(links: dict[int, socket.socket]) -> None:
-    """Remove the hosts whose process has ended while they wait, so that they may be started again."""
-    for k, link in list(links.items()):
-        link.setblocking(False)
-        try:
-            ended = not link.recv(1, socket.MSG_PEEK)
-        except BlockingIOError:  # it waits, and says nothing
-            continue
-        except OSError:
-            ended = True
-        if ended:
-            link.close()
-            del links[k]
-
-
-def _refuse(links: Collection[socket.socket], reason: str, fix: str) -> None:
-    _tell(links, {"error": reason, "fix": fix})
-    for link in links:
-        link.close()
-
-
-def _tell(links: Collection[socket.socket], message: HostMessage) -> None:
-    for link in links:
-        with contextlib.suppress(OSError):  # what is read next finds that it has ended
-            link.sendall(f"{codec.line(message)}\n".encode())
-
-
-def _line(link: socket.socket) -> HostMessage:
-    """Return the first message of a link; empty if it is none."""
-    text = b""
-    while not text.endswith(b"\n") and len(text) < 2**16:
-        # byte by byte: what follows belongs to the reader
-        byte = link.recv(1)
-        if not byte:
-            return {}
-        text += byte
-    try:
-        message = codec.parse(text.decode())
-    except ValueError:
-        return {}
-    return message if isinstance(message, dict) else {}
+def message_of(content: bytes) -> HostMessage:
+    """Return the message in the content of a link."""
+    message = codec.parse(content.decode())
+    assert isinstance(message, dict), "a host that has proven its key says what this version says"
+    return message

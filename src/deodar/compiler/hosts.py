@@ -10,21 +10,30 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import functools
 import hashlib
 import os
+import socket
 import sys
+import tempfile
+import threading
 import time
 from collections.abc import Generator, Hashable, Sequence
+from pathlib import Path
 from typing import Any, TypeVar
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.experimental import multihost_utils
+from jax.extend.backend import register_backend_factory
 from jax.sharding import Mesh, NamedSharding, PartitionSpec, Sharding
 
 from deodar import codec
-from deodar.compiler.host_link import SILENT, HostLinks, loopback, lost_hosts, meet
+from deodar.compiler import gloo_port
+from deodar.compiler.gloo_port import ConnectionEnds, GlooPort
+from deodar.compiler.host_link import SILENT, HostLinks, lost_hosts
+from deodar.compiler.host_meeting import loopback, meet
 from deodar.errors import HostsError, ParameterError, first_line, show
 
 T = TypeVar("T")
@@ -41,6 +50,12 @@ SHOWN = 300
 _joined: list[HostLinks] = []
 """The links to the other hosts; empty on one host."""
 
+LOOK = 5.0
+"""Seconds after which hosts compare their connections while a program connects their devices."""
+
+SHORT_PATH = 70
+"""Most characters of a folder in which a socket has a path (107 are allowed, 103 on macOS)."""
+
 
 def join_hosts(
     address: str = AUTO, count: int | None = None, index: int | None = None, timeout: float = TIMEOUT
@@ -49,10 +64,10 @@ def join_hosts(
 
     Call it before the first run, on every host, and after `use_cores`. From then on `devices="all"` means the
     devices of all hosts, in `simulate` and in `Session`: every host makes the same calls and gets the same
-    values. Without `devices` each host computes alone. Messages between hosts are not encrypted, and no
-    program that connects has to prove anything: use a network of your own. With the address 127.0.0.1, for
-    several processes of one machine, the first host listens there alone. On the CPU hosts exchange numbers
-    through TCP (Gloo).
+    values. Without `devices` each host computes alone. Hosts prove to each other that they have one key of
+    the user, a file of the folder of states, or the one that `DEODAR_HOSTS_KEY` names; it is made at its
+    first use. Messages are not encrypted. With the address 127.0.0.1, for several processes of one machine,
+    all hosts listen there alone. On the CPU hosts exchange numbers through TCP (Gloo).
 
     Args:
         address: `HOST:PORT` of the first host, a port that is free there; `auto`: what SLURM or Open MPI
@@ -62,8 +77,8 @@ def join_hosts(
         timeout: seconds to wait for the others, at the start and whenever they exchange something.
 
     Raises:
-        HostsError: JAX has started, or cannot start; a host does not come, or cannot reach the port for JAX;
-            or versions differ between the hosts.
+        HostsError: JAX has started, or cannot start; a host does not come, or has another key; versions
+            differ between the hosts; or a program that is no host has connected.
         ParameterError: an argument is not valid.
     """
     _require(address, count, index, timeout)
@@ -79,17 +94,19 @@ def join_hosts(
     place, number, index_here, local = place_of_host
     if number < 2:
         return
-    links, port = meet(place, number, index_here, timeout)
+    links = meet(place, number, index_here, timeout)
     links.begin()
     try:
-        _start_jax(links, f"{place.rpartition(':')[0]}:{port}", local)
+        _start_jax(links, loopback(place.rpartition(":")[0]).strip("[]") or links.address, local)
     except BaseException as error:
         links.failed = True
-        if _joined:
+        started = bool(_joined)
+        if started:
             # JAX of the others depends on the first host, which therefore waits for them
             links.end()
             _joined.clear()
-        links.close()
+        if links.index == 0 or not started:  # else JAX, whose bytes the link carries, would end this process
+            links.close()
         if not isinstance(error, Exception) or isinstance(error, HostsError):
             raise
         raise HostsError(
@@ -99,36 +116,127 @@ def join_hosts(
 
 
 def _start_jax(links: HostLinks, address: str, local: Any) -> None:
-    """Start JAX on all hosts, and connect their devices. If a host ends meanwhile, so does this process."""
+    """Start JAX on all hosts, and connect their devices. If a host ends meanwhile, so does this process.
+
+    Args:
+        links: the links with the other hosts.
+        address: the address of this host for connections of Gloo.
+        local: the devices of this process, if the environment states them.
+    """
     jax.config.update("jax_cpu_collectives_implementation", "gloo")
     # without it JAX ends this process when another one has ended, before an error can be raised
     jax.config.update("jax_enable_recoverability", True)
     # else SIGTERM, as from scancel, would no longer end this process
     jax.config.update("jax_enable_preemption_service", False)
-    links.inside = time.monotonic()
-    bound = loopback(address.rpartition(":")[0])
-    jax.distributed.initialize(
-        address,
-        links.count,
-        links.index,
-        local_device_ids=local,
-        # JAX would listen at all addresses of the machine, and asks no program that connects for a proof
-        coordinator_bind_address=f"{bound}:{address.rpartition(':')[2]}" if bound else None,
-        cluster_detection_method="deactivate",
-        # longer than the links need to find that a host has ended: after it JAX aborts without naming one
-        initialization_timeout=round(max(links.timeout, 2 * SILENT)),
-    )
+    # who has found the service of JAX could join or end the run: its socket is of this user alone, and is
+    # removed when all hosts have connected
+    with tempfile.TemporaryDirectory(prefix="deodar-", dir=_short_folder()) as folder:
+        place = Path(folder) / "jax"
+        with links.carrying(place):
+            links.inside = time.monotonic()
+            jax.distributed.initialize(
+                f"unix:{place}",
+                links.count,
+                links.index,
+                local_device_ids=local,
+                coordinator_bind_address=f"unix:{place}",
+                cluster_detection_method="deactivate",
+                # longer than the links need to find that a host has ended: then JAX aborts and names none
+                initialization_timeout=round(max(links.timeout, 2 * SILENT)),
+            )
+    links.gloo = _gloo_at(address)
     links.inside = 0.0
     _joined.append(links)
     # registered after that of JAX, so called before it
     atexit.register(links.end)
-    with calling(True), _no_words_of_gloo():
-        _meet_on_devices()
+    connect(jax.devices())
 
 
-def _meet_on_devices() -> None:
-    """Run a program on the devices of all hosts, which connects them, and ends here if it cannot."""
-    places = jax.devices()
+def _short_folder() -> str | None:
+    """Return the folder of temporary files, if its path leaves room for the name of a socket."""
+    return None if len(tempfile.gettempdir()) < SHORT_PATH else "/tmp"
+
+
+def _gloo_at(address: str) -> GlooPort:
+    """Let Gloo listen at an address of this host, not at the one to which the system resolves its name."""
+    bridge: Any = sys.modules["jax._src.xla_bridge"]  # JAX has no public functions for this
+    before = gloo_port.listeners()
+    collectives = bridge._jax.make_gloo_tcp_collectives(
+        bridge.distributed.global_state.client, hostname=address
+    )
+    [number] = gloo_port.listeners() - before
+    register_backend_factory(
+        "cpu", functools.partial(bridge.make_cpu_client, collectives), priority=0, fail_quietly=False
+    )
+    return GlooPort(socket.socket(fileno=os.dup(number)))
+
+
+def connect(devices: Sequence[Any]) -> None:
+    """Connect devices of several hosts, once, before a program runs on them; all hosts call it.
+
+    Raises:
+        HostsError: a host has ended, or a program that is no host has connected.
+    """
+    if not span(devices) or (numbers := tuple(d.id for d in devices)) in _joined[0].connected:
+        return
+    links, gloo = _joined[0], _joined[0].gloo
+    assert gloo is not None
+    with gloo.open(), _no_words_of_gloo():
+        require_equal("the devices", list(numbers))
+        meeting = DeviceMeeting(devices)
+        ended_everywhere = False
+        before = list[ConnectionEnds]()
+        while not ended_everywhere:
+            # another program in the place of a device would let this one wait without end
+            meeting.wait(LOOK)
+            ended = meeting.ended  # connections are complete only if they are listed after the end
+            answers = links.exchange("the connections", [ended, gloo.address, gloo_port.connections()])
+            ended_everywhere = all(ended for ended, _, _ in answers)
+            ends = [(str(pair[0]), str(pair[1])) for _, _, pairs in answers for pair in pairs]
+            unmatched = gloo_port.strangers([str(port) for _, port, _ in answers], ends)
+            # hosts that still connect may have listed one end earlier than the other
+            if others := unmatched if ended_everywhere else sorted({*unmatched} & {*before}):
+                gloo_port.end(others)
+                meeting.wait(LOOK)
+                raise gloo_port.error_of(others)
+            before = unmatched
+    with calling(True):
+        meeting.require()
+    links.connected.add(numbers)
+
+
+class DeviceMeeting:
+    """A program on devices of all hosts, which connects them, in a thread of its own.
+
+    Attributes:
+        ended: whether the program has ended.
+    """
+
+    def __init__(self, devices: Sequence[Any]) -> None:
+        self.ended = False
+        self._error: Exception | None = None
+        self._thread = threading.Thread(target=self._run, args=(devices,), daemon=True, name="deodar-devices")
+        self._thread.start()
+
+    def wait(self, seconds: float) -> None:
+        """Wait for the end of the program."""
+        self._thread.join(seconds)
+
+    def require(self) -> None:
+        """Raise the error of the program, if it has one."""
+        if self._error is not None:
+            raise self._error
+
+    def _run(self, devices: Sequence[Any]) -> None:
+        try:
+            _meet_on_devices(devices)
+        except Exception as error:  # it is raised where the program is awaited
+            self._error = error
+        self.ended = True
+
+
+def _meet_on_devices(places: Sequence[Any]) -> None:
+    """Run a program on devices of all hosts, which connects them, and ends here if it cannot."""
     shared = NamedSharding(Mesh(np.array(places), ("devices",)), PartitionSpec("devices"))
     ones = placed(np.ones(len(places), np.float32), shared)
     whole = NamedSharding(shared.mesh, PartitionSpec())

@@ -5,9 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import re
-import socket
-import struct
 import subprocess
 import sys
 import threading
@@ -21,10 +18,12 @@ import pytest
 
 import deodar as dd
 from deodar.compiler import host_link, hosts
-from deodar.compiler.host_link import HostLinks, meet
+from deodar.compiler.host_link import HostLinks
+from deodar.compiler.host_meeting import meet
 from deodar.errors import HostsError, ParameterError, UnknownName
 from deodar.recording.record import about
 from tests import host_devices
+from tests.deodar.compiler.meeting import free_port
 
 LIMIT = 300.0
 """Seconds after which a process of a test is ended."""
@@ -196,6 +195,42 @@ dd.join_hosts("127.0.0.1:" + sys.argv[2], 2, int(sys.argv[1]), timeout=5)
 """
 
 
+INTRUDED = """
+import subprocess, sys, deodar as dd
+from deodar.compiler import hosts
+from deodar.errors import HostsError
+
+intruder = '''
+import socket, sys
+host, port = sys.argv[1].split()
+link = socket.create_connection((host, int(port)), 60)
+print("connected", flush=True)
+link.recv(1)
+'''
+connects = hosts._meet_on_devices
+
+def connects_with_another(devices):
+    process = subprocess.Popen(
+        [sys.executable, "-c", intruder, hosts._joined[0].gloo.address], stdout=subprocess.PIPE
+    )
+    assert process.stdout.readline() == b"connected\\n"
+    connects(devices)
+
+if sys.argv[1] == "1":
+    hosts._meet_on_devices = connects_with_another
+try:
+    dd.join_hosts("127.0.0.1:" + sys.argv[2], 2, int(sys.argv[1]))
+except HostsError as error:
+    print(error)
+"""
+
+
+@pytest.fixture(autouse=True)
+def states(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the hosts of a test have a key of their own."""
+    monkeypatch.setenv("DEODAR_STATE", str(tmp_path / "state"))
+
+
 def started(
     script: str, host: int, devices: int, *arguments: str, **environment: str
 ) -> subprocess.Popen[str]:
@@ -215,12 +250,6 @@ def ended(processes: Sequence[subprocess.Popen[str]]) -> list[tuple[int, str, st
         for process in processes:
             process.kill()
     return [(process.returncode, *text) for process, text in zip(processes, texts, strict=True)]
-
-
-def free_port() -> str:
-    """Return the number of a port that is free."""
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        return str(server.getsockname()[1])
 
 
 def test_two_hosts_compute_what_one_computes(tmp_path: Path) -> None:
@@ -321,7 +350,7 @@ def linked(timeout: float = 5.0, count: int = 2) -> Generator[list[HostLinks]]:
     address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
 
     def host(k: int) -> None:
-        found[k] = meet(address, count, k, timeout)[0]
+        found[k] = meet(address, count, k, timeout)
         found[k].begin()
 
     threads = [threading.Thread(target=host, args=(k,)) for k in reversed(range(count))]
@@ -409,122 +438,27 @@ def test_a_host_whose_links_end_is_named_at_once(ending: int) -> None:
         assert str(answer).startswith(f"host {ending} has ended")
 
 
-def test_a_host_that_does_not_come_is_named() -> None:
-    address = f"127.0.0.1:{free_port()}"
-    with pytest.raises(HostsError, match="host 1, 2 has not come"):
-        meet(address, 3, 0, 0.3)
-    with pytest.raises(HostsError, match=f"the first host cannot be reached at {address} within 0.3 s"):
-        meet(address, 3, 2, 0.3)
-
-
-@pytest.mark.parametrize("resets", [True, False])
-def test_a_stranger_at_the_port_does_not_end_the_first_host(
-    resets: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(host_link, "HELLO_SECONDS", 0.2)
-    address, links = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
-    first = threading.Thread(target=lambda: links.update({0: meet(address, 2, 0, 10.0)[0]}))
-    first.start()
-    with reached(address) as stranger:
-        if resets:
-            stranger.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
-            stranger.close()
-        else:
-            assert stranger.recv(1) == b"", "who says nothing is sent away"
-    links[1] = meet(address, 2, 1, 10.0)[0]
-    first.join()
-    for link in links.values():
-        link.close()
-    assert len(links) == 2
-
-
-@pytest.mark.parametrize("resets", [True, False])
-def test_a_host_that_ends_while_it_waits_may_be_started_again(resets: bool) -> None:
-    address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
-
-    def host(k: int) -> None:
-        found[k] = meet(address, 3, k, 10.0)[0]
-
-    threads = [threading.Thread(target=host, args=(k,)) for k in (0, 1, 2)]
-    threads[0].start()
-    greeting = {"hosts": 3, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
-    with reached(address) as dead:
-        dead.sendall(f"{json.dumps({'host': 1, 'about': greeting})}\n".encode())
-        time.sleep(0.1)
-        with reached(address) as second:  # refused, because host 1 still waits
-            second.sendall(f"{json.dumps({'host': 1, 'about': greeting})}\n".encode())
-            assert b"host 1 is not one of 3, or has come already" in second.recv(1000)
-        if resets:
-            dead.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
-    for thread in threads[1:]:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    for links in found.values():
-        links.close()
-    assert sorted(found) == [0, 1, 2]
-
-
-def reached(address: str) -> socket.socket:
-    """Return a connection to a port that is opened meanwhile."""
-    host, _, port = address.partition(":")
-    while True:
-        with contextlib.suppress(ConnectionRefusedError):
-            return socket.create_connection((host, int(port)), 5.0)
-        time.sleep(0.01)
-
-
-def opened_behind_a_firewall(port: int, backlog: int, host: str) -> socket.socket:
-    """Open a port; one that the system chooses refuses all connections."""
-    if port:
-        return socket.create_server(("127.0.0.1", port), backlog=backlog)
-    silent = socket.socket()
-    silent.bind(("127.0.0.1", 0))
-    return silent
-
-
-def test_a_port_for_jax_that_cannot_be_reached_is_named_on_all_hosts(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(host_link, "_opened", opened_behind_a_firewall)
-    address, texts = f"127.0.0.1:{free_port()}", list[str]()
-
-    def host(k: int) -> None:
-        with pytest.raises(HostsError) as error:
-            meet(address, 3, k, 10.0)
-        texts.append(str(error.value))
-
-    threads = [threading.Thread(target=host, args=(k,)) for k in (2, 1, 0)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert len(texts) == 3 and len(set(texts)) == 1, texts
-    assert re.match(r"host 1 cannot reach port \d+ of host 0 \(Connection refused\)", texts[0])
-    assert "firewall of host 0" in texts[0]
-
-
-def test_a_host_that_ends_before_jax_starts_is_named() -> None:
-    address = f"127.0.0.1:{free_port()}"
-    greeting = {"hosts": 2, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
-
-    def host() -> None:
-        with reached(address) as dead:
-            dead.sendall(f"{json.dumps({'host': 1, 'about': greeting})}\n".encode())
-            assert b"port" in dead.recv(1000)
-
-    thread = threading.Thread(target=host)
-    thread.start()
-    with pytest.raises(HostsError, match="host 1 has ended"):
-        meet(address, 2, 0, 10.0)
-    thread.join()
-
-
 @pytest.mark.parametrize("ending", [0, 1])
 def test_a_host_that_ends_while_jax_starts_ends_the_other_with_its_name(ending: int) -> None:
     port = free_port()
     other = started(JOINING, 1 - ending, 2, port)
-    meet(f"127.0.0.1:{port}", 2, ending, 60.0)[0].close()
+    meet(f"127.0.0.1:{port}", 2, ending, 60.0).close()
     [(status, _, err)] = ended([other])
-    assert status == 1 and err.endswith(f"deodar: host {ending} has ended, so this process ends\n"), err
+    # the first host ends before it has started JAX: then the other one is not yet in a program of JAX
+    text = (
+        "deodar: host 1 has ended, so this process ends\n"
+        if ending
+        else f"host 0 has ended. {host_link.CAUSE}\n"
+    )
+    assert status == 1 and err.endswith(text), err
+
+
+def test_a_program_that_has_connected_with_gloo_ends_the_run_of_all_hosts() -> None:
+    """It connects while the port of host 1 is open, as a device of another host would."""
+    port = free_port()
+    for status, out, err in ended([started(INTRUDED, host, 2, port) for host in (1, 0)]):
+        assert status == 0, err
+        assert out.startswith("a program that is no host has connected with Gloo"), out + err
 
 
 def test_an_error_of_jax_at_its_start_closes_the_links(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -535,32 +469,16 @@ def test_an_error_of_jax_at_its_start_closes_the_links(monkeypatch: pytest.Monke
     monkeypatch.setattr(jax.config, "update", lambda *_: None)  # pyright: ignore
     monkeypatch.setattr("jax._src.xla_bridge.backends_are_initialized", lambda: False)
     address, links = f"127.0.0.1:{free_port()}", list[HostLinks]()
-    thread = threading.Thread(target=lambda: links.append(meet(address, 2, 0, 10.0)[0]))
+    thread = threading.Thread(target=lambda: links.append(meet(address, 2, 1, 10.0)))
     thread.start()
     with pytest.raises(HostsError, match="JAX has not started on the hosts: RuntimeError: no port"):
-        dd.join_hosts(address, 2, 1, timeout=10)
+        dd.join_hosts(address, 2, 0, timeout=10)
     thread.join()
     links[0].begin()
-    with pytest.raises(HostsError, match="host 1 has ended"):
+    with pytest.raises(HostsError, match="host 0 has ended"):
         links[0].exchange("a", 1)
     links[0].close()
     assert hosts.count() == 1
-
-
-def test_hosts_that_differ_are_refused() -> None:
-    address, texts = f"127.0.0.1:{free_port()}", list[str]()
-
-    def host(k: int, count: int) -> None:
-        with pytest.raises(HostsError) as error:
-            meet(address, count, k, 3.0)
-        texts.append(str(error.value))
-
-    threads = [threading.Thread(target=host, args=(k, count)) for k, count in ((1, 3), (0, 2))]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert len(texts) == 2 and all("host 1 differs from host 0: {'hosts': 3" in text for text in texts)
 
 
 @pytest.mark.parametrize(
@@ -578,28 +496,3 @@ def test_arguments_that_are_not_valid_are_named(arguments: tuple[object, ...], t
     with pytest.raises(HostsError, match=r"Call dd.join_hosts\(...\) before the first run"):
         dd.simulate(dd.load("example:selection"), 1)
         dd.join_hosts("node1:7007", 2, 0)
-
-
-@pytest.mark.parametrize(
-    ("host", "listens"),
-    [("127.0.0.1", "127.0.0.1"), ("localhost", "127.0.0.1"), ("[::1]", "::1"), ("node1", "::")],
-)
-def test_hosts_of_one_machine_listen_where_other_machines_do_not_reach_them(host: str, listens: str) -> None:
-    with host_link._opened(0, 1, host) as server:  # pyright: ignore[reportPrivateUsage]
-        assert server.getsockname()[0] in (listens, {"::": "0.0.0.0"}.get(listens))
-
-
-def test_jax_listens_at_the_loopback_alone_for_hosts_of_one_machine(monkeypatch: pytest.MonkeyPatch) -> None:
-    settings_of_jax = list[dict[str, object]]()
-
-    def initialize(*_: object, **settings: object) -> None:
-        settings_of_jax.append(settings)
-        raise RuntimeError("enough")
-
-    monkeypatch.setattr(jax.distributed, "initialize", initialize)
-    monkeypatch.setattr(jax.config, "update", lambda *_: None)  # pyright: ignore
-    with linked() as links:
-        for address, bound in (("localhost:7", "127.0.0.1:7"), ("[::1]:7", "[::1]:7"), ("node1:7", None)):
-            with pytest.raises(RuntimeError, match="enough"):
-                hosts._start_jax(links[0], address, None)  # pyright: ignore[reportPrivateUsage]
-            assert settings_of_jax[-1]["coordinator_bind_address"] == bound
