@@ -6,11 +6,13 @@ import math
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import deodar as dd
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+import grid_noise
 import grids
 
 SETS = [(dimensions, name) for dimensions, sets in grids.PARAMETERS.items() for name in sets]
@@ -48,3 +50,11 @@ def test_a_row_keeps_its_limit_if_all_errors_do(errors: tuple[float, ...], withi
     row = grids.Row(("first", "logistic 4", "detection", "2.5", "cell"), 4.0, errors, 0.2)
     assert row.within is within
     assert ("kept" in row.line()) is within
+
+
+def test_noise_is_the_same_function_on_two_grids_and_has_the_stated_correlation() -> None:
+    coarse, fine = (grid_noise.modes(dd.Axis("x", 0, 100, n, periodic=True), 24) for n in (50, 200))
+    np.testing.assert_allclose(coarse, fine[::4], atol=1e-12)
+    distance = 0.5 * np.arange(40)
+    stated = np.exp(-(distance**2) / (2 * grid_noise.CORRELATION**2))
+    np.testing.assert_allclose((fine @ fine[0])[:40], stated, atol=1e-4)
