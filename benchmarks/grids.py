@@ -7,7 +7,7 @@ are those of a localised input, forgetting is that by a homogeneous boost, and s
 which a second input takes over from a peak that the first one holds. Inputs lie on a sample, 0.3 of a sample
 beside one, and between two; forgetting is that of peaks on a sample and between two, as a peak without input
 has no other steady places on a grid. The reference is the rule `cell` on a grid of 10 samples a kernel width
-(6 over two axes, 5 over three). Axes are periodic. Limits are required of `cell` alone.
+(6 over two axes). Axes are periodic. Limits are required of `cell` alone.
 
 A step function has no derivative, which a continuation needs: the logistic function of steepness 1000 stands
 for it.
@@ -29,13 +29,12 @@ from deodar.analysis.continuation.branch import SteadyBranch
 from deodar.elements.stimuli import Boost
 from deodar.numerics.sigmoids import Absolute, SigmoidFunction
 
-FINE = {1: 10.0, 2: 6.0, 3: 5.0}
-COARSE = {1: (2.5,), 2: (2.5, 3.0), 3: (2.5,)}
+FINE = {1: 10.0, 2: 6.0}
+COARSE = {1: (2.5,), 2: (2.5, 3.0)}
 """Samples a kernel width."""
 PLACES: dict[int, tuple[tuple[float, ...], ...]] = {
     1: ((0.0,), (0.3,), (0.5,)),
     2: ((0.0, 0.0), (0.5, 0.5), (0.3, 0.15)),
-    3: ((0.0, 0.0, 0.0), (0.5, 0.5, 0.5)),
 }
 SIGMOIDS: dict[str, SigmoidFunction] = {
     "logistic 4": dd.Logistic(4.0),
@@ -77,8 +76,6 @@ class Parameters:
         sustained: integral of the kernel with which a peak outlives its input; None: forgetting is not
             measured.
         rivalry: the field of the selection; None: not measured.
-        surround: integral of an inhibitory kernel of twice the width, as a share of the excitatory one.
-        required: whether the errors have limits.
     """
 
     length: float
@@ -89,22 +86,17 @@ class Parameters:
     inhibition: float
     sustained: float | None = None
     rivalry: Rivalry | None = None
-    surround: float = 0.0
-    required: bool = True
 
 
 PARAMETERS: dict[int, dict[str, Parameters]] = {
     1: {
         "first": Parameters(100, 5, 5, -5, 12, 0.3, 18, Rivalry(15, 0.8, 6, 30)),
         "second": Parameters(128, 8, 10, -4, 9, 0.15, 14, Rivalry(12, 0.4, 5, 48)),
-        "two kernels": Parameters(100, 5, 5, -5, 14, 0.05, 26, surround=0.5, required=False),
-        "narrow input": Parameters(100, 5, 3.75, -5, 12, 0.3, required=False),
     },
     2: {
         "first": Parameters(60, 5, 5, -5, 12, 0.01, 22, Rivalry(16, 0.03, 7, 24)),
         "second": Parameters(48, 4, 5, -4, 10, 0.02, 20, Rivalry(13, 0.05, 6, 20)),
     },
-    3: {"first": Parameters(40, 5, 5, -5, 14, 0.001, required=False)},
 }
 """Sets of parameters by the number of axes. The rule was chosen on thresholds of the first ones."""
 
@@ -134,7 +126,7 @@ class Task:
         more, so that its middle is on a sample of the coarse grid, not between two.
         """
         axes: list[dd.Axis] = []
-        for name, offset in zip("xyz", self.offset, strict=False):
+        for name, offset in zip("xy", self.offset, strict=False):
             length = self.parameters.length + (centred and not offset) * self.step
             samples = round(length / self.parameters.kernel * self.width)
             axes.append(dd.Axis(name, 0, length, samples, periodic=True))
@@ -151,8 +143,6 @@ class Task:
         """Return a field with an input at a position, another beside it, and a boost, all of amplitude 0."""
         p, model = self.parameters, dd.Model("grid")
         kernel = [dd.Gaussian(excitation, p.kernel, normalized=True)]
-        if p.surround:
-            kernel.append(dd.Gaussian(-p.surround * excitation, 2 * p.kernel, normalized=True))
         u = model.add(
             dd.Field(
                 "u",
@@ -236,7 +226,7 @@ def limit(dimensions: int, width: float, sigmoid: str, threshold: str) -> float 
         if sigmoid == "logistic 4":
             return 0.2
         return 0.4 if threshold in ("detection", "selection") else 1.2
-    if dimensions > 2 or sigmoid != "logistic 4":
+    if sigmoid != "logistic 4":
         return None
     return 0.3 if width < 3 else 0.2
 
@@ -283,7 +273,7 @@ def rows(dimensions: int, name: str, sigmoid: str, quadratures: list[str]) -> It
             for rule in quadratures:
                 coarse = Task(p, width, SIGMOIDS[sigmoid], rule, PLACES[dimensions][0], p.kernel / width)
                 reference, errors = compared(measure, coarse, PLACES[dimensions])
-                most = limit(dimensions, width, sigmoid, threshold) if p.required and rule == "cell" else None
+                most = limit(dimensions, width, sigmoid, threshold) if rule == "cell" else None
                 yield Row((name, sigmoid, threshold, f"{width:g}", rule), reference, errors, most)
 
 
@@ -309,10 +299,8 @@ def compared(
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument(
-        "--dimensions", type=int, choices=(1, 2, 3), action="append", help="(default: 1 and 2)"
-    )
-    parser.add_argument("--parameters", action="append", help="this set alone (default: those with limits)")
+    parser.add_argument("--dimensions", type=int, choices=(1, 2), action="append", help="one of them alone")
+    parser.add_argument("--parameters", action="append", help="this set alone (default: all)")
     parser.add_argument("--sigmoid", choices=tuple(SIGMOIDS), action="append", help="this one alone")
     parser.add_argument(
         "--quadrature", choices=("cell", "point", "cell-0.1"), action="append", help="(default: cell)"
@@ -321,8 +309,8 @@ def main() -> int:
     began, exceeded = time.process_time(), 0
     for dimensions in options.dimensions or (1, 2):
         print(f"\n{dimensions}-D\n\n{HEADER}\n{'|---' * 8}|", flush=True)
-        for name, p in PARAMETERS[dimensions].items():
-            if name not in (options.parameters or [name] * p.required):
+        for name in PARAMETERS[dimensions]:
+            if name not in (options.parameters or [name]):
                 continue
             for sigmoid in options.sigmoid or (SIGMOIDS if name == "first" else ["logistic 4"]):
                 for row in rows(dimensions, name, sigmoid, options.quadrature or ["cell"]):
