@@ -95,7 +95,7 @@ def transforms(found: Kernels, waves: Sequence[Modes]) -> bool:
 
 
 def means_of_cells(axes: int, samples: int) -> bool:
-    """Return whether a kernel computes the means of an output over so many axes and samples."""
+    """Return whether a kernel computes the means of an output of a number of axes and samples."""
     return 1 <= axes <= 2 and samples <= LARGEST_PLANE
 
 

@@ -65,8 +65,8 @@ def grid_errors(measured: Regimes) -> list[GridError]:
         exact = _thresholds(refined(over_cells), between, measured)
         for quadrature in dict.fromkeys((isolated.field.quadrature, "cell")):
             field = dc.replace(isolated.field, quadrature=quadrature)
-            here = _thresholds(field, between, measured)
-            percent = {name: _percent(here[name], value) for name, value in exact.items()}
+            coarse = _thresholds(field, between, measured)
+            percent = {name: _percent(coarse[name], fine) for name, fine in exact.items()}
             errors.append(GridError(quadrature, between, percent))
     return errors
 
@@ -89,5 +89,5 @@ def _thresholds(field: Field, between: bool, measured: Regimes) -> dict[str, flo
     }
 
 
-def _percent(value: float | None, exact: float | None) -> float | None:
-    return None if value is None or not exact else 100 * (value / exact - 1)
+def _percent(coarse: float | None, fine: float | None) -> float | None:
+    return None if coarse is None or not fine else 100 * (coarse / fine - 1)
