@@ -1,9 +1,9 @@
 """Prints what the studio promises about time, each figure beside its target: `python benchmarks/studio.py
-[engine|browser|building|large ...]`.
+[engine|browser|building|large|opening ...]`.
 
 `engine` measures how much a free-running engine is slowed by a page without a screen that watches four plots
 at 30 frames a second; `browser` starts a real browser, with graphics in software. `building` edits a running
-model of 50 elements, `large` a document of 5,000. Nothing is asserted: a busy machine prints larger numbers.
+model of 50 elements, `large` a document of 5,000; `opening` opens examples and a file of cedar. Nothing is asserted: a busy machine prints larger numbers.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import asyncio
 import contextlib
 import json
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -36,6 +37,7 @@ from tests.deodar_studio.page import Page, page, studio  # noqa: E402
 
 FRAME = 1 / 30
 ROUNDS = 7
+CEDAR = "tests/deodar_interop/importers/cedar/data/field_1d.json"
 
 
 def show(name: str, value: float, unit: str, target: str) -> None:
@@ -219,7 +221,33 @@ async def edited_large() -> None:
             show(f"5,000 elements: {name}, and shown", await timed(one, type, **message), "ms", "none")
 
 
-PARTS = {"building": building, "large": large, "engine": engine, "browser": browser}
+OPENED = ("examples/selection.json", "examples/binding.json", CEDAR)
+
+
+def opening() -> None:
+    """Documents are opened in turn, the first of each kind of file apart: its reader may have to start."""
+    asyncio.run(opened_in_turn())
+
+
+async def opened_in_turn() -> None:
+    """The time from the request for a file to its document on the page."""
+    with tempfile.TemporaryDirectory() as folder:
+        for file in OPENED:
+            shutil.copy(HERE.parent / file, folder)
+        spent: dict[str, list[float]] = {}
+        with studio(Path(folder)) as address:
+            async with page(address) as one:
+                for _ in range(1 + ROUNDS):
+                    for file in OPENED:
+                        began = time.perf_counter()
+                        await one.do("open_file", path=Path(file).name, discard=True)
+                        spent.setdefault(file, []).append(1000 * (time.perf_counter() - began))
+        for file, (first, *others) in spent.items():
+            show(f"{Path(file).name} is opened: the first time", first, "ms", "none")
+            show(f"{Path(file).name} is opened: median of {ROUNDS}", statistics.median(others), "ms", "none")
+
+
+PARTS = {"building": building, "large": large, "opening": opening, "engine": engine, "browser": browser}
 
 if __name__ == "__main__":
     for name in sys.argv[1:] or PARTS:
