@@ -3,7 +3,8 @@
 
 `engine` measures how much a free-running engine is slowed by a page without a screen that watches four plots
 at 30 frames a second; `browser` starts a real browser, with graphics in software. `building` edits a running
-model of 50 elements, `large` a document of 5,000; `opening` opens examples and a file of cedar. Nothing is asserted: a busy machine prints larger numbers.
+model of 50 elements, `large` a document of 5,000; `opening` opens examples and a file of cedar. Nothing is
+asserted: a busy machine prints larger numbers.
 """
 
 from __future__ import annotations
