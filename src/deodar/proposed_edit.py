@@ -195,10 +195,11 @@ class InsertCoupling(ProposedEdit):
         if place != "script":
             where = "in the file, " if place == "shell" else ""
             return f"{where}put a {coupling} into the connection {source}.{out} -> {target}.{port}"
-        first, last = (
-            path if path.replace(".", "_").isidentifier() else f"model[{path!r}]" for path in (source, target)
-        )
-        return f"{first} >> {coupling} >> {last}"
+        gone = f"model.disconnect({f'{source}.{out}'!r}, {f'{target}.{port}'!r})"
+        first, last = (path if path.isidentifier() else f"model[{path!r}]" for path in (source, target))
+        first += "" if out == "output" else f"[{out!r}]"
+        last += "" if port == "input" else f"[{port!r}]"
+        return f"{gone} and {first} >> {coupling} >> {last}"
 
 
 def rounded(setting: float, digits: int = 2) -> float:

@@ -107,7 +107,7 @@ def bound(checked: CheckedDocument, problem: Problem) -> Problem:
         return problem
     inside = [e.inside(problem.where) if isinstance(e, SetValues) else e for e in problem.fix.edits]
     if shared := _also_driven(checked, inside):
-        return dc.replace(problem, fix=_text(problem.fix.with_edits(inside), f"First {shared}"))
+        return dc.replace(problem, fix=_text(problem.fix.with_edits(inside)).then(f"First {shared}"))
     edits = [new for e in inside for new in _bound(checked, e)]
     fix = problem.fix.with_edits(edits)
     doc = checked.concerned(edits)
@@ -115,16 +115,23 @@ def bound(checked: CheckedDocument, problem: Problem) -> Problem:
         return dc.replace(problem, fix=joined(problem.fix.advice, problem.fix.otherwise))
     refused = _refused(doc, edits)
     if refused:
-        return dc.replace(problem, fix=_text(fix, f"First change {refused[0]}"))
+        return dc.replace(problem, fix=_text(fix).then(f"First change {refused[0]}"))
     return dc.replace(problem, fix=fix)
 
 
 def proven(doc: Document, structural: Sequence[Problem]) -> list[Problem]:
     """Return the structural problems of a document; edits that do not solve theirs, or that bring another
-    one, become text.
+    one, are left out, and those beyond MOST_TRIED become text.
     """
     tried = [p for p in structural if isinstance(p.fix, EditFix)][:MOST_TRIED]
-    return [p if p in tried and _solves(doc, p, structural) else _as_text(p) for p in structural]
+
+    def fixed(problem: Problem) -> Problem:
+        if problem in tried:
+            return problem if _solves(doc, problem, structural) else _advice(problem)
+        fix = problem.fix
+        return dc.replace(problem, fix=_text(fix)) if isinstance(fix, EditFix) else problem
+
+    return list(map(fixed, structural))
 
 
 def _solves(doc: Document, problem: Problem, before: Sequence[Problem]) -> bool:
@@ -135,17 +142,17 @@ def _solves(doc: Document, problem: Problem, before: Sequence[Problem]) -> bool:
     return problem not in after and set(after) <= set(before)
 
 
-def _as_text(problem: Problem) -> Problem:
-    """Return a problem whose fix is text without an edit."""
+def _advice(problem: Problem) -> Problem:
+    """Return a problem whose fix is the advice alone: its edit is not right here."""
     fix = problem.fix
     if not isinstance(fix, EditFix):
         return problem
     return dc.replace(problem, fix=joined(fix.advice, fix.otherwise))
 
 
-def _text(fix: EditFix, reason: str) -> Fix:
-    """Return the text of a fix, without its edits, and what has to be done before."""
-    return Fix(fix, fix.shell, fix.page).then(reason)
+def _text(fix: EditFix) -> Fix:
+    """Return the text of a fix, without its edits."""
+    return Fix(fix, fix.shell, fix.page)
 
 
 def _also_driven(checked: CheckedDocument, edits: Sequence[ProposedEdit]) -> str:

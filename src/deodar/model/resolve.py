@@ -381,11 +381,16 @@ class _Resolver:
             return None
         if not dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
             return None
+        if extra[0].unit and missing[0].unit and extra[0].unit != missing[0].unit:
+            return None  # a position in degrees is none in millimetres: a person decides
         source, slot, node, port = ends
         ident, out, _ = slot if slot[0] == source.id else self.nodes[slot[0]].reads["input"][0]
         renamed = ((extra[0].name, missing[0].name),)
         between = (self.nodes[ident].path, out, node.path, port)
-        return EditFix("Write", [InsertCoupling(between, "Project", tuple(a.name for a in want), renamed)])
+        return EditFix(
+            "Rename the axis by a coupling",
+            [InsertCoupling(between, "Project", tuple(a.name for a in want), renamed)],
+        )
 
     def inspect(self, entry: Entry, node: Node) -> None:
         """Report parameters that do not fit the axes."""

@@ -71,7 +71,10 @@ def test_axes_missing_on_both_sides_are_printed_with_the_project_to_write() -> N
     model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [Y]))
     (problem,) = model.check()
     assert "u.output [x 0..10, 11 samples] does not fit v.input [y 0..10, 11 samples]" in problem.what
-    assert problem.fix == "Write: u >> Project([y], rename={'x': 'y'}) >> v"
+    assert problem.fix == (
+        "Rename the axis by a coupling: model.disconnect('u.output', 'v.input')"
+        " and u >> Project([y], rename={'x': 'y'}) >> v"
+    )
 
 
 LONG = dd.Axis("sum", 0, 20, samples=21)
