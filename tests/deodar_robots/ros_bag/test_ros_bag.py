@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +14,7 @@ from rosbags.typesys import Stores, get_typestore
 
 import deodar as dd
 from deodar.errors import RecordError, WorldError
+from deodar_robots.ros2.message_types import hash_of
 from deodar_robots.ros_bag import bag_file
 from deodar_robots.ros_bag import bag_file as rosbag
 from tests.command_line import typed
@@ -101,6 +104,21 @@ def test_settings_choose_topics_and_types(tmp_path):
         dd.ROSBag(path, {"a": {"topic": "/ir/left", **entry}})
     with pytest.raises(WorldError, match=r"has no message on /scam.*/scan"):
         dd.ROSBag(path, {"a": {"topic": "/scam", **entry}})
+
+
+def test_another_version_of_a_type_is_refused(tmp_path):
+    """A bag says it by the hash of the type; one without hashes is trusted."""
+    jazzy = hash_of(TYPES["/scan"])
+    for name, version in (("same", jazzy), ("unsaid", ""), ("other", f"RIHS01_{0:064}")):
+        path = bag(tmp_path / name, counted(3))
+        metadata = path / "metadata.yaml"
+        metadata.write_text(metadata.read_text().replace(jazzy, version or "''"))
+        with closing(sqlite3.connect(path / f"{name}.db3")) as topics, topics:
+            topics.execute("update topics set type_description_hash = ?", (version,))
+        assert jazzy not in metadata.read_text() or version == jazzy
+    assert [dd.ROSBag(tmp_path / name).sense("scan", BEAMS, 0)[0] for name in ("same", "unsaid")] == [1, 1]
+    with pytest.raises(WorldError, match=r"/scan has another version of sensor_msgs/msg/LaserScan than"):
+        dd.ROSBag(tmp_path / "other")
 
 
 def test_motors_of_a_robot_are_accepted_without_effect(tmp_path):
