@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import jax
 import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.element import Setting, Time
 from deodar.elements.memories import MemoryTrace
 from deodar.elements.stimuli import Boost, Pattern
 from deodar.errors import ModelError, ParameterError
@@ -101,3 +103,20 @@ def test_a_sigmoid_in_place_of_the_threshold_weights_growth_and_decay():
     np.testing.assert_allclose(output, expected, rtol=0, atol=1e-12)
     with pytest.raises(ParameterError, match="activity: is a sigmoid, and graded takes the input itself"):
         course(0.9, 1, graded=True, activity=dd.Logistic(4.0, 0.5))
+
+
+@pytest.mark.parametrize("fades", [False, True])
+@pytest.mark.parametrize(("graded", "activity"), [(False, None), (True, None), (False, dd.Logistic(4))])
+def test_a_trace_says_whether_its_rate_jumps_at_the_threshold(graded, activity, fades):
+    trace = MemoryTrace("p", [], threshold=0.5, graded=graded, fades=fades, activity=activity)
+    now = Time.at(0.0, 1.0, np.dtype("float64"))
+    start = {"trace": np.float64(0.7), "active": np.float64(0.0)}
+
+    def rate(x):
+        inputs = {"input": np.float64(x), "gate": np.float64(1.0)}
+        at = Setting({"input": (), "gate": ()}, {"output": ()}, np.dtype("float64"), start, inputs, time=now)
+        return float(trace.advance(at)["trace"])
+
+    with jax.enable_x64(True):
+        jump = abs(rate(0.5 + 1e-9) - rate(0.5 - 1e-9))
+    assert ("input" in trace.jumps_at()) == (jump > 1e-6)
