@@ -16,6 +16,7 @@ import psutil
 import pytest
 
 from deodar.errors import MEDIA, DocumentError, MissingExtra, WorldError
+from deodar.guarded.child import AHEAD, TAKEN
 from deodar.guarded.children import MOST_IDLE, children
 from deodar.guarded.guarded_file import GuardedFile
 from tests.deodar.guarded import foreign
@@ -125,6 +126,12 @@ def test_items_come_one_by_one_and_those_before_a_crash_count() -> None:
     with pytest.raises(WorldError, match="its reader ended by SIGSEGV"):
         taken.extend(GUARD.items(foreign.count_and_crash, 3))
     assert taken == [0, 1, 2]
+
+
+@pytest.mark.parametrize("count", [0, 1, AHEAD - 1, AHEAD, AHEAD + 1, AHEAD + TAKEN, 5 * AHEAD + 1])
+def test_all_items_come_also_where_the_child_waits_for_them_to_be_taken(count: int) -> None:
+    assert list(GUARD.items(foreign.count, count)) == list(range(count))
+    assert GUARD.call(foreign.same, count) == count, "the child has no word left"
 
 
 def test_a_child_is_kept_and_one_thread_uses_it_at_a_time() -> None:
