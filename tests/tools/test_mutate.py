@@ -66,6 +66,11 @@ def test_annotations_protocols_and_f_strings_are_not_mutated(text: str) -> None:
     assert not list(mutate.mutants("a.py", text))
 
 
+@pytest.mark.parametrize("text", ["x = 1e300", "x = f(a, a)", "x = a if b else a"])
+def test_no_mutant_equals_its_source(text: str) -> None:
+    assert not list(mutate.mutants("a.py", text))
+
+
 def test_the_same_commit_draws_the_same_mutants(tmp_path: Path) -> None:
     (tmp_path / "src").mkdir()
     (tmp_path / "src" / "a.py").write_text("\n".join(f"x{i} = {i}" for i in range(50)))
