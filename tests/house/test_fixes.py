@@ -70,3 +70,23 @@ def test_no_script_is_told_to_type_options() -> None:
 )
 def test_an_option_in_a_fix_is_noticed(call: str, count: int) -> None:
     assert len(list(options_in_scripts(call))) == count
+
+
+def misnamed_options(text: str) -> Iterator[int]:
+    """Yield the lines of `option(ADVICE, NAME, ...)` whose name, where it is a literal, is no name."""
+    for node in ast.walk(ast.parse(text)) if "option(" in text else ():
+        match node:
+            case ast.Call(ast.Name("option"), [_, ast.Constant(str(name)), *_]) if not name.isidentifier():
+                yield node.lineno
+            case _:
+                pass
+
+
+def test_what_an_error_says_to_type_begins_with_the_name_of_an_argument() -> None:
+    places = [
+        f"{path.relative_to(ROOT)}:{line}"
+        for path in sorted((ROOT / "src").rglob("*.py"))
+        for line in misnamed_options(path.read_text(encoding="utf-8"))
+    ]
+    assert not places, f"write option(advice, name of the argument, ...): {places}"
+    assert list(misnamed_options("fix = option('goal', 'Give one:', 'X Y')")) == [1]
