@@ -150,3 +150,11 @@ def test_in_a_run_the_moments_lie_beyond_the_measured_thresholds_and_in_order() 
     assert run.lowered[m.forgotten] < THRESHOLDS.forgetting[0] < run.lowered[m.falls]
     assert m.detected < m.second < m.selected < m.go < m.gone == m.remembered < m.falls < m.forgotten
     assert run.input[m.gone].max() == 0 < run.activation[m.gone].max()
+
+
+def test_noise_alone_decides_between_the_two_inputs_that_compete() -> None:
+    model = one_field.selection()
+    left, right = (model[name].element for name in ("left", "right"))
+    assert dc.replace(left, name="", center=0.0) == dc.replace(right, name="", center=0.0)
+    axis = one_field.AXIS
+    assert left.center - axis.lower == axis.upper - right.center, "equally far from the ends"  # type: ignore[attr-defined]
