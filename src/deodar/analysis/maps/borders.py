@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -269,26 +269,18 @@ class BorderField:
         border = [self._ends(of, plane, z) for z in walked]
         marks = plane.points(walked)
         out: list[Locus] = []
-        k = 0
-        while k < len(walked):
-            if not border[k]:
-                k += 1
-                continue
-            last = k
-            while last + 1 < len(walked) and border[last + 1]:
-                last += 1
-            part = walked[k : last + 1]
-            if k > 0:
-                part = [self._last(of, plane, walked[k], walked[k - 1]), *part]
-            if last + 1 < len(walked):
-                part.append(self._last(of, plane, walked[last], walked[last + 1]))
+        for begin, end in stretches(border):
+            part = walked[begin : end + 1]
+            if begin > 0:
+                part = [self._last(of, plane, walked[begin], walked[begin - 1]), *part]
+            if end + 1 < len(walked):
+                part.append(self._last(of, plane, walked[end], walked[end + 1]))
             values = np.array([plane.values(z) for z in part])
             first, second = (self.parameters[c] for c in plane.columns)
             on = tuple(mark for mark in marks if _on(values, np.array(mark.values), plane.lengths))
             out.append(
                 Locus(f"fold ({of.name})", (first, second), values, on, fold.line).over(*self.parameters)
             )
-            k = last + 1
         return out
 
     def _last(self, of: FoldSearch, plane: FoldPlane, inside: np.ndarray, outside: np.ndarray) -> np.ndarray:
@@ -317,6 +309,12 @@ class BorderField:
         """Return whether a state has a peak."""
         threshold = self._threshold if self._threshold_of is None else float(parameters[self._threshold_of])
         return bool(peaks(self.right_hand_side.state(x)["field.activation"], self.axes, threshold))
+
+
+def stretches(flags: Sequence[bool]) -> list[tuple[int, int]]:
+    """Return the first and the last place of each stretch of places that are true."""
+    changes = np.flatnonzero(np.diff([False, *flags, False]))
+    return [(int(begin), int(after) - 1) for begin, after in changes.reshape(-1, 2)]
 
 
 def _on(values: np.ndarray, at: np.ndarray, lengths: np.ndarray) -> bool:

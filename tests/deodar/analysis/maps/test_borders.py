@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.analysis.maps.borders import BORDERS, BorderField, cells_between, edges
+from deodar.analysis.maps.borders import BORDERS, BorderField, cells_between, edges, stretches
 from deodar.cli import main
 from deodar.errors import AnalysisError, FigureError
 from tests.deodar.analysis.continuation.models import node_folds
@@ -199,3 +199,20 @@ def test_a_map_from_a_file_has_lines_though_no_sample_is_in_the_middle(tmp_path,
     apart = distances(loaded, loci)
     for name in ("detection", "forgetting"):
         assert len(apart[name]) > 5 and apart[name].max() <= 1
+
+
+@pytest.mark.parametrize(
+    ("marks", "expected"),
+    [
+        ("", []),
+        ("...", []),
+        ("#", [(0, 0)]),
+        ("###", [(0, 2)]),
+        ("..##", [(2, 3)]),
+        ("##..", [(0, 1)]),
+        (".#.###.", [(1, 1), (3, 5)]),
+        ("##.#.#", [(0, 1), (3, 3), (5, 5)]),
+    ],
+)
+def test_a_line_is_a_border_in_each_stretch_of_its_points(marks, expected):
+    assert stretches([mark == "#" for mark in marks]) == expected
