@@ -69,7 +69,7 @@ def folds(isolated: Isolated, measured: Regimes) -> dict[str, Confirmation]:
     first = min(0.0, 1.5 * transitions["reverse"].value) if "reverse" in transitions else 0.0
     over_input = _Ramp("input.amplitude", (first, 1.5 * up.after), {})
     out = _compared(model, over_input, transitions, ("detection", "reverse"))
-    if "forgetting" in transitions and not _central(isolated):
+    if "forgetting" in transitions and not central(isolated):
         why = "the input is not in the middle of each axis"
         out["forgetting"] = Confirmation(None, False, why)
     elif "forgetting" in transitions:
@@ -81,7 +81,7 @@ def folds(isolated: Isolated, measured: Regimes) -> dict[str, Confirmation]:
     return out
 
 
-def _central(isolated: Isolated) -> bool:
+def central(isolated: Isolated) -> bool:
     """Return whether the localised input is in the middle of each axis, about which states may be even."""
     return all(
         abs(center - float(axis.points[[0, -1]].mean())) < 1e-6 * axis.range

@@ -6,7 +6,7 @@ import dataclasses as dc
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from deodar.analysis.continuation.confirmation import folds
+from deodar.analysis.continuation.confirmation import central, folds
 from deodar.analysis.discretisation import obstacle, refined
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.regimes import Regimes
@@ -44,7 +44,7 @@ def grid_errors(measured: Regimes) -> list[GridError]:
 
     Thresholds are folds, with the field's own quadrature and with `cell`, for an input on a sample and for
     one between two samples along each axis. Forgetting is computed where the input is in the middle of each
-    axis.
+    axis of both grids.
 
     Args:
         measured: the measured regime of a field.
@@ -66,13 +66,13 @@ def grid_errors(measured: Regimes) -> list[GridError]:
         for quadrature in dict.fromkeys((isolated.field.quadrature, "cell")):
             field = dc.replace(isolated.field, quadrature=quadrature)
             coarse = _thresholds(field, between, measured)
-            percent = {name: _percent(coarse[name], fine) for name, fine in exact.items()}
+            percent = {n: _percent(coarse[n], fine) for n, fine in exact.items() if n in coarse}
             errors.append(GridError(quadrature, between, percent))
     return errors
 
 
 def _thresholds(field: Field, between: bool, measured: Regimes) -> dict[str, float | None]:
-    """Return the folds of a field; without forgetting where the input is not in the middle."""
+    """Return the folds of a field, None where one was not found; forgetting only for a central input."""
     isolated = measured.isolated
     half = [0.5 * a.step * (a.samples > 1) * between for a in isolated.axes]
     moved: Isolated = isolate(
@@ -85,7 +85,7 @@ def _thresholds(field: Field, between: bool, measured: Regimes) -> dict[str, flo
     return {
         name: fold.value
         for name, fold in folds(moved, measured).items()
-        if name != "forgetting" or fold.value is not None
+        if name != "forgetting" or central(moved)
     }
 
 

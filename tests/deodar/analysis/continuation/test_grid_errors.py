@@ -8,7 +8,11 @@ from pathlib import Path
 import pytest
 
 import deodar as dd
+from deodar.analysis.continuation import grid_errors as module
+from deodar.analysis.continuation.confirmation import Confirmation
 from deodar.analysis.continuation.grid_errors import grid_errors
+from deodar.analysis.isolated import Isolated
+from deodar.analysis.regimes import Regimes
 from deodar.cli import main
 from deodar.errors import AnalysisError
 
@@ -30,6 +34,26 @@ def test_sums_over_points_depend_on_the_grid_where_means_over_cells_do_not() -> 
     for between in (False, True):
         for name in ("detection", "reverse"):
             assert errors["cell", between][name] == pytest.approx(0, abs=0.2)
+
+
+@pytest.mark.parametrize("grids", [(), (25,), (49,), (25, 49)])
+def test_a_fold_that_a_grid_lacks_is_not_found(
+    grids: tuple[int, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Forgetting on some of both grids alone, and nowhere where the input is not in the middle."""
+    x = dd.Axis("x", 0, 24, samples=25)
+    kernel = [dd.Gaussian(18, 2, normalized=True)]
+    measured = dd.regimes(dd.Field("u", [x], kernel=kernel, global_inhibition=0.8))
+
+    def some(isolated: Isolated, _: Regimes) -> dict[str, Confirmation]:
+        on_this_grid = isolated.axes[0].samples in grids
+        forgetting = Confirmation(-2.0, True) if on_this_grid else Confirmation(None, False, "no such fold")
+        return {"detection": Confirmation(4.0, True), "forgetting": forgetting}
+
+    monkeypatch.setattr(module, "folds", some)
+    forgetting = 0.0 if grids == (25, 49) else None
+    for error in grid_errors(measured):
+        assert error.percent == {"detection": 0.0} | ({} if error.between else {"forgetting": forgetting})
 
 
 def test_a_field_that_has_no_finer_grid_is_refused() -> None:
