@@ -85,15 +85,17 @@ def run(args: argparse.Namespace) -> CommandAnswer:
         status.update("folds")
         folds = confirmed(measured)
         status.update("grids")
-        errors = grid_errors(measured) if args.resolution else []
+        errors = grid_errors(measured) if args.resolution and not measured.coarse_alone else None
     _files.save_figure(regimes_figure(measured), target, args.force)
     computed = {name: fold.data() for name, fold in folds.items()}
     fields = measured.data() | {
         "folds": computed,
-        "resolution": [e.data() for e in errors] if args.resolution else None,
+        "resolution": None if errors is None else [e.data() for e in errors],
         "figure": str(target),
     }
-    rows = [_table(measured), _folds(folds), *map(_grid_error, errors)]
+    rows = [_table(measured), _folds(folds), *map(_grid_error, errors or [])]
+    if args.resolution and errors is None:
+        rows.append(f"  {'the grid':26}not compared: {measured.coarse_alone}")
     return CommandAnswer(fields, [*rows, f"\nFigure: {target}"])
 
 

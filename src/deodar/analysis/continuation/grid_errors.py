@@ -57,7 +57,7 @@ def grid_errors(measured: Regimes) -> list[GridError]:
         raise AnalysisError(
             f"the thresholds cannot be compared with those of a finer grid: {why}",
             where=isolated.path,
-            fix="Measure its regimes alone: dd.regimes(model, path)",
+            fix="Call it only where obstacle(measured.isolated) is empty",
         )
     over_cells = dc.replace(isolated.field, quadrature="cell")
     errors: list[GridError] = []

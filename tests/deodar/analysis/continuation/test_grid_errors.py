@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import deodar as dd
@@ -79,3 +81,43 @@ def test_the_command_prints_percentages_and_has_them_as_data(
     for place, error in zip(("on a sample", "between samples"), answer["resolution"], strict=True):
         (row,) = [text for text in page.splitlines() if f"cell, {place}" in text]
         assert f"reverse detection {error['percent']['reverse']:+.2f} %" in row
+
+
+def of_a_node() -> dd.Field:
+    return dd.Field("u", [], kernel=[dd.Gaussian(6.0)])
+
+
+def of_a_custom_kernel() -> dd.Field:
+    values = 0.5 * np.exp(-0.5 * (np.arange(-12, 13) / 2) ** 2)
+    return dd.Field("u", [dd.Axis("x", 0, 24, samples=25)], kernel=[dd.Custom(values)])
+
+
+@pytest.mark.parametrize(
+    ("make", "options", "why"),
+    [
+        (of_a_node, [], "a node has no grid"),
+        (of_a_custom_kernel, [], "a custom kernel is given on this grid alone"),
+        (lambda: driven("point"), ["--input", "s"], "the inputs that are kept have the field's own grid"),
+    ],
+)
+def test_the_command_states_why_a_grid_is_not_compared(
+    make: Callable[[], dd.Field],
+    options: list[str],
+    why: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """The table and the figure, which took long, are there as without --resolution."""
+    model = dd.Model("m")
+    field = model.add(make())
+    if options:
+        model.add(dd.Boost("s", [], amplitude=0.5)) >> field
+    dd.save(model, tmp_path / "m.json")
+    figure = tmp_path / "m.png"
+    command = ["regimes", str(tmp_path / "m.json"), "u", "--resolution", "-o", str(figure), *options]
+    assert main(command) == 0 and figure.stat().st_size
+    page = capsys.readouterr().out
+    assert "detection threshold" in page and f"  {'the grid':26}not compared: {why}\n" in page
+    assert main([*command, "--force", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["resolution"] is None and answer["discretisation_not_measured"] == why
