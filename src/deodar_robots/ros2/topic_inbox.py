@@ -118,7 +118,10 @@ class TopicInbox:
         return False
 
     def wait_for(self, names: Sequence[str], seconds: float) -> bool:
-        """Return whether all these sensors have a reading within some seconds."""
+        """Return whether all these sensors have a reading within some seconds.
+
+        Decoding that has begun is completed, at most one picture of each sensor.
+        """
         until = time.monotonic() + seconds
         while True:
             with self._changed:
@@ -129,6 +132,9 @@ class TopicInbox:
                     return False
             for name in names:
                 self._decode(name)
+            if time.monotonic() >= until:  # where newer messages wait already, the wait above never ends it
+                with self._changed:
+                    return all(n in self._newest for n in names)
 
     def _arrived(self, names: Sequence[str]) -> bool:
         return all(name in self._newest or name in self._undecoded for name in names)

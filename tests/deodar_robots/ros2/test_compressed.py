@@ -6,6 +6,7 @@ import io
 import os
 import struct
 import threading
+import time
 import zlib
 from pathlib import Path
 
@@ -184,3 +185,35 @@ def test_a_sensor_waits_for_a_picture_that_can_be_read():
     topics.picture(b"no picture")
     assert topics.inbox.wait_for(["eye"], 60.0) and topics.pixel() == [0, 0, 255]
     later.join()
+
+
+def test_the_wait_for_a_sensor_ends_while_damaged_pictures_come_faster_than_they_are_decoded(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    topics = Inbox()
+    calls: list[float] = []
+
+    def slow(*_: object) -> np.ndarray:
+        calls.append(time.monotonic())
+        time.sleep(0.01)
+        if len(calls) < 500:
+            topics.picture(b"no picture")
+        raise WorldError("is damaged")
+
+    monkeypatch.setattr(GuardedFile, "call", slow)
+    topics.picture(b"no picture")
+    assert not topics.inbox.wait_for(["eye"], 0.1)
+    assert len(calls) < 50, "each takes 0.01 s at least"
+    assert "its picture is damaged" in str(topics.inbox.refused("eye"))
+
+
+def test_a_picture_that_is_decoded_after_the_end_of_the_wait_is_read(monkeypatch: pytest.MonkeyPatch):
+    topics = Inbox()
+
+    def slow(*_: object) -> np.ndarray:
+        time.sleep(0.05)
+        return np.full((3, 4, 3), 7, np.uint8)
+
+    monkeypatch.setattr(GuardedFile, "call", slow)
+    topics.picture(encoded((255, 0, 0)))
+    assert topics.inbox.wait_for(["eye", "again"], 0.01) and topics.pixel() == [7, 7, 7]
