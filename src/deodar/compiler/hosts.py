@@ -395,6 +395,8 @@ def gathered(array: Any) -> np.ndarray:
     """Return an array on this host; all hosts call it for one that lies on devices of several."""
     if not _joined or not isinstance(array, jax.Array) or array.is_fully_addressable:
         return np.asarray(array)
+    if not array.is_fully_replicated:  # no program may have run on its devices yet
+        connect(sorted(array.sharding.device_set, key=lambda device: device.id))
     with calling(True):
         if array.is_fully_replicated:
             return np.asarray(array.addressable_data(0))

@@ -125,6 +125,11 @@ if host >= 0:
     alone = dd.simulate(line(), 20 + host)
     assert alone.sizes["time"] == 1
     assert np.array_equal(values(line(), trials=3), found["few"])
+    # its arrays lie on one device of each host, which no program has connected
+    some = dd.Session(volume(), seed=3, on=dd.Resources(devices=2))
+    start = some.snapshot()
+    some.run(5)
+    some.restore(start)
 print("good")
 """
 
