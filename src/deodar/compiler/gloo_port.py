@@ -66,14 +66,23 @@ class GlooPort:
                 self._listener.setsockopt(socket.SOL_SOCKET, ATTACH_FILTER, filter_of_packets)
 
 
-def listeners() -> set[int]:
-    """Return the numbers of the sockets of TCP of this process that listen."""
+def listeners(address: str) -> set[int]:
+    """Return the numbers of the sockets of TCP of this process that listen at an address of this machine."""
     numbers = set[int]()
     for number, end in _sockets():
         with end:
-            if end.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN):
+            if end.getsockname()[0] == address and _listens(end):
                 numbers.add(number)
     return numbers
+
+
+def copy_of(number: int) -> socket.socket:
+    """Return a copy of a socket of this process, which stays as it is."""
+    blocking = os.get_blocking(number)
+    end = socket.socket(fileno=os.dup(number))
+    # after socket.setdefaulttimeout in a script a copy does not block, and so neither would the socket
+    os.set_blocking(number, blocking)
+    return end
 
 
 def connections() -> list[ConnectionEnds]:
@@ -97,7 +106,7 @@ def strangers(ports: Iterable[str], ends_of_hosts: Iterable[ConnectionEnds]) -> 
 
 
 def end(others: Collection[ConnectionEnds]) -> None:
-    """End those of these connections that this process has, so that no program waits for them."""
+    """End those of these connections that this process has: a program that waits for one ends."""
     for _, connection in _sockets():
         with connection, contextlib.suppress(OSError):  # it is not connected
             if (_text(connection.getsockname()), _text(connection.getpeername())) in others:
@@ -113,6 +122,20 @@ def error_of(others: Sequence[ConnectionEnds]) -> HostsError:
     )
 
 
+def unreached(ports: Sequence[str], seconds: float) -> HostsError:
+    """Return the error that Gloo has not connected the devices of the hosts in time.
+
+    Args:
+        ports: where it listens on the hosts.
+        seconds: the time that it had.
+    """
+    return HostsError(
+        f"the devices of the hosts have not connected within {seconds:g} s: Gloo listens at"
+        f" {', '.join(ports)}; a firewall hides a port, or a program that is no host has connected and gone",
+        fix="Let a firewall pass connections between the hosts at all ports; start again on all hosts",
+    )
+
+
 def _sockets() -> Iterator[tuple[int, socket.socket]]:
     """Yield a copy of each socket of TCP of this process, with its number."""
     for name in os.listdir("/dev/fd"):
@@ -121,11 +144,23 @@ def _sockets() -> Iterator[tuple[int, socket.socket]]:
             number = int(name)
             if not stat.S_ISSOCK(os.fstat(number).st_mode):
                 continue
-            end = socket.socket(fileno=os.dup(number))
+            end = copy_of(number)
             if end.family in (socket.AF_INET, socket.AF_INET6) and end.type == socket.SOCK_STREAM:
                 yield number, end
             else:
                 end.close()
+
+
+def _listens(end: socket.socket) -> bool:
+    """Return whether a socket of TCP listens."""
+    with contextlib.suppress(OSError):
+        return bool(end.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN))
+    # macOS does not answer; what listens has a port, and is connected with nobody
+    try:
+        end.getpeername()
+    except OSError:
+        return end.getsockname()[1] != 0
+    return False
 
 
 def _text(address: tuple[str | int, ...]) -> str:

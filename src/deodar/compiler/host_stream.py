@@ -45,6 +45,7 @@ class HostStream:
             connection = socket.socket(socket.AF_UNIX)
             with contextlib.suppress(OSError):
                 connection.connect(str(path))
+                connection.settimeout(None)
                 self._connection = connection
                 return True
             connection.close()

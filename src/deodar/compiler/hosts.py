@@ -13,7 +13,6 @@ import contextlib
 import functools
 import hashlib
 import os
-import socket
 import sys
 import tempfile
 import threading
@@ -160,22 +159,23 @@ def _short_folder() -> str | None:
 def _gloo_at(address: str) -> GlooPort:
     """Let Gloo listen at an address of this host, not at the one to which the system resolves its name."""
     bridge: Any = sys.modules["jax._src.xla_bridge"]  # JAX has no public functions for this
-    before = gloo_port.listeners()
+    before = gloo_port.listeners(address)
     collectives = bridge._jax.make_gloo_tcp_collectives(
         bridge.distributed.global_state.client, hostname=address
     )
-    [number] = gloo_port.listeners() - before
+    [number] = gloo_port.listeners(address) - before
     register_backend_factory(
         "cpu", functools.partial(bridge.make_cpu_client, collectives), priority=0, fail_quietly=False
     )
-    return GlooPort(socket.socket(fileno=os.dup(number)))
+    return GlooPort(gloo_port.copy_of(number))
 
 
 def connect(devices: Sequence[Any]) -> None:
     """Connect devices of several hosts, once, before a program runs on them; all hosts call it.
 
     Raises:
-        HostsError: a host has ended, or a program that is no host has connected.
+        HostsError: a host has ended, a program that is no host has connected, or the devices have not
+            connected in time.
     """
     if not span(devices) or (numbers := tuple(d.id for d in devices)) in _joined[0].connected:
         return
@@ -184,25 +184,40 @@ def connect(devices: Sequence[Any]) -> None:
     with gloo.open(), _no_words_of_gloo():
         require_equal("the devices", list(numbers))
         meeting = DeviceMeeting(devices)
-        ended_everywhere = False
-        before = list[ConnectionEnds]()
-        while not ended_everywhere:
-            # another program in the place of a device would let this one wait without end
-            meeting.wait(LOOK)
-            ended = meeting.ended  # connections are complete only if they are listed after the end
-            answers = links.exchange("the connections", [ended, gloo.address, gloo_port.connections()])
-            ended_everywhere = all(ended for ended, _, _ in answers)
-            ends = [(str(pair[0]), str(pair[1])) for _, _, pairs in answers for pair in pairs]
-            unmatched = gloo_port.strangers([str(port) for _, port, _ in answers], ends)
-            # hosts that still connect may have listed one end earlier than the other
-            if others := unmatched if ended_everywhere else sorted({*unmatched} & {*before}):
-                gloo_port.end(others)
-                meeting.wait(LOOK)
-                raise gloo_port.error_of(others)
-            before = unmatched
+        _await(meeting, links, gloo)
     with calling(True):
         meeting.require()
     links.connected.add(numbers)
+
+
+def _await(meeting: DeviceMeeting, links: HostLinks, gloo: GlooPort) -> None:
+    """Wait on all hosts until the devices are connected, with nobody else.
+
+    Raises:
+        HostsError: a program that is no host has connected, or the time of the links is over.
+    """
+    until = time.monotonic() + links.timeout
+    before = list[ConnectionEnds]()
+    while True:
+        # another program in the place of a device would let this one wait without end
+        meeting.wait(LOOK)
+        ended = meeting.ended  # connections are complete only if they are listed after the end
+        words = [ended, time.monotonic() > until, gloo.address, gloo_port.connections()]
+        answers = links.exchange("the connections", words)
+        ended_everywhere, late = all(a[0] for a in answers), any(a[1] for a in answers)
+        ports = [str(a[2]) for a in answers]
+        ends = [(str(pair[0]), str(pair[1])) for a in answers for pair in a[3]]
+        unmatched = gloo_port.strangers(ports, ends)
+        # hosts that still connect may have listed one end earlier than the other
+        others = unmatched if ended_everywhere else sorted({*unmatched} & {*before})
+        if ended_everywhere and not others:
+            return
+        if others or late:
+            # those of the hosts too: JAX ends a process that exits while a program waits for one
+            gloo_port.end([pair for pair in ends if {*pair} & {*ports}])
+            meeting.wait(LOOK)
+            raise gloo_port.error_of(others) if others else gloo_port.unreached(ports, links.timeout)
+        before = unmatched
 
 
 class DeviceMeeting:

@@ -201,7 +201,7 @@ dd.join_hosts("127.0.0.1:" + sys.argv[2], 2, int(sys.argv[1]), timeout=5)
 
 
 INTRUDED = """
-import subprocess, sys, deodar as dd
+import socket, subprocess, sys, time, deodar as dd
 from deodar.compiler import hosts
 from deodar.errors import HostsError
 
@@ -214,6 +214,9 @@ link.recv(1)
 '''
 connects = hosts._meet_on_devices
 
+def connects_never(devices):
+    time.sleep(600)
+
 def connects_with_another(devices):
     process = subprocess.Popen(
         [sys.executable, "-c", intruder, hosts._joined[0].gloo.address], stdout=subprocess.PIPE
@@ -222,9 +225,11 @@ def connects_with_another(devices):
     connects(devices)
 
 if sys.argv[1] == "1":
-    hosts._meet_on_devices = connects_with_another
+    hosts._meet_on_devices = globals()[sys.argv[3]]
+hosts.LOOK = 1.0
+socket.setdefaulttimeout(3.0)  # as a script may do; the connections of the hosts last longer
 try:
-    dd.join_hosts("127.0.0.1:" + sys.argv[2], 2, int(sys.argv[1]))
+    dd.join_hosts("127.0.0.1:" + sys.argv[2], 2, int(sys.argv[1]), timeout=float(sys.argv[4]))
 except HostsError as error:
     print(error)
 """
@@ -458,12 +463,21 @@ def test_a_host_that_ends_while_jax_starts_ends_the_other_with_its_name(ending: 
     assert status == 1 and err.endswith(text), err
 
 
-def test_a_program_that_has_connected_with_gloo_ends_the_run_of_all_hosts() -> None:
-    """It connects while the port of host 1 is open, as a device of another host would."""
+@pytest.mark.parametrize(
+    ("function", "timeout", "text"),
+    [
+        ("connects_with_another", "60", "a program that is no host has connected with Gloo"),
+        ("connects_never", "20", "the devices of the hosts have not connected within 20 s"),
+    ],
+)
+def test_hosts_whose_devices_do_not_connect_with_each_other_alone_end_with_an_error(
+    function: str, timeout: str, text: str
+) -> None:
+    """The program connects while the port of host 1 is open, as a device of another host would."""
     port = free_port()
-    for status, out, err in ended([started(INTRUDED, host, 2, port) for host in (1, 0)]):
+    for status, out, err in ended([started(INTRUDED, host, 2, port, function, timeout) for host in (1, 0)]):
         assert status == 0, err
-        assert out.startswith("a program that is no host has connected with Gloo"), out + err
+        assert out.startswith(text), out + err
 
 
 def test_an_error_of_jax_at_its_start_closes_the_links(monkeypatch: pytest.MonkeyPatch) -> None:
