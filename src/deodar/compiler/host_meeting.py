@@ -84,11 +84,13 @@ class Reception:
 
     Attributes:
         key: the key that must be proven.
+        count: the number of hosts.
         arrivals: the hosts that have proven it.
-        others: the address of the last program without the key, by the number of the host that it states.
+        others: the address of the last program without the key, by the number of a host that it states.
     """
 
     key: UserKey
+    count: int
     arrivals: queue.SimpleQueue[Arrival] = field(default_factory=queue.SimpleQueue)
     others: dict[int, str] = field(default_factory=dict[int, str])
 
@@ -98,7 +100,8 @@ class Reception:
             index, proven = to_other_host(link, self.key, HELLO_SECONDS)
             self.arrivals.put(Arrival(index, proven, message_of(proven.receive(HELLO_SECONDS))))
         except OtherKey as error:
-            self.others[error.host] = address
+            if error.host < self.count:
+                self.others[error.host] = address
             link.close()
         except OSError:
             link.close()
@@ -115,7 +118,9 @@ def meet(address: str, count: int, index: int, timeout: float) -> HostLinks:
     hello = Hello(index, hosts_key(), {"hosts": count, **_versions()})
     until = time.monotonic() + timeout
     if index:
-        links = {0: _call((host.strip("[]"), int(port)), hello, until, timeout)}
+        # a name may have another address first, at which another program listens
+        first_host = (loopback(host) or host).strip("[]")
+        links = {0: _call((first_host, int(port)), hello, until, timeout)}
     else:
         links = _welcome((host, int(port)), hello, until, timeout)
     return HostLinks(links, index, count, timeout)
@@ -201,7 +206,7 @@ def _welcome(place: HostAddress, hello: Hello, until: float, timeout: float) -> 
     """
     count = int(str(hello.common["hosts"]))
     links: dict[int, ProvenLink] = {}
-    reception, hearing = Reception(hello.key), list[threading.Thread]()
+    reception, hearing = Reception(hello.key, count), list[threading.Thread]()
     try:
         server = _opened(place[1], CALLERS, place[0])
     except OSError as error:
@@ -262,7 +267,10 @@ def _missing(links: Mapping[int, ProvenLink], count: int, reception: Reception, 
     fix = EVERYWHERE
     if k := next((k for k in missing if k in reception.others), 0):
         text += f"; at {reception.others[k]} is a program that says to be host {k}, and has another key"
-        fix = f"Copy {reception.key.path} to that host, readable by you alone, or state a copy in {HOSTS_KEY}"
+        fix = (
+            f"If that address is of host {k}, copy {reception.key.path} to it, readable by you alone, or"
+            f" state a copy in {HOSTS_KEY}; otherwise another program calls this port, so choose another one"
+        )
     _refuse(links.values(), text, fix)
     return HostsError(text, fix=fix)
 

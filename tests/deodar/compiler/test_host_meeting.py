@@ -9,14 +9,15 @@ import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from deodar.compiler import host_meeting
 from deodar.compiler.host_key import HOSTS_KEY, hosts_key
 from deodar.compiler.host_link import HostLinks
-from deodar.compiler.host_meeting import meet
-from deodar.compiler.proven_link import MARK, NONCE, ProvenLink, to_first_host
+from deodar.compiler.host_meeting import Reception, meet
+from deodar.compiler.proven_link import MARK, NONCE, OtherKey, ProvenLink, to_first_host
 from deodar.errors import HostsError
 from deodar.user_key import UserKey
 from tests.deodar.compiler.meeting import free_port, reached, until_end
@@ -162,7 +163,41 @@ def test_a_host_with_another_key_is_told_and_the_first_host_names_it(
         f"{other_key}: what listens at {address} does not have the key of host 1. Copy this file of host 0"
     )
     assert "host 1 has not come within 4 s; at 127.0.0.1:" in meeting.errors[0]
-    assert f"host 1, and has another key. Copy {first_key} to that host" in meeting.errors[0]
+    assert (
+        f"host 1, and has another key. If that address is of host 1, copy {first_key} to it, readable by you"
+        in meeting.errors[0]
+    )
+    assert "otherwise another program calls this port" in meeting.errors[0]
+
+
+def test_who_states_a_number_of_no_host_is_not_stored(tmp_path: Path) -> None:
+    reception, other_key = Reception(hosts_key(), 2), UserKey.at(tmp_path / "other")
+    for host in (1, 2, 2**32 - 1):
+        first, caller = socket.socketpair()
+        thread = threading.Thread(target=reception.hear, args=(first, f"node{host}"))
+        thread.start()
+        with caller, pytest.raises(OtherKey):
+            to_first_host(caller, other_key, host, 10.0)
+        thread.join()
+    assert reception.others == {1: "node1"}
+
+
+def test_localhost_is_the_address_at_which_the_first_host_listens(
+    address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The name may be that of ::1, too, where another program may have the port."""
+    called, look_up = list[object](), socket.getaddrinfo
+
+    def noted(host: str, *rest: Any, **named: Any) -> Any:
+        called.append(host)
+        return look_up(host, *rest, **named)
+
+    monkeypatch.setattr(socket, "getaddrinfo", noted)
+    meeting = Meeting(address.replace("127.0.0.1", "localhost"), 2)
+    meeting.start(0, 1)
+    meeting.end()
+    assert sorted(meeting.links) == [0, 1], meeting.errors
+    assert set(called) == {"127.0.0.1"}
 
 
 def test_a_program_that_has_taken_the_port_cannot_pose_as_the_first_host(address: str) -> None:
