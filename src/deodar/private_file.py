@@ -9,6 +9,7 @@ import contextlib
 import os
 import re
 import secrets
+import shlex
 import stat
 import time
 from pathlib import Path
@@ -16,6 +17,18 @@ from pathlib import Path
 FORM = re.compile(r"^[A-Za-z0-9_-]{32}$")
 DAYS = 30
 """Days after which a file that was not used is old (a guess)."""
+
+
+class NotPrivate(PermissionError):
+    """Other users can access a secret file, or change its folder.
+
+    Attributes:
+        command: what ends that in a shell; "" if another user owns it, or uses the folder.
+    """
+
+    def __init__(self, text: str, command: str) -> None:
+        super().__init__(text)
+        self.command = command
 
 
 def new() -> str:
@@ -27,8 +40,8 @@ def read(path: Path) -> str:
     """Return the text of a secret file, and note that it was used.
 
     Raises:
-        OSError: there is no such file, it is not a regular one, or another user owns it or can access it, or
-            can change its folder.
+        NotPrivate: another user owns it or can access it, or can change its folder.
+        OSError: there is no such file, or it is not a regular one.
         ValueError: it holds no text.
     """
     _require_own(path.parent)
@@ -38,7 +51,8 @@ def read(path: Path) -> str:
         if not stat.S_ISREG(status.st_mode):
             raise OSError("it is not a regular file")
         if os.name == "posix" and (status.st_uid != os.geteuid() or status.st_mode & 0o077):
-            raise PermissionError("others can access it, or own it")
+            command = f"chmod 600 {shlex.quote(str(path))}" if status.st_uid == os.geteuid() else ""
+            raise NotPrivate("others can access it, or own it", command)
         text = file.read(256).decode("ascii")
         # the time of a file on a disk that is only read stays
         with contextlib.suppress(OSError):
@@ -52,7 +66,8 @@ def write(path: Path, text: str) -> None:
 
     Raises:
         FileExistsError: there is one.
-        OSError: the system refused, or another user can change its folder.
+        NotPrivate: another user can change its folder.
+        OSError: the system refused.
     """
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     _require_own(path.parent)
@@ -73,4 +88,7 @@ def _require_own(folder: Path) -> None:
     """Refuse a folder in which another user can replace files."""
     status = folder.stat()
     if os.name == "posix" and (status.st_uid not in (os.geteuid(), 0) or status.st_mode & 0o022):
-        raise PermissionError(f"others can change its folder, {folder}")
+        # a folder in which users may not remove files of others, such as /tmp, is meant for all of them
+        alone = status.st_uid == os.geteuid() and not status.st_mode & stat.S_ISVTX
+        command = f"chmod go-w {shlex.quote(str(folder))}" if alone else ""
+        raise NotPrivate(f"others can change its folder, {folder}", command)

@@ -39,7 +39,8 @@ class UserKey:
         """Return the key in a file, which is made at its first use if `new`.
 
         Raises:
-            OSError: others can read the file, it cannot be written, or there is none.
+            NotPrivate: others can access the file, or change its folder.
+            OSError: it cannot be written, or there is none.
             ValueError: it is not a key.
         """
         if new and not path.exists():

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from deodar.errors import HostsError, first_line
 from deodar.model.written import STATES, states
+from deodar.private_file import NotPrivate
 from deodar.user_key import UserKey
 
 HOSTS_KEY = "DEODAR_HOSTS_KEY"
@@ -30,12 +31,19 @@ def hosts_key() -> UserKey:
     try:
         return UserKey.at(path, new=not stated)
     except (OSError, ValueError) as error:
-        if stated:
-            fix = f"Copy the key of another host there, readable by you alone, or do not state {HOSTS_KEY}"
-        elif path.exists():
-            fix = "Remove it; the next run makes another one"
-        else:
-            fix = f"State a folder that you can write in the variable {STATES}"
         raise HostsError(
-            f"cannot be used as the key of the hosts: {first_line(error)}", where=str(path), fix=fix
+            f"cannot be used as the key of the hosts: {first_line(error)}",
+            where=str(path),
+            fix=_advice(path, error, bool(stated)),
         ) from None
+
+
+def _advice(path: Path, error: Exception, stated: bool) -> str:
+    """Return what to do about an error of the file of the key."""
+    if isinstance(error, NotPrivate) and error.command:
+        return f"If it is the key of the hosts, type: {error.command}"
+    if stated:
+        return f"Copy the key of another host there, readable by you alone, or do not state {HOSTS_KEY}"
+    if path.exists() and not isinstance(error, NotPrivate):
+        return "Remove it; the next run makes another one"
+    return f"State a folder that only you can change in the variable {STATES}"

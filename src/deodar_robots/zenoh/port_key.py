@@ -14,6 +14,7 @@ from pathlib import Path
 from deodar.codec import Json
 from deodar.errors import WorldError, first_line
 from deodar.model.written import STATES, states
+from deodar.private_file import NotPrivate
 from deodar.user_key import USER, UserKey
 
 _AUTH = "transport/auth/usrpwd/"
@@ -53,9 +54,12 @@ def key_at(host: str, port: int) -> RobotKey:
     try:
         return RobotKey.at(path)
     except (OSError, ValueError) as error:
-        remove = "Remove it; the next robot at this port makes another one"
+        if isinstance(error, NotPrivate) and error.command:
+            fix = f"If it is the key of this port, type: {error.command}"
+        elif path.exists():
+            fix = "Remove it; the next robot at this port makes another one"
+        else:
+            fix = f"State a folder that you can write in the variable {STATES}"
         raise WorldError(
-            f"cannot be used as the key of a port: {first_line(error)}",
-            where=str(path),
-            fix=remove if path.exists() else f"State a folder that you can write in the variable {STATES}",
+            f"cannot be used as the key of a port: {first_line(error)}", where=str(path), fix=fix
         ) from None

@@ -37,7 +37,34 @@ def test_a_file_that_a_variable_names_must_exist(tmp_path: Path, monkeypatch: py
     assert not (tmp_path / "missing").exists()
 
 
-def test_a_key_that_others_can_read_is_an_error_with_what_to_do() -> None:
-    hosts_key().path.chmod(0o644)
-    with pytest.raises(HostsError, match=r"others can access it, or own it\. Remove it; the next run"):
+@pytest.mark.parametrize("is_stated", [False, True])
+def test_a_key_that_others_can_access_is_an_error_with_the_command_that_ends_that(
+    is_stated: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = hosts_key().path
+    if is_stated:
+        monkeypatch.setenv(HOSTS_KEY, str(path))
+    for place, mode, command in ((path, 0o644, "chmod 600"), (path.parent, 0o775, "chmod go-w")):
+        before = place.stat().st_mode
+        place.chmod(mode)
+        with pytest.raises(HostsError, match=rf"If it is the key of the hosts, type: {command} {place}\Z"):
+            hosts_key()
+        place.chmod(before)
+    assert hosts_key().path == path
+
+
+def test_a_folder_of_all_users_is_an_error_with_no_command(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To take its rights away, as of /tmp, would harm other programs."""
+    key = UserKey.at(tmp_path / "folder" / "key").path
+    key.parent.chmod(0o1777)
+    monkeypatch.setenv(HOSTS_KEY, str(key))
+    with pytest.raises(HostsError, match=r"others can change its folder, .* Copy the key of another host"):
+        hosts_key()
+
+
+def test_a_file_of_another_text_may_be_removed() -> None:
+    hosts_key().path.write_text("words", encoding="ascii")
+    with pytest.raises(HostsError, match="Remove it; the next run makes another one"):
         hosts_key()
