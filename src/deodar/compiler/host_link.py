@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import queue
+import shutil
 import sys
 import threading
 import time
@@ -75,6 +76,7 @@ class HostLinks:
         self.connected = set[tuple[int, ...]]()
         self._links = dict(links)
         self._number = 0
+        self._folder: Path | None = None
         self._inbox = {k: queue.SimpleQueue[HostMessage | None]() for k in links}
         self._heard = dict.fromkeys(links, time.monotonic())
         self._streams = {k: HostStream(link, STREAM) for k, link in links.items()}
@@ -108,21 +110,26 @@ class HostLinks:
     def carrying(self, path: Path) -> Generator[None]:
         """Carry what JAX sends to a socket of this machine, at a path, to that of the first host, and back.
 
-        JAX must connect while the context is open; what it has connected stays.
+        JAX must connect while the context is open; what it has connected stays. The folder of the path is
+        removed if this process ends in JAX meanwhile.
 
         Raises:
             HostsError: the first host has ended, or is not ready in time.
         """
-        if self.index == 0:
-            for k, stream in self._streams.items():
-                run = lambda k=k, stream=stream: self._reach(k, stream, path)  # noqa: E731
-                threading.Thread(target=run, daemon=True, name=f"deodar-jax-{k}").start()
-            yield
-            return
-        if not self._ready.wait(self.timeout) or self.lost:
-            raise HostsError(lost_hosts(self.lost) or "host 0 has not started JAX", fix=CAUSE)
-        with self._streams[0].listening(path, self.timeout):
-            yield
+        self._folder = path.parent
+        try:
+            if self.index == 0:
+                for k, stream in self._streams.items():
+                    run = lambda k=k, stream=stream: self._reach(k, stream, path)  # noqa: E731
+                    threading.Thread(target=run, daemon=True, name=f"deodar-jax-{k}").start()
+                yield
+                return
+            if not self._ready.wait(self.timeout) or self.lost:
+                raise HostsError(lost_hosts(self.lost) or "host 0 has not started JAX", fix=CAUSE)
+            with self._streams[0].listening(path, self.timeout):
+                yield
+        finally:
+            self._folder = None
 
     def _reach(self, k: int, stream: HostStream, path: Path) -> None:
         """Connect another host with JAX of the first one, which starts meanwhile."""
@@ -236,20 +243,26 @@ class HostLinks:
     # ------------------------------------------------------------------------------------------ signs of life
 
     def _read(self, k: int) -> None:
-        with contextlib.suppress(OSError):
-            while content := self._links[k].receive():
-                self._heard[k] = time.monotonic()
-                if content.startswith(STREAM):
-                    self._streams[k].deliver(content[len(STREAM) :])
-                    continue
-                message = message_of(content)
-                if "lost" in message:
-                    self._lose(int(str(message["lost"])))
-                elif "ready" in message:
-                    self._ready.set()
-                elif "n" in message:
-                    self._inbox[k].put(message)
-        self._lose(k)
+        try:
+            with contextlib.suppress(OSError):
+                while content := self._links[k].receive():
+                    self._deliver(k, content)
+        finally:  # also after an error of this program: nobody would read what comes later
+            self._lose(k)
+
+    def _deliver(self, k: int, content: bytes) -> None:
+        """Give what a host sends to the part of this one that waits for it."""
+        self._heard[k] = time.monotonic()
+        if content.startswith(STREAM):
+            self._streams[k].deliver(content[len(STREAM) :])
+            return
+        message = message_of(content)
+        if "lost" in message:
+            self._lose(int(str(message["lost"])))
+        elif "ready" in message:
+            self._ready.set()
+        elif "n" in message:
+            self._inbox[k].put(message)
 
     def _live(self) -> None:
         while not self._closed.wait(BEAT):
@@ -261,6 +274,8 @@ class HostLinks:
             if self.lost and since and now - since > STUCK:
                 sys.stderr.write(f"deodar: {lost_hosts(self.lost)}, so this process ends\n")
                 sys.stderr.flush()
+                if self._folder is not None:
+                    shutil.rmtree(self._folder, ignore_errors=True)
                 os._exit(1)
 
     def _lose(self, k: int) -> None:

@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Generator, Sequence
@@ -448,12 +449,26 @@ def test_a_host_whose_links_end_is_named_at_once(ending: int) -> None:
         assert str(answer).startswith(f"host {ending} has ended")
 
 
+@pytest.mark.parametrize("content", [b"[1]", b"no JSON", b'{"lost": "x"}'])
+def test_a_host_that_says_what_no_host_says_is_lost(content: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The thread that reads its link ends with an error, so nobody would read its next words."""
+    errors = list[object]()
+    monkeypatch.setattr(threading, "excepthook", errors.append)
+    with linked(60.0) as links:
+        links[1]._links[0].send(content)  # pyright: ignore[reportPrivateUsage]
+        [answer] = at_once([links[0]], ("a", 1))
+        assert str(answer).startswith("host 1 has ended")
+    assert len(errors) == 1
+
+
 @pytest.mark.parametrize("ending", [0, 1])
 def test_a_host_that_ends_while_jax_starts_ends_the_other_with_its_name(ending: int) -> None:
     port = free_port()
-    other = started(JOINING, 1 - ending, 2, port)
-    meet(f"127.0.0.1:{port}", 2, ending, 60.0).close()
-    [(status, _, err)] = ended([other])
+    with tempfile.TemporaryDirectory(dir="/tmp") as folder:  # a short path, which a socket can have
+        other = started(JOINING, 1 - ending, 2, port, TMPDIR=folder)
+        meet(f"127.0.0.1:{port}", 2, ending, 60.0).close()
+        [(status, _, err)] = ended([other])
+        assert not list(Path(folder).glob("deodar-*"))
     # the first host ends before it has started JAX: then the other one is not yet in a program of JAX
     text = (
         "deodar: host 1 has ended, so this process ends\n"
