@@ -260,7 +260,7 @@ class _Judge:
 
     def targets(self, source: Entry, port: str, axes: Axes | None) -> list[Fit]:
         """Judge every input port of the document as the target of an output port."""
-        ahead = self.upstream(source.id, port)
+        ahead = self.upstream(source.id)
         return [
             self.fit(source, port, axes, target, name, ahead, (target.id, name))
             for target in self.doc.entries
@@ -272,7 +272,7 @@ class _Judge:
         out: list[Fit] = []
         for source in self.doc.entries:
             for name in find.outputs(source):
-                axes, ahead = self.output(source.id, name), self.upstream(source.id, name)
+                axes, ahead = self.output(source.id, name), self.upstream(source.id)
                 out.append(self.fit(source, name, axes, target, port, ahead, (source.id, name)))
         return out
 
@@ -354,15 +354,18 @@ class _Judge:
         new_problems = [p for p in graph(new).problems if p not in self.problems]
         return f"{new_problems[0].where}: {new_problems[0].what}" if new_problems else ""
 
-    def upstream(self, ident: str, port: str) -> set[tuple[str, str]]:
-        """Return the input ports on which an output port depends in the same instant."""
+    def upstream(self, ident: str) -> set[tuple[str, str]]:
+        """Return the input ports on which an output port depends in the same instant, or for its axes."""
 
-        def direct(i: str, out: str) -> list[tuple[str, str]]:
-            return [(i, name) for name in type(self.doc.by_id()[i].element).direct.get(out, ())]
+        def direct(i: str) -> list[tuple[str, str]]:
+            # the axes of all outputs of an element are known together, so a state shown beside a direct
+            # output, such as learned weights, waits for the inputs too
+            passed = type(self.doc.by_id()[i].element).direct.values()
+            return [(i, name) for names in passed for name in names]
 
         return reach(
-            direct(ident, port),
-            lambda end: [before for output in self.into.get(end, []) for before in direct(*output)],
+            direct(ident),
+            lambda end: [before for source, _ in self.into.get(end, []) for before in direct(source)],
         )
 
     @functools.cached_property

@@ -55,12 +55,24 @@ def test_a_port_fits_where_the_connected_document_has_no_new_problem(example: st
     doc = dd.load(EXAMPLES / f"{example}.json").document
     judged = [
         (fit, connected(doc, e, port, fit))
-        for e, port in list(every_port(doc))[::3]
+        for e, port in list(every_port(doc))[::-3]
         for fit in fits.fits(doc, e.id, port)[0]
     ]
     assert [fit for fit, fine in judged if fit.fits != fine] == []
     assert {fit.fits for fit, _ in judged} == {True, False}
     assert all(fit.reason for fit, _ in judged if not fit.fits)
+
+
+def test_a_state_beside_a_direct_output_does_not_fit_the_inputs_that_give_its_axes() -> None:
+    model = Model("loop")
+    weights = model.add(dd.Hebbian([X], name="weights"))
+    model.add(dd.Field("u", [X])) >> weights
+    doc = model.document
+    entry = next(e for e in doc.entries if e.path == "weights")
+    own = [fit for fit in fits.fits(doc, entry.id, "weights")[0] if fit.element == entry.id]
+    assert "input" in [fit.port for fit in own]
+    for fit in own:
+        assert fit.fits == connected(doc, entry, "weights", fit)
 
 
 def test_sources_of_an_input_agree_with_targets_of_an_output() -> None:
