@@ -45,9 +45,9 @@ def test_the_view_contains_elements_with_values_ports_and_axes() -> None:
         ["g"],
         "Field",
         ["input"],
-        ["output", "activation", "interaction"],
+        ["output", "activation", "interaction", "bounded"],
     )
-    assert u.axes == {"input": ["x"], "output": ["x"], "activation": ["x"], "interaction": ["x"]}
+    assert u.axes == {port: ["x"] for port in (*u.inputs, *u.outputs)}
     assert u.values["tau"] == 3 and u.values["axes"] == ["x"] and u.values["kernel"][0]["sigma"] == 5
     assert u.values["kernel"][1]["weights"] == {"array": "array", "shape": [3], "min": 1, "max": 1}
     assert u.pushable and not s.pushable and not seen["v"].pushable and seen["v"].every == 2

@@ -63,9 +63,8 @@ class Field(Element):
         input: s, the sum of all connections, over `axes`.
         output: g(u), over `axes`; its mean over each cell with `quadrature="cell"`, which leaves the range of
             g at edges by up to 0.1.
-        bounded: the same mean with its blur, which stays in the range of g, over `axes`; only with
-            `quadrature="cell"` and axes. Ports that use an output as a number between 0 and 1 read it in
-            place of `output`.
+        bounded: the output in the range of g, over `axes`; with `quadrature="cell"` the mean with its blur,
+            else `output`. Ports that use an output as a number between 0 and 1 read it in place of `output`.
         activation: u, over `axes`.
         interaction: the sum of both integral terms, over `axes`.
 
@@ -100,11 +99,10 @@ class Field(Element):
 
     def outputs(self, ins: PortAxes) -> PortAxes:
         axes = tuple(self.axes)
-        ports = {"output": axes, "activation": axes, "interaction": axes}
-        return ports | ({"bounded": axes} if self._overshoots else {})
+        return {"output": axes, "activation": axes, "interaction": axes, "bounded": axes}
 
     def bounded_port(self, port: str) -> str:
-        return "bounded" if port == "output" and self._overshoots else port
+        return "bounded" if port == "output" else port
 
     def kernels(self) -> Sequence[Kernel]:
         return self.kernel
@@ -168,8 +166,12 @@ class Field(Element):
         )
         drawn = total((h - spread, h + spread), inputs["input"], interaction)
         u = hull(u, drawn)
-        bounded = {"bounded": self.sigmoid.bounds(u)} if self._overshoots else {}
-        return {"activation": u, "output": self._output_bounds(u), "interaction": interaction} | bounded
+        return {
+            "activation": u,
+            "output": self._output_bounds(u),
+            "interaction": interaction,
+            "bounded": self.sigmoid.bounds(u),
+        }
 
     def init(self, at: Setting) -> Arrays:
         return {"activation": at.full(tuple(self.axes), self.resting_level)}
@@ -180,10 +182,10 @@ class Field(Element):
     def output(self, at: Setting) -> Arrays:
         u = at.state["activation"]
         g = self._output(at, u)
-        ports = {"output": g, "activation": u, "interaction": self._interaction(at, g)}
+        bounded = g
         if self._overshoots:
-            ports["bounded"] = quadrature.bounded_cell_means(self.sigmoid, u, tuple(self.axes))
-        return ports
+            bounded = quadrature.bounded_cell_means(self.sigmoid, u, tuple(self.axes))
+        return {"output": g, "activation": u, "interaction": self._interaction(at, g), "bounded": bounded}
 
     def advance(self, at: Setting) -> Arrays:
         u, h, s = at.state["activation"], self.resting_level, at.inputs["input"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 
 import numpy as np
 import pytest
@@ -109,8 +110,8 @@ def read_by(model: dd.Model, path: str, port: str) -> list[str]:
     return [f"{nodes[i].path}.{p}" for i, p, _ in slots]
 
 
-@pytest.mark.parametrize(("quadrature", "port"), [("cell", "bounded"), ("point", "output")])
-def test_bounded_readers_get_the_bounded_port_also_delayed_and_resampled(quadrature: str, port: str) -> None:
+@pytest.mark.parametrize("quadrature", ["cell", "point"])
+def test_bounded_readers_get_the_bounded_port_also_delayed_and_resampled(quadrature: str) -> None:
     model = peak(1, 2.5, dd.Logistic(), (0.0,))
     model.set("u.quadrature", quadrature)
     coarse = dd.Axis("x", 0, LENGTH[1], samples=30, periodic=True)
@@ -118,9 +119,55 @@ def test_bounded_readers_get_the_bounded_port_also_delayed_and_resampled(quadrat
     model.connect(model["u"], model.add(dd.MemoryTrace("later", axes_of(model))), reads="delayed")
     model["u"] >> model.add(dd.Gain(2.0, name="linear"))
     for path in ("whole", "resampled", "later"):
-        assert read_by(model, path, "input") == [f"u.{port}"]
+        assert read_by(model, path, "input") == ["u.bounded"]
     assert read_by(model, "linear", "input") == ["u.output"]
     assert set(dd.simulate(model, 8, record=["u.output", "later.output"])) == {"u.output", "later.output"}
+
+
+@pytest.mark.parametrize("quadrature", ["point", "cell-0.1"])
+@pytest.mark.parametrize("dimensions", [1, 2])
+def test_bounded_is_the_output_where_the_output_stays_in_the_range(dimensions: int, quadrature: str) -> None:
+    model = peak(dimensions, 2.5, dd.Logistic(10.0), PLACES[dimensions][1])
+    model.set("u.quadrature", quadrature)
+    session = dd.Session(model)
+    session.run(200)
+    output = np.asarray(session.read("u.output"))
+    assert output.max() > 0.9
+    assert np.array_equal(session.read("u.bounded"), output)
+
+
+@pytest.mark.parametrize("after", ["cell", "cell-0.1", "point"])
+@pytest.mark.parametrize("before", ["cell", "cell-0.1", "point"])
+def test_bounded_readers_go_on_at_a_change_of_the_quadrature(before: str, after: str) -> None:
+    """Of a field with an output of 1 everywhere, which all quadratures agree about."""
+    axis = dd.Axis("x", 0, LENGTH[1], samples=50, periodic=True)
+    model = dd.Model("switched", dt=4)
+    u = model.add(dd.Field("u", [axis], resting_level=5.0, quadrature=before))
+    trace = dd.MemoryTrace("trace", [axis], tau_build=8.0, tau_decay=8.0, threshold=-1.0)
+    model.connect(u, model.add(trace), reads="delayed")
+    model.connect(u["bounded"], model.add(dd.Field("v", [axis])))
+    session = dd.Session(model)
+    session.run(400)
+    session.set("u.quadrature", after)
+    for _ in range(3):
+        session.step()
+        assert np.asarray(session.read("trace.output")) == pytest.approx(1.0, abs=1e-4)
+        assert np.asarray(session.read("v.input")) == pytest.approx(1.0, abs=1e-4)
+    model.set("u.quadrature", after)
+    assert not [problem for problem in model.check() if problem.severity == "error"]
+
+
+def test_the_port_costs_nothing_where_it_is_the_output(monkeypatch: pytest.MonkeyPatch) -> None:
+    def instructions() -> str:
+        model = peak(1, 2.5, dd.Logistic(), (0.0,))
+        model.set("u.quadrature", "point")
+        model.connect(model["u"], model.add(dd.MemoryTrace("later", axes_of(model))), reads="delayed")
+        text = dd.Session(model).program.chunk(())[0].as_text() or ""
+        return re.sub(r", metadata=\{[^}]*\}", "", text.partition("\n%")[2])
+
+    with_bounded = instructions()
+    monkeypatch.setattr(dd.Field, "bounded_port", lambda _, port: port)
+    assert len(with_bounded) > 10_000 and with_bounded == instructions()
 
 
 def test_bounded_inputs_are_inputs_and_bounded_outputs_stay_in_the_range_of_the_sigmoid() -> None:

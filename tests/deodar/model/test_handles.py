@@ -232,6 +232,7 @@ def test_completion_lists_parameters_and_ports(u: Handle) -> None:
         "output",
         "activation",
         "interaction",
+        "bounded",
         "input",
     ]  # pyright: ignore[reportPrivateUsage]
 

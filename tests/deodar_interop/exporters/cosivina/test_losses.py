@@ -48,6 +48,15 @@ def test_a_parameter_that_cosivina_does_not_have_is_reported(element, parameter,
     assert "u" in [label for label, *_ in elements(write(m, "file.json").content)]
 
 
+@pytest.mark.parametrize("quadrature", ["cell", "point"])
+def test_the_bounded_output_is_that_at_the_sample(quadrature):
+    m = model_of(dd.Field("u", [X], quadrature=quadrature), dd.Field("v", [X]))
+    m.connect("u.bounded", "v")
+    assert ("v", "connection", "u.bounded", "dropped") not in lost(m)
+    written = {label: links for label, *_, links in elements(write(m, "file.json").content)}
+    assert ("u", "output") in [tuple(link[:2]) for link in written["v"]]
+
+
 def test_a_logistic_with_the_slope_of_the_absolute_sigmoid_replaces_it():
     (_, _, param, _), *_ = elements(write(model_of(dd.Field("u", [X], sigmoid=dd.Absolute(2))), "f").content)
     at = np.array([-1e-3, 1e-3])

@@ -37,8 +37,8 @@ def field(b: Given, element: Field) -> None:
             b.claim([level])
             b.show(part, "output", "h", of=level.id, dims=(None, None), free=True)
     b.take(part)
-    for component in ("output", "activation"):
-        b.show(part, component, component)
+    for port, component in (("output", "output"), ("bounded", "output"), ("activation", "activation")):
+        b.show(part, port, component)
     field_kernels(b, element, part)
     if element.noise:
         noise = noise_part(
