@@ -327,8 +327,8 @@ class _Resolver:
             want = node.ins[followed]
             if {a.name for a in axes} > {a.name for a in want}:
                 ends = (
-                    f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port}"
-                    f" {describe(want)}"
+                    f"{source.path}.{self.stated(slot, node, port)} {describe(axes)} does not fit"
+                    f" {node.path}.{port} {describe(want)}"
                 )
                 self.problem(
                     node.id,
@@ -352,8 +352,8 @@ class _Resolver:
         if reason:
             self.problem(
                 node.id,
-                f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}:"
-                f" {reason}",
+                f"{source.path}.{self.stated(slot, node, port)} {describe(axes)} does not fit"
+                f" {node.path}.{port} {describe(want)}: {reason}",
                 self.renaming((source, slot, node, port), axes, want)
                 or f"Write: {_remedy(source.path, node.path, axes, want)}",
             )
@@ -384,13 +384,23 @@ class _Resolver:
         if extra[0].unit and missing[0].unit and extra[0].unit != missing[0].unit:
             return None  # a position in degrees is none in millimetres: a person decides
         source, slot, node, port = ends
-        ident, out, _ = slot if slot[0] == source.id else self.nodes[slot[0]].reads["input"][0]
         renamed = ((extra[0].name, missing[0].name),)
-        between = (self.nodes[ident].path, out, node.path, port)
+        between = (source.path, self.stated(slot, node, port), node.path, port)
         return EditFix(
             "Rename the axis by a coupling",
             [InsertCoupling(between, "Project", tuple(a.name for a in want), renamed)],
         )
+
+    def stated(self, slot: Slot, node: Node, port: str) -> str:
+        """Return the output port that the document states for a slot, also of a delay.
+
+        Inputs that need numbers between 0 and 1 read the `bounded_port` of it.
+        """
+        before = self.nodes[slot[0]]
+        ident, out, _ = slot if before.declared else before.reads["input"][0]
+        ports = [c.source_port for c in self.into.get((node.id, port), []) if c.source == ident]
+        bounded_port = self.nodes[ident].element.bounded_port
+        return out if out in ports else next((p for p in ports if bounded_port(p) == out), out)
 
     def inspect(self, entry: Entry, node: Node) -> None:
         """Report parameters that do not fit the axes."""

@@ -170,6 +170,23 @@ def test_the_port_costs_nothing_where_it_is_the_output(monkeypatch: pytest.Monke
     assert len(with_bounded) > 10_000 and with_bounded == instructions()
 
 
+@pytest.mark.parametrize("reads", ["", "delayed"])
+@pytest.mark.parametrize("port", ["output", "bounded"])
+@pytest.mark.parametrize("quadrature", ["cell", "point"])
+def test_the_fix_of_other_axes_names_the_connected_port(quadrature: str, port: str, reads: str) -> None:
+    axes = {name: [dd.Axis(name, 0, LENGTH[1], samples=50)] for name in "xy"}
+    model = dd.Model("renamed", dt=4)
+    model.add(dd.Field("u", axes["x"], quadrature=quadrature))
+    model.add(dd.MemoryTrace("trace", axes["y"]))
+    model.connect(f"u.{port}", "trace", reads=reads)
+    problem = model.check()[0]
+    assert problem.what.startswith(f"u.{port} [x ")
+    assert "Project([y]" in problem.fix_at("script")
+    assert len(problem.edits) == 1
+    model.apply_fix(problem)
+    assert not [left for left in model.check() if left.severity == "error"]
+
+
 def test_bounded_inputs_are_inputs_and_bounded_outputs_stay_in_the_range_of_the_sigmoid() -> None:
     readers = {n: k for n, k in (kinds("elements") | kinds("couplings")).items() if k.bounded_inputs}
     assert {"MemoryTrace", "AdaptiveWeights"} <= set(readers)
