@@ -93,7 +93,7 @@ INTERLACED = ("-vf", "fps=50,tinterlace=interleave_top", "-flags", "+ildct+ilme"
 """Options of ffmpeg with which each picture has the lines of two moments."""
 
 
-@pytest.mark.parametrize("kind", [dd.Video, dd.Camera, dd.EventFile])
+@pytest.mark.parametrize("kind", [dd.Video, dd.Camera])
 @pytest.mark.parametrize("coder", ["libx264", "mpeg4", "mpeg2video"])
 def test_an_interlaced_video_is_read_or_refused(coder: str, kind: Any, tmp_path: Path):
     """OpenCV 5.0 returns undefined pictures of it; other versions convert them."""
