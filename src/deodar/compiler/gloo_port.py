@@ -155,7 +155,7 @@ def _listens(end: socket.socket) -> bool:
     """Return whether a socket of TCP listens."""
     with contextlib.suppress(OSError):
         return bool(end.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN))
-    # macOS does not answer; what listens has a port, and is connected with nobody
+    # macOS does not answer; what listens has a port, and has no peer
     try:
         end.getpeername()
     except OSError:

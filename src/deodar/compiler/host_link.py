@@ -247,7 +247,7 @@ class HostLinks:
             with contextlib.suppress(OSError):
                 while content := self._links[k].receive():
                     self._deliver(k, content)
-        finally:  # also after an error of this program: nobody would read what comes later
+        finally:  # also after an error of this program: no thread would read what comes later
             self._lose(k)
 
     def _deliver(self, k: int, content: bytes) -> None:

@@ -76,11 +76,15 @@ def join_hosts(
         timeout: seconds to wait for the others, at the start and whenever they exchange something.
 
     Raises:
-        HostsError: JAX has started, or cannot start; a host does not come, or has another key; versions
-            differ between the hosts; or a program that is no host has connected.
+        HostsError: this is Windows; JAX has started, or cannot start; a host does not come, or has another
+            key; versions differ between the hosts; a program that is no host has connected; or devices have
+            not connected in time.
         ParameterError: an argument is not valid.
     """
     _require(address, count, index, timeout)
+    if sys.platform == "win32":
+        # without sockets that have a path, and a list of those of a process
+        raise HostsError("hosts cannot join on Windows", fix="Use Linux, or one host")
     if _joined:
         raise HostsError("the hosts have joined already", fix="Call join_hosts once, at the start")
     bridge: Any = sys.modules.get("jax._src.xla_bridge")  # JAX has no public function for this
@@ -191,7 +195,7 @@ def connect(devices: Sequence[Any]) -> None:
 
 
 def _await(meeting: DeviceMeeting, links: HostLinks, gloo: GlooPort) -> None:
-    """Wait on all hosts until the devices are connected, with nobody else.
+    """Wait on all hosts until the devices are connected, with each other alone.
 
     Raises:
         HostsError: a program that is no host has connected, or the time of the links is over.

@@ -451,7 +451,7 @@ def test_a_host_whose_links_end_is_named_at_once(ending: int) -> None:
 
 @pytest.mark.parametrize("content", [b"[1]", b"no JSON", b'{"lost": "x"}'])
 def test_a_host_that_says_what_no_host_says_is_lost(content: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The thread that reads its link ends with an error, so nobody would read its next words."""
+    """The thread that reads its link ends with an error, so no other one reads its next words."""
     errors = list[object]()
     monkeypatch.setattr(threading, "excepthook", errors.append)
     with linked(60.0) as links:
@@ -529,4 +529,10 @@ def test_arguments_that_are_not_valid_are_named(arguments: tuple[object, ...], t
         dd.join_hosts(*arguments)  # pyright: ignore[reportArgumentType]
     with pytest.raises(HostsError, match=r"Call dd.join_hosts\(...\) before the first run"):
         dd.simulate(dd.load("example:selection"), 1)
+        dd.join_hosts("node1:7007", 2, 0)
+
+
+def test_hosts_are_refused_on_windows_before_they_meet(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "platform", "win32")
+    with pytest.raises(HostsError, match=r"hosts cannot join on Windows\. Use Linux"):
         dd.join_hosts("node1:7007", 2, 0)
