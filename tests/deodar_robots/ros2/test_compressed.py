@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import struct
@@ -54,8 +55,12 @@ def reading():
 
 def children() -> list[psutil.Process]:
     """Return the processes that read for this one."""
-    processes = psutil.Process().children()
-    return [p for p in processes if "deodar.guarded.child" in p.cmdline()]
+    reading: list[psutil.Process] = []
+    for process in psutil.Process().children():
+        with contextlib.suppress(psutil.NoSuchProcess):  # it ends, or has ended and nobody has waited for it
+            if "deodar.guarded.child" in process.cmdline():
+                reading.append(process)
+    return reading
 
 
 def bag(folder: Path, *contents: bytes) -> dd.ROSBag:
