@@ -184,7 +184,7 @@ def test_the_fix_of_other_axes_names_the_connected_port(quadrature: str, port: s
     assert "Project([y]" in problem.fix_at("script")
     assert len(problem.edits) == 1
     model.apply_fix(problem)
-    assert not [left for left in model.check() if left.severity == "error"]
+    assert not [p for p in model.check() if p.severity == "error"]
 
 
 def test_bounded_inputs_are_inputs_and_bounded_outputs_stay_in_the_range_of_the_sigmoid() -> None:

@@ -109,12 +109,12 @@ def test_a_sigmoid_in_place_of_the_threshold_weights_growth_and_decay():
 @pytest.mark.parametrize(("graded", "activity"), [(False, None), (True, None), (False, dd.Logistic(4))])
 def test_a_trace_says_whether_its_rate_jumps_at_the_threshold(graded, activity, fades):
     trace = MemoryTrace("p", [], threshold=0.5, graded=graded, fades=fades, activity=activity)
-    now = Time.at(0.0, 1.0, np.dtype("float64"))
+    time = Time.at(0.0, 1.0, np.dtype("float64"))
     start = {"trace": np.float64(0.7), "active": np.float64(0.0)}
 
     def rate(x):
         inputs = {"input": np.float64(x), "gate": np.float64(1.0)}
-        at = Setting({"input": (), "gate": ()}, {"output": ()}, np.dtype("float64"), start, inputs, time=now)
+        at = Setting({"input": (), "gate": ()}, {"output": ()}, np.dtype("float64"), start, inputs, time=time)
         return float(trace.advance(at)["trace"])
 
     with jax.enable_x64(True):

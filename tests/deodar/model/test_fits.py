@@ -69,9 +69,9 @@ def test_a_state_beside_a_direct_output_does_not_fit_the_inputs_that_give_its_ax
     model.add(dd.Field("u", [X])) >> weights
     doc = model.document
     entry = next(e for e in doc.entries if e.path == "weights")
-    own = [fit for fit in fits.fits(doc, entry.id, "weights")[0] if fit.element == entry.id]
-    assert "input" in [fit.port for fit in own]
-    for fit in own:
+    loops = [fit for fit in fits.fits(doc, entry.id, "weights")[0] if fit.element == entry.id]
+    assert "input" in [fit.port for fit in loops]
+    for fit in loops:
         assert fit.fits == connected(doc, entry, "weights", fit)
 
 

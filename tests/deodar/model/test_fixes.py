@@ -176,15 +176,15 @@ def test_the_fix_of_a_structure_is_proven_and_made_by_the_model(name: str) -> No
     assert not graph(copied.document).problems
 
 
-def wires(doc: Document, known: Document) -> set[tuple[str, ...]]:
-    """Return the ends of all connections; an element that a document does not know is called by its kind.
+def wires(doc: Document, before: Document) -> set[tuple[str, ...]]:
+    """Return the ends of all connections; an element that is not in `before` is called by its kind.
 
     The instant that a connection states is kept by the edit of a coupling alone.
     """
     paths = {
-        e.id: e.path if e.id in known.by_id() else f"new {type(e.element).__name__}" for e in doc.entries
+        e.id: e.path if e.id in before.by_id() else f"new {type(e.element).__name__}" for e in doc.entries
     }
-    new = bool(set(doc.by_id()) - set(known.by_id()))
+    new = bool(set(doc.by_id()) - set(before.by_id()))
     return {
         (paths[c.source], c.source_port, paths[c.target], c.target_port, "" if new else c.reads)
         for c in doc.connections
