@@ -57,7 +57,7 @@ def children() -> list[psutil.Process]:
     """Return the processes that read for this one."""
     reading: list[psutil.Process] = []
     for process in psutil.Process().children():
-        with contextlib.suppress(psutil.NoSuchProcess):  # it ends, or has ended and nobody has waited for it
+        with contextlib.suppress(psutil.NoSuchProcess):  # it ends, or it has ended and was not waited for
             if "deodar.guarded.child" in process.cmdline():
                 reading.append(process)
     return reading
