@@ -128,15 +128,15 @@ class ROSBag(World):
             raise WorldError(f"ends at {self.duration:g} ms, and the run continues to {time:g} ms", self.name)
         topic, type, reading = self._readings[sensor]
         stamp, raw = self._messages[topic].at(self._origin + round(1e6 * time))
-        held = self._newest.get(sensor)
-        if held is None or held[0] != stamp:
+        newest = self._newest.get(sensor)
+        if newest is None or held[0] != stamp:
             try:
-                held = self._newest[sensor] = stamp, reading.read(from_bytes(raw, type))
+                newest = self._newest[sensor] = stamp, reading.read(from_bytes(raw, type))
             except Unreadable as error:
                 moment = (stamp - self._origin) / 1e6
                 text = f"the message of {topic} at {moment:g} ms is refused: {error}"
                 raise WorldError(text, self.name, error.fix) from None
-        return reading.sampled(held[1], axes, sensor)
+        return reading.sampled(newest[1], axes, sensor)
 
     def describe(self) -> dict[str, Json]:
         said: JsonObject = {"world": "ROSBag", "file": self.name, "period": self._step}

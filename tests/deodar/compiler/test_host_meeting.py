@@ -188,9 +188,9 @@ def test_localhost_is_the_address_at_which_the_first_host_listens(
     """The name may be that of ::1, too, where another program may have the port."""
     called, look_up = list[object](), socket.getaddrinfo
 
-    def noted(host: str, *rest: Any, **named: Any) -> Any:
+    def noted(host: str, *port: Any, **options: Any) -> Any:
         called.append(host)
-        return look_up(host, *rest, **named)
+        return look_up(host, *port, **options)
 
     monkeypatch.setattr(socket, "getaddrinfo", noted)
     meeting = Meeting(address.replace("127.0.0.1", "localhost"), 2)

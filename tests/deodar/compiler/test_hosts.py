@@ -465,9 +465,9 @@ def test_a_host_that_says_what_no_host_says_is_lost(content: bytes, monkeypatch:
 def test_a_host_that_ends_while_jax_starts_ends_the_other_with_its_name(ending: int) -> None:
     port = free_port()
     with tempfile.TemporaryDirectory(dir="/tmp") as folder:  # a short path, which a socket can have
-        other = started(JOINING, 1 - ending, 2, port, TMPDIR=folder)
+        joining = started(JOINING, 1 - ending, 2, port, TMPDIR=folder)
         meet(f"127.0.0.1:{port}", 2, ending, 60.0).close()
-        [(status, _, err)] = ended([other])
+        [(status, _, err)] = ended([joining])
         assert not list(Path(folder).glob("deodar-*"))
     # the first host ends before it has started JAX: then the other one is not yet in a program of JAX
     text = (
