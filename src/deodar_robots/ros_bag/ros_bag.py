@@ -129,7 +129,7 @@ class ROSBag(World):
         topic, type, reading = self._readings[sensor]
         stamp, raw = self._messages[topic].at(self._origin + round(1e6 * time))
         newest = self._newest.get(sensor)
-        if newest is None or held[0] != stamp:
+        if newest is None or newest[0] != stamp:
             try:
                 newest = self._newest[sensor] = stamp, reading.read(from_bytes(raw, type))
             except Unreadable as error:
