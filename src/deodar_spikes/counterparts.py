@@ -6,6 +6,7 @@ import dataclasses as dc
 import math
 from collections.abc import Callable, Mapping, Sequence
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
@@ -18,6 +19,7 @@ from deodar.leaves import per_axis
 from deodar.model.document import Entry
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, cell, shape
+from deodar.numerics.processor import on_cpu
 from deodar.numerics.sigmoids import Linear, SigmoidFunction
 from deodar_spikes.linear_maps import kernel_matrix
 from deodar_spikes.network import Population, Projection, WeightMatrix
@@ -175,9 +177,8 @@ def _sigmoid(sigmoid: SigmoidFunction, code: SpikeCode) -> tuple[Verdict, str]:
 
 def _noise(element: Field, axes: Axes) -> WeightMatrix:
     """Return the matrix from independent deviates to the noise of a field with the strength 1."""
-    filters = noises.prepare(axes, element.noise_length, np.dtype("float64")).get("noise")
     many = np.eye(math.prod(shape(axes)))
-    if filters is None:
-        return many / math.sqrt(cell(axes))
-    made = [np.asarray(noises.over(axes, jnp.asarray(row.reshape(shape(axes))), filters)) for row in many]
+    with on_cpu(), jax.enable_x64(True):
+        filters = noises.prepare(axes, element.noise_length, np.dtype("float64")).get("noise")
+        made = [np.asarray(noises.over(axes, jnp.asarray(row.reshape(shape(axes))), filters)) for row in many]
     return np.stack([m.reshape(-1) for m in made], axis=1)

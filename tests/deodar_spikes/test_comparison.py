@@ -138,3 +138,16 @@ def test_an_environment_without_norse_is_named() -> None:
     assert norse_version("/nowhere/python") == ""
     with pytest.raises(dd.errors.MissingExtra, match="norse"):
         run_norse(build(translate(memory(), neurons=2).network), np.zeros((2, 1, 31), np.float32), 1, "/no")
+
+
+def test_correlated_noise_keeps_its_correlation() -> None:
+    """Its matrix is computed in double precision, whatever the process computes in."""
+    model = dd.Model("noise", dt=0.5)
+    axis = dd.Axis("x", 0, 9, samples=10)
+    model.add(dd.Field("u", [axis], 20, -5.0, noise=2.0, noise_length=1.5))
+    noise = translate(model, neurons=4).network.populations[0].noise
+    assert noise is not None
+    distance = np.subtract.outer(axis.points, axis.points)
+    expected = np.exp(-(distance**2) / (2 * 1.5**2))
+    covariance = noise @ noise.T
+    np.testing.assert_allclose(covariance / covariance[0, 0], expected, atol=1e-7)

@@ -5,7 +5,6 @@ The child returns the document as its file would have it, its arrays, and the re
 
 from __future__ import annotations
 
-import dataclasses as dc
 from collections.abc import Sequence
 from types import ModuleType
 from typing import TYPE_CHECKING, TypeAlias, TypedDict
@@ -27,6 +26,8 @@ if TYPE_CHECKING:
 SECONDS = 300.0
 """Longest time of a conversion (a guess, many times that of the largest known architecture)."""
 
+MOST_LINES = 50_000
+"""Largest number of lines of a report (a guess, many times that of the largest known architecture)."""
 
 LineFields: TypeAlias = "tuple[str, str, str, Verdict, str, str, Sequence[str]]"
 
@@ -75,6 +76,12 @@ def convert(tool: ModuleType, content: bytes, name: str, bugs: bool, beside: Bes
 def converted(tool: str, content: bytes, name: str, bugs: bool, beside: Beside) -> PlainImport:
     """Return what the importer of a name makes of a file; in the child."""
     imported = IMPORTERS[tool].read(content, name, bugs, beside)
+    lines = imported.report.lines
+    if len(lines) > MOST_LINES:
+        one = lines[len(lines) // 2]
+        raise DocumentError(
+            f"its report has {len(lines):,} lines, more than {MOST_LINES:,}; one of them: {one}"
+        )
     document, arrays = document_files.to_data(imported.model.document)
     return {
         "document": document,
@@ -82,5 +89,5 @@ def converted(tool: str, content: bytes, name: str, bugs: bool, beside: Beside) 
         "tool": imported.report.tool,
         "file": imported.report.file,
         "bugs": list(imported.report.bugs),
-        "lines": [dc.astuple(line) for line in imported.report.lines],
+        "lines": [tuple(vars(line).values()) for line in lines],
     }

@@ -127,6 +127,8 @@ class Package:
                 raise DocumentError(f"holds {name!r}, which lies outside the package")
             if entry.flag_bits & 1:
                 raise DocumentError(f"holds {name!r}, which is encrypted")
+            if entry.header_offset < 0:
+                raise DocumentError(f"is damaged: the table of contents places {name!r} before its beginning")
         self.contents = self._stated() if CONTENTS in self._entries else self._of_document()
 
     def __enter__(self) -> Package:

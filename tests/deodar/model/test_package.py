@@ -84,8 +84,18 @@ def longer(path: Path) -> Path:
     return path
 
 
+def misplaced(path: Path) -> Path:
+    """Write a package whose table of contents states that it lies further back than it does."""
+    content = bytearray(archive(path, parts()).read_bytes())
+    at = content.rindex(b"PK\x05\x06") + 16
+    content[at : at + 4] = (int.from_bytes(content[at : at + 4], "little") + 1000).to_bytes(4, "little")
+    path.write_bytes(bytes(content))
+    return path
+
+
 HOSTILE: dict[str, tuple[Callable[[Path], object], str]] = {
     "cut off": (lambda p: p.write_bytes(archive(p, parts()).read_bytes()[:-30]), "is damaged"),
+    "a misplaced table": (misplaced, "places 'a.json' before its beginning"),
     "an understated size": (longer, "is damaged"),
     "nothing in it": (lambda p: archive(p, {}), "holds no document"),
     "no document": (lambda p: archive(p, {"a.npz": b"x"}), "holds no document"),

@@ -281,3 +281,12 @@ def test_stimuli_of_extreme_numbers_are_added_without_a_crash(tmp_path):
     parts = [element("s", "gauss stimulus", extreme), element("b", "gauss stimulus", BELL, ["s"])]
     model = read(written(tmp_path, parts)).model
     assert {"s", "b"} <= {e.path for e in model.document.entries} and all(p.what for p in model.check())
+
+
+def test_a_report_has_a_largest_number_of_lines(tmp_path):
+    bodies = [element("u", "neural field", FIELD) | {"inputs": [None] * 50_001}]
+    (tmp_path / "many.dnf").write_text(text(bodies))
+    with pytest.raises(
+        DocumentError, match=r"many\.dnf: its report has 50,0\d\d lines, .*u: connection None: dropped"
+    ):
+        read(tmp_path / "many.dnf")
