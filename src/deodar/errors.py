@@ -24,6 +24,9 @@ Severity = Literal["problem", "warning"]
 
 MEDIA: tuple[Medium, ...] = ("script", "shell", "page")
 
+LONGEST = 4000
+"""Most characters of where a problem is, and of what it is: a damaged file may hold names of any length."""
+
 
 class Fix(str):
     """What to do in a script, as text, with other words for a shell and for the page of the studio.
@@ -142,6 +145,12 @@ class Problem(Summarised):
     what: str
     fix: str = ""
     severity: Severity = "problem"
+
+    def __post_init__(self) -> None:
+        for name in ("where", "what"):
+            text: str = getattr(self, name)
+            if len(text) > LONGEST:
+                object.__setattr__(self, name, f"{text[: LONGEST // 2]} ... {text[-LONGEST // 2 :]}")
 
     def __str__(self) -> str:
         return self.at("script")

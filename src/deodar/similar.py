@@ -12,6 +12,9 @@ SLIPS = ((2, 0), (7, 1), (11, 2))
 MOST_SLIPS = 3
 """Most slips of a longer word."""
 
+LONGEST = 200
+"""Most letters of a name that is compared with others; a longer one is similar to none."""
+
 
 def nearest(name: str, names: Iterable[str]) -> str:
     """Return the known name that differs from a name by slips of typing alone; "" if there is none.
@@ -25,8 +28,10 @@ def nearest(name: str, names: Iterable[str]) -> str:
     ('resting_level', '')
     """
     best, fewest = "", math.inf
+    if len(name) > LONGEST:
+        return best
     count = functools.cache(_word_slips)  # names of one document repeat their words
-    for candidate in sorted(set(names), reverse=True):
+    for candidate in sorted({known for known in names if len(known) <= LONGEST}, reverse=True):
         slips = _distance(name, candidate, count)
         if slips is not None and slips < fewest:
             best, fewest = candidate, slips

@@ -13,6 +13,10 @@ from deodar.errors import MissingExtra, WorldError, first_line
 KEY = "deodar"
 """Name of what deodar adds to the metadata of a bag."""
 
+MOST_METADATA = 500_000
+"""Largest number of bytes of metadata.yaml, which is parsed at about 0.2 MB/s (a guess, room for hundreds of
+topics)."""
+
 
 class BagSummary(TypedDict):
     """What a bag holds.
@@ -93,6 +97,9 @@ def _opened(path: str) -> Generator[Any]:
     # an extra
     from rosbags.rosbag2 import Reader
 
+    metadata = Path(path) / "metadata.yaml"
+    if metadata.is_file() and (size := metadata.stat().st_size) > MOST_METADATA:
+        raise WorldError(f"its metadata.yaml has {size:,} bytes, more than {MOST_METADATA:,}", path)
     try:
         with Reader(Path(path)) as reader:
             yield reader

@@ -105,3 +105,11 @@ def test_errors_are_passed_between_processes() -> None:
         error = kind([Problem("u", "one"), Problem("v", "two")])
         copied = pickle.loads(pickle.dumps(error))
         assert type(copied) is kind and str(copied) == str(error)
+
+
+def test_a_message_with_a_name_of_a_damaged_file_is_shortened() -> None:
+    error = errors.DocumentError(f"no kind is called {'Logistic' * 200_000!r}", where="u" * 10_000, fix="x")
+    (problem,) = error.problems
+    assert problem.what.startswith("no kind is called 'Logistic") and problem.what.endswith("Logistic'")
+    assert len(problem.what) == len(problem.where) == errors.LONGEST + len(" ... ")
+    assert len(str(error)) < 2.1 * errors.LONGEST

@@ -82,3 +82,10 @@ def test_a_misspelt_name_among_many_long_ones_is_found_soon() -> None:
     start = time.process_time()
     assert nearest(names[5000].replace("memory", "memroy"), names) == names[5000]
     assert time.process_time() - start < 8
+
+
+def test_a_name_of_a_damaged_file_is_compared_with_none() -> None:
+    began = time.process_time()
+    assert nearest("Logistic" * 200_000, ["Logistic", "Logistic" * 200_000]) == ""
+    assert nearest("Logistik", ["Logistic" * 200_000, "Logistic"]) == "Logistic"
+    assert time.process_time() - began < 0.5

@@ -154,6 +154,11 @@ def test_what_is_not_a_bag_is_named(tmp_path):
     file.write_bytes(file.read_bytes()[:5000])
     with pytest.raises(WorldError, match="cannot be read as a bag"):
         dd.ROSBag(path)
+    long = bag(tmp_path / "long", counted(3))
+    with (long / "metadata.yaml").open("a") as metadata:
+        metadata.write("# \n" * 200_000)
+    with pytest.raises(WorldError, match=r"its metadata\.yaml has 600,\d+ bytes, more than 500,000"):
+        dd.ROSBag(long)
     only = bag(tmp_path / "words", [(0, "/chatter", WORD)])
     with pytest.raises(WorldError, match=r"no topic that a sensor reads.*/chatter \(std_msgs/msg/String\)"):
         dd.ROSBag(only)

@@ -142,9 +142,13 @@ class RegimeMap(Summarised, SavedAnalysis):
         if settings.pop("words") != list(WORDS):
             raise RecordError("has labels of another version of deodar")
         at = settings.pop("at")
+        values = record[first].values, record[second].values
+        for name, points in zip((first, second), values, strict=True):
+            if not np.isfinite(points).all():
+                raise RecordError(f"is damaged: the values of {name} are not all finite numbers")
         return cls(
             (first, second),
-            (record[first].values, record[second].values),
+            values,
             record[cls.KIND].values,
             record["computed"].values,
             (at[0], at[1]),

@@ -254,6 +254,11 @@ def test_a_map_survives_its_file(tmp_path):
     assert loaded.document == regime_map.document == line(31).document
     record = dd.load_record(tmp_path / "map.nc")
     assert record["regime_map"].attrs["flag_meanings"].split()[0] == "silent"
+    broken = dd.open_record(tmp_path / "map.nc").load()
+    broken[EXCITATION] = [float("nan"), *broken[EXCITATION].values[1:]]
+    dd.save_record(broken, tmp_path / "broken.nc")
+    with pytest.raises(DeodarError, match=r"broken\.nc: is damaged: the values of .* are not all finite"):
+        dd.analysis.RegimeMap.load(tmp_path / "broken.nc")
     dd.save_record(dd.simulate(line(31), 10), tmp_path / "run.nc")
     with pytest.raises(DeodarError, match="without a map"):
         dd.analysis.RegimeMap.load(tmp_path / "run.nc")
