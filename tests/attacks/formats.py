@@ -74,6 +74,7 @@ class _Watch:
     def __init__(self) -> None:
         self.seen: list[str] = []
         self.on = False
+        self.connects = False
         sys.addaudithook(self._note)
 
     def _note(self, event: str, arguments: tuple[Any, ...]) -> None:
@@ -81,7 +82,8 @@ class _Watch:
             return
         by_python = event == "subprocess.Popen" and str(arguments[0]) == sys.executable
         local = event == "socket.connect" and isinstance(arguments[1], str)
-        if (event in FOREIGN_CALLS and not by_python) or (event in CONNECTIONS and not local):
+        connects = event in CONNECTIONS and not local and not self.connects
+        if (event in FOREIGN_CALLS and not by_python) or connects:
             self.seen.append(f"{event}{arguments!r}"[:200])
 
 
@@ -181,7 +183,7 @@ def _child(home: str, reading: Reading, connection: Connection) -> None:
         kind, path = request
         memory, began = _Memory(), time.process_time()
         faulthandler.dump_traceback_later(reading.longest, file=stacks)
-        watch.on = True
+        watch.on, watch.connects = True, readers[kind].connects
         state, text = _answer(readers[kind].read, Path(path))
         watch.on = False
         faulthandler.cancel_dump_traceback_later()

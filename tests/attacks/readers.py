@@ -240,6 +240,7 @@ FORMATS: Mapping[str, Format] = {
             *_single_files("src/deodar_robots/robot/robots/*.json"),
         ],
         _world(dd.Robot),
+        connects=True,
     ),
     "arena": Format(
         lambda: _single_files(f"{OWN}/robots/layout.json", "src/deodar/worlds/arena/layouts/blocks.json"),

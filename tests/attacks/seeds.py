@@ -52,7 +52,9 @@ class Format:
     Attributes:
         seeds: sound files.
         read: what reads a file; its folder has the files beside it.
+        connects: whether a file may name an address, to which its reader connects.
     """
 
     seeds: Callable[[], list[Seed]]
     read: Callable[[Path], object]
+    connects: bool = False
