@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses as dc
 import math
+from collections import Counter
 from collections.abc import Callable, Collection, Generator, Iterable, Sequence
 from typing import Any, Literal, TypeVar
 
@@ -407,7 +408,7 @@ class _Resolver:
         if not self.per_axis(entry, node):
             return
         axes: Any = getattr(entry.element, "axes", ())
-        twice = sorted({a.name for a in axes if [b.name for b in axes].count(a.name) > 1})
+        twice = sorted(name for name, count in Counter(a.name for a in axes).items() if count > 1)
         if twice:
             self.problem(
                 node.id, f"two of its axes are called {twice[0]!r}", "Give each axis a name of its own"

@@ -13,6 +13,9 @@ from deodar.worlds._base import Signal
 
 CHANNELS = 3
 
+MOST_PIXELS = 100_000_000
+"""Largest number of pixels of a picture with the black beside it: 0.3 GB."""
+
 PICTURE = Signal("colour over two dimensions; the last axis is red, green, blue")
 """Signal of the sensor `picture` in all worlds that have one."""
 
@@ -77,6 +80,12 @@ def _resized(picture: Any, box: tuple[float, float, float, float], size: tuple[i
     pad = [int(np.ceil(max(0.0, -box[0]))) + 1, int(np.ceil(max(0.0, -box[1]))) + 1]
     wide = picture.width + pad[0] + int(np.ceil(max(0.0, box[2] - picture.width))) + 1
     high = picture.height + pad[1] + int(np.ceil(max(0.0, box[3] - picture.height))) + 1
+    if wide * high > MOST_PIXELS:
+        raise WorldError(
+            f"a picture of {picture.width} x {picture.height} pixels needs {wide} x {high} over these axes,"
+            f" more than {MOST_PIXELS:,}",
+            fix="Crop it, or give it fewer pixels",
+        )
     sheet = Image.new("RGB", (wide, high))
     sheet.paste(picture, (pad[0], pad[1]))
     moved = (box[0] + pad[0], box[1] + pad[1], box[2] + pad[0], box[3] + pad[1])

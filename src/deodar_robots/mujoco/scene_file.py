@@ -252,9 +252,13 @@ def _compiled(spec: Any, where: str) -> Any:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return spec.compile()
+            model = spec.compile()
+        bytes(model.names).decode()
+    except UnicodeDecodeError:
+        raise WorldError("has a name that is not UTF-8", where=where) from None
     except ValueError as error:
         raise WorldError(f"MuJoCo cannot build this scene: {first_line(error)}", where=where) from None
+    return model
 
 
 def _home(model: Any) -> dict[str, float]:

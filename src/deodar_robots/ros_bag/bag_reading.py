@@ -13,6 +13,9 @@ from deodar.errors import MissingExtra, WorldError, first_line
 KEY = "deodar"
 """Name of what deodar adds to the metadata of a bag."""
 
+LAST = 2**63
+"""Bound of the times of messages, ns: they are stored as 64 bits."""
+
 MOST_METADATA = 500_000
 """Largest number of bytes of metadata.yaml, which is parsed at about 0.2 MB/s (a guess, room for hundreds of
 topics)."""
@@ -57,6 +60,8 @@ def summary_of(path: str) -> BagSummary:
     with _opened(path) as reader:
         if not reader.message_count:
             raise WorldError("holds no message", path)
+        if not 0 <= reader.start_time <= reader.end_time <= LAST:
+            raise WorldError("its metadata.yaml states times that no clock has", path)
         custom = getattr(reader.storage.metadata, "custom", None) or {}
         return {
             "topics": [(c.topic, c.msgtype, c.digest or "", int(c.msgcount)) for c in reader.connections],

@@ -183,3 +183,10 @@ def test_a_grey_picture_of_another_form_has_its_own_white(tmp_path: Path, dtype:
     grey = np.linspace(0, 255, 12).reshape(3, 4)
     Image.fromarray((grey * factor).astype(dtype)).save(tmp_path / "grey.tiff")
     assert np.allclose(dd.Picture(tmp_path / "grey.tiff").pixels[:, :, 1], grey / 255, atol=1 / 255)
+
+
+def test_a_picture_that_is_too_long_for_its_axes_is_refused(tmp_path: Path) -> None:
+    Image.fromarray(np.zeros((2, 30_000, 3), np.uint8)).save(tmp_path / "line.png")
+    axes = tuple(dd.Axis(n, 0, 9, samples=k) for n, k in (("x", 10), ("y", 10), ("c", 3)))
+    with pytest.raises(WorldError, match=r"30000 x 2 pixels needs 3000\d x 3000\d over these axes"):
+        Picture(tmp_path / "line.png").sense("picture", axes, 0.0)

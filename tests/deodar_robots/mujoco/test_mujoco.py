@@ -232,6 +232,10 @@ def test_files_and_settings_with_errors_are_refused_by_name(tmp_path: Path, cart
     broken.write_text("<mujoco><worldbody><geom size='1'")
     with pytest.raises(WorldError, match=r"broken.xml: is not a valid MJCF file"):
         MuJoCo(broken)
+    text = '<mujoco><worldbody><geom name="LATIN" size="1"/></worldbody></mujoco>'
+    broken.write_bytes(text.encode().replace(b"LATIN", b"\xe5\xe5"))
+    with pytest.raises(WorldError, match=r"broken.xml: has a name that is not UTF-8"):
+        MuJoCo(broken)
     broken.write_text("<mujoco><worldbody><geom type='sphere' size='-1'/></worldbody></mujoco>")
     with pytest.raises(WorldError, match=r"broken.xml"):
         MuJoCo(broken)

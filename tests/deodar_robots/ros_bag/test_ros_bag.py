@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -159,6 +160,10 @@ def test_what_is_not_a_bag_is_named(tmp_path):
         metadata.write("# \n" * 200_000)
     with pytest.raises(WorldError, match=r"its metadata\.yaml has 600,\d+ bytes, more than 500,000"):
         dd.ROSBag(long)
+    late = bag(tmp_path / "late", counted(3)) / "metadata.yaml"
+    late.write_text(re.sub(r"nanoseconds: \d+", "nanoseconds: " + 400 * "9", late.read_text()))
+    with pytest.raises(WorldError, match=r"its metadata\.yaml states times that no clock has"):
+        dd.ROSBag(late.parent)
     only = bag(tmp_path / "words", [(0, "/chatter", WORD)])
     with pytest.raises(WorldError, match=r"no topic that a sensor reads.*/chatter \(std_msgs/msg/String\)"):
         dd.ROSBag(only)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from deodar.errors import WorldError
+from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.arena_layout import ArenaLayout, builtin, load
 
 ROOM: dict[str, Any] = {
@@ -163,3 +164,11 @@ def test_files_without_an_arena_are_refused(tmp_path: Path, text: str, says: str
 
 def test_a_layout_may_be_given_as_data() -> None:
     assert isinstance(load("z"), ArenaLayout) and load("z") == load("z")
+
+
+def test_an_arena_that_is_too_long_for_its_width_is_refused(tmp_path: Path) -> None:
+    longest = {"arena": {"x": [0, 1e12], "y": [0, 1]}, "walls": []}
+    layout = tmp_path / "long.json"
+    layout.write_text(json.dumps(longest))
+    with pytest.raises(WorldError, match=r"an arena of 1e\+12 x 1 is too long for its width"):
+        Arena(layout)
