@@ -133,6 +133,33 @@ class Disconnect(ProposedEdit):
 
 
 @dataclass(frozen=True)
+class SetSourcePort(ProposedEdit):
+    """Set which output port of its source a connection reads.
+
+    Attributes:
+        source: path of the output port that it reads.
+        target: path of its input port.
+        port: path of the output port that it will read.
+    """
+
+    source: str
+    target: str
+    port: str
+
+    def plain_data(self) -> dict[str, Any]:
+        """Return the edit as plain data."""
+        return {"connection": [self.source, self.target], "set": {"source": self.port}}
+
+    def at(self, place: Medium) -> str:
+        """Return what to write at a place."""
+        if place == "script":
+            gone = f"model.disconnect({self.source!r}, {self.target!r})"
+            return f"{gone} and model.connect({self.port!r}, {self.target!r})"
+        where = "in the file, " if place == "shell" else ""
+        return f"{where}connect {self.port} to {self.target} in place of {self.source}"
+
+
+@dataclass(frozen=True)
 class SetReads(ProposedEdit):
     """Set which instant a connection reads.
 

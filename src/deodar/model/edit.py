@@ -301,8 +301,21 @@ def disconnect(doc: Document, source: str, source_port: str, target: str, target
 
 def set_reads(doc: Document, ends: tuple[str, str, str, str], reads: str) -> Document:
     """Return a document in which a connection, given by its ends, reads another instant."""
+    return _reconnected(doc, ends, ends[1], reads)
+
+
+def set_source_port(doc: Document, ends: tuple[str, str, str, str], port: str) -> Document:
+    """Return a document in which a connection, given by its ends, reads another output port of its source."""
+    reads = [c.reads for c in doc.connections if c.ends == ends]
+    return _reconnected(doc, ends, port, *reads)
+
+
+def _reconnected(
+    doc: Document, ends: tuple[str, str, str, str], source_port: str, reads: str = ""
+) -> Document:
+    """Return a document with another connection between two elements, in the place of the one before."""
     source, target = (find.entry(doc, ident) for ident in (ends[0], ends[2]))
-    new = connect(disconnect(doc, *ends), source, ends[1], target, ends[3], reads).connections[-1]
+    new = connect(disconnect(doc, *ends), source, source_port, target, ends[3], reads).connections[-1]
     return dc.replace(doc, connections=tuple(new if c.ends == ends else c for c in doc.connections))
 
 

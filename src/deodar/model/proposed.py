@@ -19,6 +19,7 @@ from deodar.proposed_edit import (
     ProposedEdit,
     SetAxis,
     SetReads,
+    SetSourcePort,
     SetStep,
     SetValues,
 )
@@ -241,12 +242,15 @@ def apply(doc: Document, edits: Iterable[ProposedEdit]) -> Document:
                 doc = edit.disconnect(doc, *_ends(doc, proposed))
             case SetReads():
                 doc = edit.set_reads(doc, _ends(doc, proposed), proposed.reads)
+            case SetSourcePort():
+                _, port = find.port(doc, proposed.port)
+                doc = edit.set_source_port(doc, _ends(doc, proposed), port)
             case _:
                 raise TypeError(f"{type(proposed).__name__} is no edit of a document")
     return doc
 
 
-def _ends(doc: Document, proposed: Disconnect | SetReads) -> tuple[str, str, str, str]:
+def _ends(doc: Document, proposed: Disconnect | SetReads | SetSourcePort) -> tuple[str, str, str, str]:
     """Return the ends of the connection that an edit is about."""
     source, source_port = find.port(doc, proposed.source)
     target, target_port = find.port(doc, proposed.target, "")

@@ -36,6 +36,16 @@ def test_white_noise_is_reported_where_the_output_is_averaged_over_cells(element
         assert warned(noisy(element, quadrature=quadrature)) == []
 
 
+def test_noise_is_reported_behind_couplings_and_not_behind_another_field() -> None:
+    axes = [dd.Axis("x", 0, 3, samples=30, periodic=True)]
+    model = dd.Model("noisy")
+    u = model.add(dd.Field("u", axes, quadrature="cell"))
+    v = model.add(dd.Field("v", axes))
+    model.add(dd.Noise("near", axes, amplitude=0.5)) >> model.add(dd.Gain(2.0, name="gain")) >> u
+    model.add(dd.Noise("far", axes, amplitude=0.5)) >> v >> u
+    assert [problem.where.split()[0] for problem in warned(model)] == ["near"]
+
+
 def test_a_node_has_no_white_noise_in_space() -> None:
     model = dd.Model("node")
     model.add(dd.Field("u", [], noise=1.0, quadrature="cell"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterator
 
@@ -10,6 +11,7 @@ from deodar.elements.changing_stimuli import Noise
 from deodar.elements.field import Field
 from deodar.errors import Problem, assign
 from deodar.leaves import per_axis
+from deodar.model.resolve import reach
 from deodar.model.wiring import Wiring, warning
 from deodar.proposed_edit import rounded
 
@@ -18,8 +20,10 @@ def check(wiring: Wiring) -> Iterator[Problem]:
     """Check the noise of fields with means over cells, their own and that of sources: their results are meant
     to be those of a fine grid.
     """
-    fields = [n for n in wiring.declared if isinstance(n.element, Field) and n.element.quadrature == "cell"]
-    noisy = {m.id for n in fields for m in (n, *wiring.sources(n))}
+    fields = [
+        n.id for n in wiring.declared if isinstance(n.element, Field) and n.element.quadrature == "cell"
+    ]
+    noisy = reach(fields, functools.partial(_before, wiring))
     for n in wiring.declared:
         if n.id in noisy and (values := correlated(n.element)):
             sentence = (
@@ -28,6 +32,13 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             )
             advice = "Give it a length of one step, and the strength that keeps the integral of the noise"
             yield warning(n, sentence, assign(advice, values))
+
+
+def _before(wiring: Wiring, ident: str) -> list[str]:
+    """Return what a node reads, but not what another field does: its noise has an effect of its own."""
+    reads = wiring.nodes[ident].reads.values()
+    sources = [source for slots in reads for source, _, _ in slots]
+    return [source for source in sources if not isinstance(wiring.nodes[source].element, Field)]
 
 
 def correlated(element: Element) -> dict[str, float | tuple[float, ...]]:
