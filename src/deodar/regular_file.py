@@ -46,6 +46,13 @@ def refuse_special(path: str | os.PathLike[str], kind: type[DeodarError]) -> Non
         raise kind(f"is {SPECIAL}", where=os.fspath(path), fix=SAVE_FIRST)
 
 
+def is_file(path: str | os.PathLike[str]) -> bool:
+    """Return whether a path names a regular file; a name that the system refuses, such as one that is too
+    long, names none.
+    """
+    return os.path.isfile(path)
+
+
 def read_bytes(path: str | os.PathLike[str]) -> bytes:
     """Return the content of a file.
 

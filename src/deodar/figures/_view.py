@@ -167,6 +167,8 @@ class View:
     def times(self) -> np.ndarray:
         """Recorded times."""
         v, time = self.variable, self.time
+        if time in v.coords and not set(v[time].dims) <= {time}:
+            raise RecordError(f"has times along {', '.join(map(str, v[time].dims))}", where=self.name)
         if time not in v.dims:
             return np.asarray([float(v[time])]) if time in v.coords else np.zeros(1)
         return (

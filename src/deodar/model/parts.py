@@ -16,6 +16,9 @@ from deodar.parameters import FrozenArray, Parameter, Part, an, parameter, param
 from deodar.part_data import faulty_values
 from deodar.synonyms import synonym
 
+MOST_AXES = 64
+"""Largest number of axes of one part, the most that an array has."""
+
 
 def schema(cls: type[Any], reference: Callable[[type[Any]], Any]) -> dict[str, Any]:
     """Return the JSON Schema of a part; `reference(base)` returns the schema of the parts that are valid as
@@ -212,6 +215,9 @@ def _value(
                         f"Axes of the document: {', '.join(axes) or 'none'}",
                     )
                 )
+                return None
+            if len(keys) > MOST_AXES:
+                problems.append(Problem(where, f"{len(keys):,} axes, more than {MOST_AXES}"))
                 return None
             listed = [axes[k] for k in typing.cast("list[str]", keys)]
             return listed if p.form == "axes" else listed[0]

@@ -312,7 +312,7 @@ def source_of(name: int | str) -> CameraSource:
     if path.is_char_device():
         return CameraSource("device", name, str(path.absolute()))
     regular_file.refuse_special(path, WorldError)
-    if not path.is_file():
+    if not regular_file.is_file(path):
         fix = "Name a number such as 0, a device, a file, or an address: rtsp://HOST/PATH"
         raise WorldError("there is no such device or file", where=f"camera {name}", fix=fix)
     return CameraSource("file", name, str(path.absolute()))

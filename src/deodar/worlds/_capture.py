@@ -166,7 +166,7 @@ class VideoReader:
     def __init__(self, path: Path) -> None:
         self.pictures: int | None = None
         regular_file.refuse_special(path, WorldError)
-        if not path.is_file():
+        if not regular_file.is_file(path):
             raise WorldError(
                 "there is no such video",
                 where=str(path),

@@ -8,6 +8,7 @@ the first axis are beside each other. cedar writes six digits; deodar writes as 
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections import Counter
 from collections.abc import Iterator
@@ -85,7 +86,9 @@ def load_cedar(path: str | Path) -> xarray.Dataset:
             states the line.
     """
     path = Path(path)
-    files = [path] if path.is_file() else sorted(path.rglob("*.csv")) if path.is_dir() else []
+    files = (
+        [path] if regular_file.is_file(path) else sorted(path.rglob("*.csv")) if os.path.isdir(path) else []
+    )
     if not files:
         raise RecordError("is neither a CSV file nor a folder with some", where=str(path))
     found: dict[str, tuple[np.ndarray, np.ndarray]] = {}

@@ -233,7 +233,7 @@ def _format(path: Path) -> str:
     """Return what a file is, by its beginning, or raise WorldError if its ending says otherwise."""
     fix = "Name a recording (.aedat, .aedat4, or text with a line `t x y p` for each event) or a video"
     regular_file.refuse_special(path, WorldError)
-    if not path.is_file():  # reading a pipe would wait
+    if not regular_file.is_file(path):  # reading a pipe would wait
         raise WorldError("there is no such file", where=str(path), fix=fix)
     try:
         with regular_file.open_binary(path) as file:

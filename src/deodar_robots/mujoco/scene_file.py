@@ -125,7 +125,7 @@ def _path(given: str | Path, folder: Path, what: str) -> Path:
     if str(given) in builtin:
         return builtin[str(given)]
     path = Path(given)
-    if not path.is_file():
+    if not regular_file.is_file(path):
         raise WorldError(
             f"there is no such {what}",
             where=str(given),

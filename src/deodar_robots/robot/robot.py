@@ -12,7 +12,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from deodar import codec, registry
+from deodar import codec, registry, regular_file
 from deodar.codec import Json, JsonObject
 from deodar.credentials import masked, masked_data
 from deodar.errors import Problem, WorldError, did_you_mean
@@ -231,8 +231,9 @@ def _inside(name: str, value: Any, path: Path) -> Any:
         return value
     folder = path.resolve().parent
     named = folder / value
-    bag = (named / "metadata.yaml").is_file()  # a folder that is opened as one file
-    if any(mark in value for mark in ("/", "\\", "..")) or named.is_file() or bag:
+    # a folder with a bag is opened as one file
+    there = any(regular_file.is_file(file) for file in (named, named / "metadata.yaml"))
+    if there or any(mark in value for mark in ("/", "\\", "..")):
         if not named.resolve().is_relative_to(folder):
             raise WorldError(
                 f"{name} is {show(masked(value))}, outside the folder of the robot's file", where=str(path)

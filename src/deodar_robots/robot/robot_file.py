@@ -149,7 +149,7 @@ def found(text: str) -> Path:
     """
     path, known = Path(text), shipped()
     for candidate in (path, Path("robots", text), Path("robots", f"{text}.json")):
-        if candidate.is_file():
+        if regular_file.is_file(candidate):
             return candidate
     stem = text.removesuffix(".json")
     if stem in known:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import os
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping
@@ -70,7 +71,7 @@ def content(path: Path) -> BagContent:
         WorldError: it is not a bag, is damaged, or holds no message.
     """
     require_package()
-    if not path.exists():
+    if not os.path.exists(path):  # False for a name that is too long
         raise WorldError("there is no such bag", str(path), "Name the folder that holds metadata.yaml")
     summary = GuardedFile(WorldError, str(path)).call(summary_of, str(path))
     topics = {name: BagTopic(kind, digest, count) for name, kind, digest, count in summary["topics"]}

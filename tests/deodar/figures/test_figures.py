@@ -9,6 +9,7 @@ import pytest
 import xarray
 
 import deodar as dd
+from deodar.errors import RecordError
 from deodar.figures import projection, snapshot, snapshots, space_time, time_course
 from deodar.figures._color import scale
 from deodar.figures._panels import choose
@@ -145,3 +146,11 @@ def test_a_time_or_trial_that_was_not_recorded_is_refused(
 ) -> None:
     with pytest.raises(dd.errors.RecordError, match=says):
         kind(recorded["u.activation"], **options)
+
+
+def test_times_along_another_dimension_are_refused() -> None:
+    variable = xarray.DataArray(
+        np.zeros(4), {"time": ("place", np.arange(4.0))}, "place", name="u.activation"
+    )
+    with pytest.raises(RecordError, match=r"u\.activation: has times along place"):
+        View(variable)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
+import deodar as dd
 from deodar.errors import DocumentError
 from deodar.model import document_files
-from deodar.model.reader import MOST_ENTRIES, MOST_LISTED, MOST_PROBLEMS
+from deodar.model.reader import MOST_ENTRIES, MOST_LISTED, MOST_PROBLEMS, from_data
 
 
 @pytest.mark.parametrize("wrong", [MOST_PROBLEMS - 1, MOST_PROBLEMS, MOST_PROBLEMS + 1, 5000])
@@ -96,3 +99,12 @@ def test_a_thousand_problems_are_listed(content: dict[str, object]) -> None:
         document_files.from_data({"deodar": 3, "elements": {}, **content}, {})
     assert len(caught.value.problems) == MOST_LISTED + 1
     assert caught.value.problems[-1].what.startswith("has more than 1,000 problems")
+
+
+def test_an_element_has_no_more_axes_than_an_array() -> None:
+    model = dd.Model("m")
+    model.add(dd.Field("u", [dd.Axis("x", 0, 1, samples=2)]))
+    data = json.loads(model.to_json())
+    data["elements"]["u"]["axes"] *= 65
+    with pytest.raises(DocumentError, match=r"u\.axes: 65 axes, more than 64"):
+        from_data(data, {})

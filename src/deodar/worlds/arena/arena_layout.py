@@ -147,7 +147,7 @@ def load(source: LayoutSource) -> ArenaLayout:
     if str(source) in layouts:
         return _layout(layouts[str(source)], str(source))
     file, _, name = str(source).partition("#")
-    if not Path(file).is_file():
+    if not regular_file.is_file(file):
         hint = did_you_mean(str(source), layouts) + ". Or name a .json file" if layouts else ""
         raise WorldError(
             "there is no arena and no file of this name", where=str(source), fix=hint.replace("?.", "?")
