@@ -3,7 +3,7 @@ benchmarks/resolution.py [--quick]`.
 
 `python benchmarks/resolution.py cost` prints how much longer a step takes with `cell`. `python
 benchmarks/resolution.py edges` prints the error of the boost that erases a memory over the steepness of the
-peak's edge, which is what `deodar check` estimates.
+peak's edge: the table `src/deodar/model/checks/grid_errors.csv`, with which `deodar check` compares a field.
 
 A field with a memory over 100 degrees (kernel of width 5, integral 18) and one over a torus of 60 x 60
 (integral 22), on grids of 2.5 samples a kernel width and more. Three things are measured: the boost at which
@@ -35,6 +35,12 @@ MADE, HELD = 400, 3000
 """Times in ms: how long the input is there, and how long a memory is then held."""
 SIGMOIDS: dict[str, SigmoidFunction] = {"logistic, beta 4": dd.Logistic(4.0), "step": Step()}
 LENGTH, NOISE = {1: 100.0, 2: 60.0}, {1: 0.5, 2: 1.0}
+STEEPNESSES = (2.0, 4.0, 8.0, 20.0, 100.0)
+WIDTHS = {1: (1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0), 2: (1.5, 2.0, 2.5, 3.0, 4.0, 5.0)}
+REFERENCE, FINE = {1: 10.0, 2: 6.0}, 5e-4
+"""Of the errors over the steepness of an edge: beta, samples a kernel width, those of the reference, and how
+exactly a boost is found.
+"""
 GRIDS = {1: (51, 101, 201, 501), 2: (31, 61, 121)}
 
 
@@ -120,30 +126,34 @@ def amari() -> float:
     return float(5 - np.max(excitation - 0.3 * widths[::10]))
 
 
-def edges() -> None:
-    """The error of the boost that erases a memory, with sums over points, over beta times the change of
-    activation over a sample at its edge.
+def edges(dimensions: int) -> None:
+    """The error of the boost that erases a memory, in percent, over beta times the change of activation from
+    sample to sample at its edge, for both quadratures.
 
-    The memory lies on a sample, and between two of them: the larger error of both counts. A grid of 20
-    samples a kernel width is the reference.
+    The memory lies on a sample, and between two of them along each axis: the larger error counts. The
+    reference is `cell` on a grid of 10 samples a kernel width (6 over two axes).
     """
-    print(f"{'beta':>6}{'samples a width':>17}{'steepness':>11}{'boost':>10}{'error':>9}")
-    for beta in (2.0, 4.0, 8.0):
-        exact = forgetting(1, 401, dd.Logistic(beta), "cell")
-        for samples in (51, 76, 101, 126, 151, 201):
-            u = memory(1, samples, dd.Logistic(beta), "point")["u"].element
+
+    def samples(width: float) -> int:
+        return round(LENGTH[dimensions] / 5 * width) + 1
+
+    for beta in STEEPNESSES:
+        g = dd.Logistic(beta)
+        exact = forgetting(dimensions, samples(REFERENCE[dimensions]), g, "cell", FINE)
+        for width in WIDTHS[dimensions]:
+            u = memory(dimensions, samples(width), g, "point")["u"].element
             assert isinstance(u, dd.Field)
-            (steep,), step = steepness(u), LENGTH[1] / (samples - 1)
-            if 2.5 < steep < 15:
-                boosts = [
-                    forgetting(1, samples, dd.Logistic(beta), "point", center=50 + share * step)
-                    for share in (0.0, 0.5)
+            cells = [f"{dimensions},{beta:g},{width:g},{max(steepness(u)):.2f}"]
+            for quadrature in ("point", "cell"):
+                errors = [
+                    100
+                    * abs(
+                        forgetting(dimensions, samples(width), g, quadrature, FINE, center=place) / exact - 1
+                    )
+                    for place in (LENGTH[dimensions] / 2 + share * 5 / width for share in (0.0, 0.5))
                 ]
-                worst = max(boosts, key=lambda boost: abs(boost - exact))
-                print(
-                    f"{beta:6g}{5 / step:17.4g}{steep:11.2f}{worst:10.4f}{abs(worst / exact - 1):9.1%}",
-                    flush=True,
-                )
+                cells.append(f"{max(0.1, *errors):.1f}")
+            print(",".join(cells), flush=True)
 
 
 def cost(rounds: int, seconds: float) -> None:
@@ -259,8 +269,13 @@ def main() -> int:
     parser.add_argument("--dimensions", type=int, choices=(1, 2), help="one of them alone")
     given = parser.parse_args()
     began = time.time()
-    if given.what != "behaviour":
-        cost(given.rounds, given.seconds) if given.what == "cost" else edges()
+    if given.what == "edges":
+        print("axes,beta,samples_a_width,edge,point,cell")
+        for dimensions in (given.dimensions,) if given.dimensions else (1, 2):
+            edges(dimensions)
+        return 0
+    if given.what == "cost":
+        cost(given.rounds, given.seconds)
         print(f"\n{time.time() - began:.0f} s; deodar {dd.__version__}, single precision")
         return 0
     trials = 400 if given.quick else given.trials

@@ -232,8 +232,8 @@ def _inside(name: str, value: Any, path: Path) -> Any:
     folder = path.resolve().parent
     named = folder / value
     # a folder with a bag is opened as one file
-    there = any(regular_file.is_file(file) for file in (named, named / "metadata.yaml"))
-    if there or any(mark in value for mark in ("/", "\\", "..")):
+    names_file = any(regular_file.is_file(file) for file in (named, named / "metadata.yaml"))
+    if names_file or any(mark in value for mark in ("/", "\\", "..")):
         if not named.resolve().is_relative_to(folder):
             raise WorldError(
                 f"{name} is {show(masked(value))}, outside the folder of the robot's file", where=str(path)

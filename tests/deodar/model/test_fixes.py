@@ -74,6 +74,36 @@ def _white(of_field: bool) -> dd.Model:
     return model
 
 
+def _memory(samples: int, beta: float, quadrature: str) -> dd.Model:
+    """Return a field that holds peaks without input, on a grid."""
+    axes, kernel = [dd.Axis("x", 0, 100, samples)], [dd.Gaussian(18, 5, normalized=True)]
+    model = dd.Model("m")
+    u = model.add(
+        dd.Field(
+            "u",
+            axes,
+            sigmoid=dd.Logistic(beta),
+            kernel=kernel,
+            global_inhibition=0.3,
+            quadrature=quadrature,
+        )
+    )
+    model.add(dd.GaussianStimulus("s", axes, center=50, sigma=6, amplitude=8, windows=[(100, 400)])) >> u
+    return model
+
+
+def _rated() -> dd.Model:
+    """Return a field with cells whose output reaches a memory trace through two couplings."""
+    model = _memory(401, 4.0, "cell")
+    (
+        model["u"]
+        >> dd.Gain(1.0, name="gain")
+        >> dd.Sum(name="sum")
+        >> model.add(dd.MemoryTrace("trace", model["u"].element.axes))
+    )
+    return model
+
+
 FURTHER = {
     "on without any input": _model(dd.Field("u", [X], resting_level=5, global_inhibition=1)),
     "below the rounding": _model(dd.Field("u", [X], tau=1e9)),
@@ -81,6 +111,10 @@ FURTHER = {
     "two grids": _two_grids(),
     "white noise over cells": _white(True),
     "white noise of an element": _white(False),
+    "a rate through couplings": _rated(),
+    "a line that is a little coarse": _memory(101, 4.0, "point"),
+    "a coarse line": _memory(51, 4.0, "point"),
+    "few samples for cells": _memory(25, 2.0, "cell"),
     "a hat of equal widths": _model(dd.Field("u", [X], kernel=[dd.MexicanHat(10, 5, 4, 5)])),
 }
 CASES = [case for group in KINDS.values() for case in group["cases"]]

@@ -104,7 +104,7 @@ def test_a_thousand_problems_are_listed(content: dict[str, object]) -> None:
 def test_an_element_has_no_more_axes_than_an_array() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [dd.Axis("x", 0, 1, samples=2)]))
-    data = json.loads(model.to_json())
-    data["elements"]["u"]["axes"] *= 65
+    document = json.loads(model.to_json())
+    document["elements"]["u"]["axes"] *= 65
     with pytest.raises(DocumentError, match=r"u\.axes: 65 axes, more than 64"):
-        from_data(data, {})
+        from_data(document, {})

@@ -1,11 +1,17 @@
-"""The warning about memories whose edges are narrower than a sample."""
+"""The warning about memories on coarse grids, and its stored table."""
 
 from __future__ import annotations
+
+import math
+import re
 
 import pytest
 
 import deodar as dd
-from deodar.model.checks.resolution import STEEP, steepness
+from deodar.errors import Problem
+from deodar.model.check import check
+from deodar.model.checks._grid_errors import largest_edge, percent
+from deodar.model.checks.resolution import CHEAPER, MOST, steepness
 from deodar.numerics.sigmoids import Absolute, Linear, Step
 
 
@@ -24,28 +30,74 @@ def memory(
     return model
 
 
-def warned(model: dd.Model) -> list[str]:
-    return [f"{p.what} {p.fix}" for p in model.check() if "narrower than a sample" in p.what]
+def warned(model: dd.Model) -> list[Problem]:
+    return [p for p in check(model.document) if "its grid is coarse" in p.what]
+
+
+def samples(model: dd.Model) -> int:
+    (axis,) = model["u"].element.axes  # type: ignore[attr-defined]
+    return axis.samples
 
 
 @pytest.mark.parametrize(("dimensions", "strength"), [(1, 18), (2, 22)])
-def test_a_memory_on_a_coarse_grid_gets_a_warning_with_the_line_to_type(
-    dimensions: int, strength: float
-) -> None:
+def test_a_memory_on_a_coarse_grid_gets_a_warning_with_its_error(dimensions: int, strength: float) -> None:
     (problem,) = warned(memory(dimensions=dimensions, strength=strength, samples=51))
-    assert 'model.set("u.quadrature", "cell")' in problem and "samples=" in problem and "'x'" in problem
+    assert re.search(r"thresholds are (probably \d+ %|more than 50 %) off", problem.what)
+    assert "peaks stick to samples" in problem.what
+    assert "quadrature" in problem.fix and "samples=" in problem.fix and "'x'" in problem.fix + problem.what
 
 
-def test_the_suggested_fix_removes_the_warning() -> None:
-    for sigmoid in (dd.Logistic(4), dd.Logistic(30), Absolute(10)):
-        (problem,) = warned(memory(sigmoid=sigmoid))
-        assert warned(memory(sigmoid=sigmoid, quadrature="cell")) == []
-        assert warned(memory(sigmoid=sigmoid, samples=int(problem.split("samples=")[1].split()[0]))) == []
+@pytest.mark.parametrize("count", [81, 101, 121])
+@pytest.mark.parametrize("sigmoid", [dd.Logistic(4), dd.Logistic(8), Absolute(2)])
+def test_the_cheaper_fix_removes_the_warning(sigmoid: object, count: int) -> None:
+    model = memory(samples=count, sigmoid=sigmoid)
+    (problem,) = warned(model)
+    model.apply_fix(model.check()[0])
+    assert warned(model) == []
+    u = model["u"].element
+    assert isinstance(u, dd.Field)
+    if u.quadrature == "cell":
+        needed = int(problem.fix.split("samples=")[1].split()[0])
+        assert samples(model) == count and needed > CHEAPER[0] * count
+        assert warned(memory(samples=needed, sigmoid=sigmoid)) == []
+    else:
+        assert count < samples(model) <= math.ceil(CHEAPER[0] * count)
 
 
-def test_for_a_step_sigmoid_the_warning_suggests_no_number_of_samples() -> None:
-    (problem,) = warned(memory(sigmoid=Step(), samples=4001))
-    assert 'model.set("u.quadrature", "cell")' in problem and "samples=" not in problem
+def test_too_few_samples_for_means_over_cells_are_reported_too() -> None:
+    model = memory(samples=25, sigmoid=dd.Logistic(2), quadrature="cell")
+    (problem,) = warned(model)
+    assert "stick" not in problem.what
+    model.apply_fix(model.check()[0])
+    assert warned(model) == [] and 25 < samples(model) < 51
+
+
+def test_for_a_step_the_error_falls_with_the_step_of_the_grid_and_cells_are_proposed() -> None:
+    errors = []
+    for count in (501, 1001, 2001):
+        (problem,) = warned(memory(sigmoid=Step(), samples=count))
+        errors.append(float(re.search(r"probably ([\d.]+) %", problem.what)[1]))  # type: ignore[index]
+    assert errors[0] > 1.8 * errors[1] > 3 * errors[2] > 3
+    (problem,) = warned(memory(sigmoid=Step()))
+    assert 'quadrature = "cell"' in problem.fix_at("page") and "samples=" not in problem.fix
+
+
+def test_the_fix_of_a_line_that_others_share_gives_all_of_them_more_samples() -> None:
+    model = memory(samples=121)
+    model["u"] >> model.add(dd.Field("v", model["u"].element.axes))  # type: ignore[attr-defined]
+    model.apply_fix(next(p for p in model.check() if "its grid is coarse" in p.what))
+    assert len({e.element.axes[0].samples for e in model.document.entries}) == 1  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("axes", [1, 2, 3])
+@pytest.mark.parametrize("steepness_", [10.0, 20.0, 200.0])
+def test_the_error_of_the_table_grows_with_the_step(axes: int, steepness_: float) -> None:
+    edge = largest_edge("point", axes, steepness_, MOST)
+    assert percent("point", axes, steepness_, edge) == pytest.approx(MOST, rel=0.01)
+    assert (
+        percent("point", axes, steepness_, edge / 2) < MOST < percent("point", axes, steepness_, 1.2 * edge)
+    )
+    assert percent("cell", axes, steepness_, 2 * edge) < percent("point", axes, steepness_, 2 * edge)
 
 
 @pytest.mark.parametrize(
@@ -66,12 +118,9 @@ def test_fields_on_fine_grids_or_without_memory_get_no_warning(model: dd.Model) 
 
 def test_the_estimate_is_the_slope_of_amaris_peak() -> None:
     """On a line with a step: width w with 9 erf(w / (5 sqrt 2)) - 0.3 w = 5, slope k(0) - k(w)."""
-    import math
-
     low, high = 8.0, 40.0  # the excitation grows slower than the inhibition between them
     while high - low > 1e-9:
         w = (low + high) / 2
         low, high = (w, high) if 9 * math.erf(w / (5 * math.sqrt(2))) - 0.3 * w > 5 else (low, w)
     slope = 18 / (5 * math.sqrt(2 * math.pi)) * (1 - math.exp(-0.5 * (w / 5) ** 2))
     assert steepness(memory()["u"].element) == pytest.approx([4 * slope], rel=0.01)
-    assert steepness(memory(samples=201)["u"].element)[0] < STEEP < steepness(memory()["u"].element)[0]

@@ -14,6 +14,7 @@ from deodar.elements.field import Field
 from deodar.elements.memories import MemoryTrace
 from deodar.elements.populations import RateNode
 from deodar.errors import EditFix, Problem, assign, joined
+from deodar.model.checks.resolution import fix_with_cells
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import cell
@@ -42,8 +43,11 @@ UNREACHED = "Make its input stronger"
 def check(wiring: Wiring) -> Iterator[Problem]:
     """Report fields that are never or always on, and thresholds that no signal reaches."""
     for n in wiring.declared:
-        if isinstance(n.element, (Field, RateNode)) and not isinstance(n.element.sigmoid, Linear):
-            yield from _field(wiring, n, n.element)
+        e = n.element
+        if isinstance(e, (Field, RateNode)) and not isinstance(e.sigmoid, Linear):
+            for problem in _field(wiring, n, e):
+                fix = fix_with_cells(e, problem.fix) if isinstance(e, Field) else problem.fix
+                yield dc.replace(problem, fix=fix)
         else:
             yield from _waiting(wiring, n)
 

@@ -8,14 +8,14 @@ from typing import Any
 from deodar.elements.field import Field
 from deodar.errors import EditFix, Problem, assign
 from deodar.leaves import one_axis, per_axis, with_entry
-from deodar.model.checks.resolution import with_cells
+from deodar.model.checks.resolution import fix_with_cells
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import Axes
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.separable import Gaussian, MexicanHat, Shifted
 from deodar.parameters import parameters
-from deodar.proposed_edit import SetValues, rounded
+from deodar.proposed_edit import rounded
 
 Fault = tuple[str, str]
 """What is wrong with a kernel, and what to write."""
@@ -56,11 +56,8 @@ def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
     element_axes: Any = getattr(n.element, "axes", None)
     axes = tuple(element_axes) if element_axes is not None else n.ins.get("input", ())
     for fault, fix in _faults(where, kernel, axes):
-        if isinstance(n.element, Field) and isinstance(fix, EditFix):
-            values = {
-                path: number for e in fix.edits if isinstance(e, SetValues) for path, number in e.values
-            }
-            fix = assign(fix.advice, with_cells(n.element, values), fix.otherwise)
+        if isinstance(n.element, Field):
+            fix = fix_with_cells(n.element, fix)
         yield warning(n, f"{where}: {fault}", fix)
 
 

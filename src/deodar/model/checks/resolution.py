@@ -1,27 +1,34 @@
-"""Memories whose edges are narrower than a sample, where sums over points depend on the grid."""
+"""Memories on coarse grids, on which their thresholds depend."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from deodar.elements.field import Field
-from deodar.errors import DeodarError, Problem, assign
+from deodar.errors import DeodarError, EditFix, Problem, assign
 from deodar.leaves import per_axis, replace
+from deodar.model import document_files
+from deodar.model.checks._grid_errors import QUADRATURES, REST, STEEPEST, largest_edge, percent
 from deodar.model.checks.noise import correlated
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.separable import Gaussian, MexicanHat, TruncatedGaussian
 from deodar.numerics.sigmoids import Absolute, Logistic, Step
-from deodar.proposed_edit import EditValue
+from deodar.proposed_edit import EditValue, SetAxis, SetValues
 
-STEEP, STEEP_BEYOND = 5.0, 10.0
-"""Change of beta u over one sample at the edge of a peak from which sums over points depend on the grid: over
-one axis, and over several, where edges cross samples at different positions. Measured by the boost that
-erases a memory: on a line it is 3 % to 14 % off at 5.5 and below 1 % off at 3.7 (`python
-benchmarks/resolution.py edges`), on a plane 5 % off at 14 and 1.5 % at 7 (`--dimensions 2`).
+MOST = 1.0
+"""Error of thresholds in percent up to which a grid is fine."""
+
+MOST_FINER = 10.0
+"""How many times the samples are proposed at most (a guess)."""
+
+CHEAPER = (2.0, 1.6, 1.3)
+"""How many times the samples along each of one, two or more axes cost less than means over cells: over one
+axis twice the samples take 1.3 to 1.9 times as long and cells 1.8 to 1.9, over two axes 1.6 times the samples
+take 2.6 times as long and cells 2.8 to 2.9 (docs/resolution.md); over more axes cells were not timed.
 """
 
 WIDTHS = np.linspace(0.05, 12.0, 240)
@@ -35,32 +42,61 @@ _erf = np.vectorize(math.erf, otypes=[float])
 
 def check(wiring: Wiring) -> Iterator[Problem]:
     """Check fields with Gaussian kernels of their own that hold peaks without input."""
+    keys = document_files.axes(wiring.doc)
     for n in wiring.declared:
         e = n.element
-        if not isinstance(e, Field) or not (steep := _steep(e)):
+        if not isinstance(e, Field) or (error := _error(e)) <= MOST:
             continue
-        limit = _limit(e)
-        most, at = max(steep, key=lambda pair: pair[0])
-        finite = math.isfinite(most)
-        edge = (
-            f"from sample to sample of {at.name!r} beta times activation changes by {most:.2g}"
-            if finite
+        edges = steepness(e)
+        most, at = max(zip(edges, e.axes, strict=True), key=lambda pair: pair[0])
+        step = isinstance(e.sigmoid, Step)
+        reason = (
+            f"from sample to sample of {at.name!r} beta times activation changes by {most:.2g} at their edge"
+            if not step
             else "its sigmoid is a step"
         )
+        stick = "peaks stick to samples, and " if e.quadrature == "point" else ""
+        size = f"probably {error:.{0 if error >= 10 else 1}f} %" if error < 50 else "more than 50 %"
         sentence = (
-            f"holds peaks without input whose edges are narrower than a sample ({edge}): peaks stick to"
-            " samples, and thresholds depend on the grid"
+            f"its grid is coarse for peaks that it holds without input ({reason}):"
+            f" {stick}thresholds are {size} off"
         )
-        finer = (
-            " and ".join(
-                f"samples={math.ceil(axis.samples * s / limit)} on {axis.name!r}" for s, axis in steep
-            )
-            if finite
-            else ""
-        )
-        advice = "Average the output over cells"
-        cells = {"quadrature": "cell", **correlated(e)}
-        yield warning(n, sentence, assign(advice, cells, f"Or write {finer}" if finer else ""))
+        yield warning(n, sentence, _finer(e, edges, keys))
+
+
+def _finer(field: Field, edges: Sequence[float], keys: Mapping[str, Axis]) -> EditFix:
+    """Return the fix: the cheaper of more samples and means over cells, and the other one as text."""
+    most = largest_edge(field.quadrature, len(edges), _sharpness(field), MOST)
+    shares = [edge / most if most else math.inf for edge in edges]
+    samples = [
+        (axis, math.ceil(axis.samples * share))
+        for axis, share in zip(field.axes, shares, strict=True)
+        if 1 < share < math.inf
+    ]
+    lines = " and ".join(f"samples={count} on {axis.name!r}" for axis, count in samples)
+    if max(shares) > MOST_FINER:
+        lines = ""
+    if field.quadrature == "cell" or max(shares) <= CHEAPER[min(len(edges), len(CHEAPER)) - 1]:
+        edits = [
+            SetAxis(key, (("samples", count),))
+            for axis, count in samples
+            for key, other in keys.items()
+            if other == axis
+        ]
+        cells = "" if field.quadrature == "cell" else 'Or write quadrature="cell", which costs more here'
+        return EditFix("Use more samples", edits, cells)
+    values = {"quadrature": "cell", **correlated(field)}
+    return assign("Average the output over cells", values, f"Or write {lines}" if lines else "")
+
+
+def fix_with_cells(field: Field, fix: str) -> str:
+    """Return a fix with new values of a field, and with the mean over cells where its peaks need it then."""
+    if not isinstance(fix, EditFix) or not all(
+        isinstance(e, SetValues) and e.element is None for e in fix.edits
+    ):
+        return fix
+    values = {path: number for e in fix.edits if isinstance(e, SetValues) for path, number in e.values}
+    return assign(fix.advice, with_cells(field, values), fix.otherwise)
 
 
 def with_cells(field: Field, values: Mapping[str, EditValue]) -> dict[str, EditValue]:
@@ -74,19 +110,22 @@ def with_cells(field: Field, values: Mapping[str, EditValue]) -> dict[str, EditV
             new = replace(new, path, setting)
     except DeodarError:  # the fix with these values states the reason
         return dict(values)
-    return {**values, "quadrature": "cell", **correlated(new)} if _steep(new) else dict(values)
+    if new.quadrature != "point" or _error(new) <= MOST:
+        return dict(values)
+    return {**values, "quadrature": "cell", **correlated(new)}
 
 
-def _limit(field: Field) -> float:
-    return STEEP if len(field.axes) == 1 else STEEP_BEYOND
+def _error(field: Field) -> float:
+    """Return the probable error of thresholds in percent; 0 where it is not known."""
+    if field.quadrature not in QUADRATURES or not (edges := steepness(field)):
+        return 0.0
+    return percent(field.quadrature, len(edges), _sharpness(field), max(edges))
 
 
-def _steep(field: Field) -> list[tuple[float, Axis]]:
-    """Return the steepness along each axis on which the edges of peaks are narrower than a sample."""
-    if not field.axes or field.quadrature != "point":
-        return []
-    pairs = zip(steepness(field), field.axes, strict=False)
-    return [(s, axis) for s, axis in pairs if s > _limit(field)]
+def _sharpness(field: Field) -> float:
+    """Return beta times the distance of the resting level from the threshold."""
+    distance = getattr(field.sigmoid, "threshold", 0.0) - field.resting_level
+    return _beta(field) * distance if distance > 0 else 0.0
 
 
 def steepness(field: Field) -> list[float]:
@@ -105,7 +144,7 @@ def steepness(field: Field) -> list[float]:
     """
     axes, terms, beta = tuple(field.axes), _terms(field), _beta(field)
     main = max(terms, key=lambda t: t[0], default=(0.0, []))
-    if main[0] <= 0 or beta <= 0:
+    if not axes or main[0] <= 0 or beta <= 0:
         return []
     wide = [np.minimum(WIDTHS * s, a.range) for s, a in zip(main[1], axes, strict=True)]
     threshold: float = getattr(field.sigmoid, "threshold", 0.0)
@@ -128,19 +167,18 @@ def steepness(field: Field) -> list[float]:
 
 
 def _beta(field: Field) -> float:
-    """Return four times the steepest slope of a sigmoid that saturates (the beta of a logistic one); else
-    0.
+    """Return four times the steepest slope of a sigmoid that saturates, which is the beta of a logistic one;
+    for a step that of the steepest sigmoid of the table; else 0.
     """
-    g = field.sigmoid
-    return (
-        g.beta
-        if isinstance(g, Logistic)
-        else 2 * g.beta
-        if isinstance(g, Absolute)
-        else math.inf
-        if isinstance(g, Step)
-        else 0.0
-    )
+    match field.sigmoid:
+        case Logistic(beta=beta):
+            return beta
+        case Absolute(beta=beta):
+            return 2 * beta
+        case Step(threshold=threshold):
+            return STEEPEST * REST / max(threshold - field.resting_level, 1e-3)
+        case _:
+            return 0.0
 
 
 def _terms(field: Field) -> list[tuple[float, list[float]]]:
