@@ -5,6 +5,9 @@ benchmarks/resolution.py [--quick]`.
 benchmarks/resolution.py edges` prints the error of the boost that erases a memory over the steepness of the
 peak's edge: the table `src/deodar/model/checks/grid_errors.csv`, with which `deodar check` compares a field.
 
+`python benchmarks/resolution.py peaks` prints the error of the output of a peak with input, also for two
+kernels, a sigmoid that is linear above its threshold, and three axes.
+
 A field with a memory over 100 degrees (kernel of width 5, integral 18) and one over a torus of 60 x 60
 (integral 22), on grids of 2.5 samples a kernel width and more. Three things are measured: the boost at which
 a memory is forgotten, how far memories drift under white noise, and how far from their inputs they come to
@@ -20,6 +23,7 @@ import os
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 os.environ.setdefault("NPROC", "1")
@@ -29,7 +33,7 @@ import numpy as np
 import deodar as dd
 from deodar.elements.stimuli import Boost
 from deodar.model.checks.resolution import steepness
-from deodar.numerics.sigmoids import SigmoidFunction, Step
+from deodar.numerics.sigmoids import SemiLinear, SigmoidFunction, Step
 
 MADE, HELD = 400, 3000
 """Times in ms: how long the input is there, and how long a memory is then held."""
@@ -156,6 +160,74 @@ def edges(dimensions: int) -> None:
             print(",".join(cells), flush=True)
 
 
+@dataclass(frozen=True)
+class DrivenField:
+    """A field whose peak is held by its input.
+
+    Attributes:
+        dimensions: number of axes.
+        sigmoid: its output function.
+        kernel: integral and width of each Gaussian.
+        inhibition: global inhibition.
+        fine: samples a kernel width of the reference.
+    """
+
+    dimensions: int
+    sigmoid: SigmoidFunction
+    kernel: tuple[tuple[float, float], ...] = ((12.0, 5.0),)
+    inhibition: float = 0.3
+    fine: float = 10.0
+
+    def output(self, width: float, quadrature: str, share: float) -> float:
+        """Return the integral of the output over the axes; `share` is the distance of the input
+        from a sample of a grid of 2.5 samples a kernel width, in samples.
+        """
+        length = {1: 100.0, 2: 60.0, 3: 40.0}[self.dimensions]
+        axes = [
+            dd.Axis(n, 0, length, samples=round(length / 5 * width), periodic=True)
+            for n in "xyz"[: self.dimensions]
+        ]
+        u = dd.Field(
+            "u",
+            axes,
+            tau=20,
+            sigmoid=self.sigmoid,
+            kernel=[dd.Gaussian(a, s, normalized=True) for a, s in self.kernel],
+            global_inhibition=self.inhibition,
+            quadrature=quadrature,
+        )
+        model = dd.Model("peak", dt=4.0)
+        center = [length / 2 + share * 2.0] * self.dimensions
+        model.add(dd.GaussianStimulus("input", axes, center=center, sigma=5, amplitude=9)) >> model.add(u)
+        record = dd.simulate(model, 1200, record="u.output", every=1200.0, on=dd.Resources(progress=False))
+        return float(record["u.output"].values[-1].sum(dtype=float)) * math.prod(a.step for a in axes)
+
+
+DRIVEN_FIELDS = {
+    "logistic of beta 4": DrivenField(1, dd.Logistic(4.0)),
+    "two kernels": DrivenField(1, dd.Logistic(4.0), ((34.0, 5.0), (-20.0, 9.0)), 0.05),
+    "SemiLinear": DrivenField(1, SemiLinear(slope=0.2), ((4.0, 5.0),)),
+    "step": DrivenField(1, Step()),
+    "step, two axes": DrivenField(2, Step(), inhibition=0.01, fine=6.0),
+    "logistic of beta 4, three axes": DrivenField(3, dd.Logistic(4.0), inhibition=0.0005, fine=6.0),
+    "step, three axes": DrivenField(3, Step(), inhibition=0.0005, fine=6.0),
+}
+
+
+def peaks() -> None:
+    """The error, in percent, of the integral of the output of a peak on 2.5 samples a kernel width, for an
+    input on a sample and one between two along each axis.
+    """
+    print("| field | point | cell |\n|---|---|---|")
+    for name, field in DRIVEN_FIELDS.items():
+        exact = field.output(field.fine, "cell", 0.0)
+        errors = [
+            ", ".join(f"{100 * (field.output(2.5, rule, share) / exact - 1):.2f}" for share in (0.0, 0.5))
+            for rule in ("point", "cell")
+        ]
+        print(f"| {name} | {' | '.join(errors)} |", flush=True)
+
+
 def cost(rounds: int, seconds: float) -> None:
     """How much longer a step takes with `cell`: pairs of runs in turn, CPU time on one core, the median of
     their ratios and its quartiles.
@@ -249,7 +321,7 @@ def main() -> int:
     parser.add_argument(
         "what",
         nargs="?",
-        choices=("behaviour", "cost", "edges"),
+        choices=("behaviour", "cost", "edges", "peaks"),
         default="behaviour",
         help="what is measured (default: behaviour)",
     )
@@ -273,6 +345,9 @@ def main() -> int:
         print("axes,beta,samples_a_width,edge,point,cell")
         for dimensions in (given.dimensions,) if given.dimensions else (1, 2):
             edges(dimensions)
+        return 0
+    if given.what == "peaks":
+        peaks()
         return 0
     if given.what == "cost":
         cost(given.rounds, given.seconds)
