@@ -10,6 +10,7 @@ import contextlib
 import hashlib
 import io
 import itertools
+import math
 import warnings
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable
@@ -258,6 +259,8 @@ def _compiled(spec: Any, where: str) -> Any:
         raise WorldError("has a name that is not UTF-8", where=where) from None
     except ValueError as error:
         raise WorldError(f"MuJoCo cannot build this scene: {first_line(error)}", where=where) from None
+    if not 0 < model.opt.timestep < math.inf:
+        raise WorldError(f"its time step is {model.opt.timestep:g}; expected seconds above 0", where=where)
     return model
 
 

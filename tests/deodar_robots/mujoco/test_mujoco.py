@@ -236,6 +236,9 @@ def test_files_and_settings_with_errors_are_refused_by_name(tmp_path: Path, cart
     broken.write_bytes(text.encode().replace(b"LATIN", b"\xe5\xe5"))
     with pytest.raises(WorldError, match=r"broken.xml: has a name that is not UTF-8"):
         MuJoCo(broken)
+    broken.write_text("<mujoco><option timestep='nan'/><worldbody><geom size='1'/></worldbody></mujoco>")
+    with pytest.raises(WorldError, match=r"broken.xml: its time step is nan"):
+        MuJoCo(broken)
     broken.write_text("<mujoco><worldbody><geom type='sphere' size='-1'/></worldbody></mujoco>")
     with pytest.raises(WorldError, match=r"broken.xml"):
         MuJoCo(broken)
