@@ -157,9 +157,12 @@ class Setup(Summarised):
         if not self.batched:
             return [[k] for k in range(len(self.cells))]
         groups: dict[str, list[int]] = {}
-        for k in range(len(self.cells)):
-            fixed = {path: value for path, value in self.changes(k).items() if path not in self.swept}
-            groups.setdefault(codec.line(sorted(fixed.items()), other=str), []).append(k)
+        by_cell: dict[tuple[int, ...], list[int]] = {}  # trials of a cell have the same values
+        for k, levels in enumerate(self.cells):
+            if levels not in by_cell:
+                fixed = {path: value for path, value in self.changes(k).items() if path not in self.swept}
+                by_cell[levels] = groups.setdefault(codec.line(sorted(fixed.items()), other=str), [])
+            by_cell[levels].append(k)
         most, out = self._most(), list[list[int]]()
         for group in groups.values():
             size = math.ceil(len(group) / math.ceil(len(group) / most))

@@ -19,6 +19,9 @@ from deodar.parameters import Part, Recompile, show
 from deodar.session.run import require_sampled, whole
 from deodar.summary import Summarised, Summary, counted
 
+MOST_ENTRIES = 2000
+"""Largest number of ports, events, measures or actions of a plan (a guess)."""
+
 Value = float | list[float] | None
 
 
@@ -48,6 +51,10 @@ class TrialPlan(Part):
     def validate(self) -> Iterator[tuple[str, str]]:
         if self.dt is not None and self.dt <= 0:
             yield "dt", f"is {show(self.dt)}; expected a number above 0"
+        for name in ("watch", "events", "measures", "actions"):
+            count = len(getattr(self, name))
+            if count > MOST_ENTRIES:
+                yield name, f"has {count:,} entries, more than {MOST_ENTRIES:,}"
 
     def steps(self, dt: float) -> int:
         """Return the number of steps of a trial that times out.

@@ -511,3 +511,23 @@ def test_a_whole_number_of_an_open_parameter_is_written_in_one_way():
 def test_more_trials_than_are_run_are_refused_before_they_are_listed(changes):
     with pytest.raises(ParameterError, match=r"gives [\d,]+ trials; at most 10,000,000 are run"):
         choice(**changes)
+
+
+@pytest.mark.parametrize("name", ["watch", "events", "measures", "actions"])
+def test_a_plan_with_more_entries_than_are_checked_is_refused(name):
+    entry = {
+        "watch": "u.activation",
+        "events": dd.Appears("seen", "u"),
+        "measures": dd.Measure("m", "u.activation"),
+        "actions": dd.Reset(5.0),
+    }[name]
+    with pytest.raises(ParameterError, match=f"{name}: has 2,001 entries, more than 2,000"):
+        dd.TrialPlan(60.0, **{name: [entry] * 2001})
+
+
+def test_values_of_a_cell_are_compared_once_for_all_its_trials(monkeypatch):
+    asked = []
+    setup = choice(trials=1000).setup()
+    changes = type(setup).changes
+    monkeypatch.setattr(type(setup), "changes", lambda self, k: asked.append(k) or changes(self, k))
+    assert sum(map(len, setup.pieces())) == 4000 and len(asked) <= 8
