@@ -40,7 +40,7 @@ MADE, HELD = 400, 3000
 SIGMOIDS: dict[str, SigmoidFunction] = {"logistic, beta 4": dd.Logistic(4.0), "step": Step()}
 LENGTH, NOISE = {1: 100.0, 2: 60.0}, {1: 0.5, 2: 1.0}
 STEEPNESSES = (2.0, 4.0, 8.0, 20.0, 100.0)
-WIDTHS = {1: (1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0), 2: (1.5, 2.0, 2.5, 3.0, 4.0, 5.0)}
+WIDTHS = {1: (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0), 2: (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0)}
 REFERENCE, FINE = {1: 10.0, 2: 6.0}, 5e-4
 """Of the errors over the steepness of an edge: beta, samples a kernel width, those of the reference, and how
 exactly a boost is found.

@@ -25,7 +25,9 @@ Severity = Literal["problem", "warning"]
 MEDIA: tuple[Medium, ...] = ("script", "shell", "page")
 
 LONGEST = 4000
-"""Most characters of where a problem is, and of what it is: a damaged file may hold names of any length."""
+"""Most characters of where a problem is, of what it is, and of a fix that is text: a damaged file may hold
+names of any length.
+"""
 
 
 class Fix(str):
@@ -147,9 +149,9 @@ class Problem(Summarised):
     severity: Severity = "problem"
 
     def __post_init__(self) -> None:
-        for name in ("where", "what"):
+        for name in ("where", "what", "fix"):
             text: str = getattr(self, name)
-            if len(text) > LONGEST:
+            if len(text) > LONGEST and type(text) is str:
                 object.__setattr__(self, name, f"{text[: LONGEST // 2]} ... {text[-LONGEST // 2 :]}")
 
     def __str__(self) -> str:
@@ -427,7 +429,9 @@ def did_you_mean(name: str, known: Iterable[str], kind: str = "") -> str:
         return f"Did you mean {meant!r}?"
     if not names:
         return ""
-    shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
+    shown = ", ".join(n if len(n) <= 60 else f"{n[:57]}..." for n in names[:12]) + (
+        ", ..." if len(names) > 12 else ""
+    )
     return f"Valid names: {shown}"
 
 

@@ -90,7 +90,8 @@ class SetAxis(ProposedEdit):
         """Return what to write at a place."""
         if place == "script":
             arguments = ", ".join(f"{name}={_written(setting)}" for name, setting in self.values)
-            return f'model.set_axis("{self.axis}", {arguments})'
+            key = repr(self.axis) if '"' in self.axis else f'"{self.axis}"'
+            return f"model.set_axis({key}, {arguments})"
         changes = ", ".join(f"{name} = {_written(setting, shell=True)}" for name, setting in self.values)
         where = f"in the file, axes.{self.axis}" if place == "shell" else f"axis {self.axis}"
         return f"{where}: {changes}"
@@ -140,11 +141,13 @@ class SetSourcePort(ProposedEdit):
         source: path of the output port that it reads.
         target: path of its input port.
         port: path of the output port that it will read.
+        reads: the instant that the connection states and keeps; "": none.
     """
 
     source: str
     target: str
     port: str
+    reads: str = ""
 
     def plain_data(self) -> dict[str, Any]:
         """Return the edit as plain data."""
@@ -154,7 +157,8 @@ class SetSourcePort(ProposedEdit):
         """Return what to write at a place."""
         if place == "script":
             gone = f"model.disconnect({self.source!r}, {self.target!r})"
-            return f"{gone} and model.connect({self.port!r}, {self.target!r})"
+            reads = f", reads={self.reads!r}" if self.reads else ""
+            return f"{gone} and model.connect({self.port!r}, {self.target!r}{reads})"
         where = "in the file, " if place == "shell" else ""
         return f"{where}connect {self.port} to {self.target} in place of {self.source}"
 

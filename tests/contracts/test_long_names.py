@@ -22,11 +22,13 @@ OPENERS: dict[str, Callable[[str], object]] = {
     "matlab": lambda name: dd.load_mat(name, "w"),
     "picture": dd.Picture,
     "video": dd.Video,
+    "camera": lambda name: dd.Camera(name).sense("picture", dd.Camera.example_axes("picture"), 0.0),
     "arena": dd.Arena.open,
     "scene": dd.MuJoCo,
     "robot": dd.Robot,
     "bag": dd.ROSBag,
     "events": dd.EventFile,
+    "packing": lambda name: dd.pack(f"{name}.json", "a.deodar"),
     "saving": lambda name: dd.save(dd.Model("a"), name),
 }
 

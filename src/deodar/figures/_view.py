@@ -169,11 +169,7 @@ class View:
         v, time = self.variable, self.time
         if time in v.coords and not set(v[time].dims) <= {time}:
             raise RecordError(f"has times along {', '.join(map(str, v[time].dims))}", where=self.name)
-        if time not in v.dims:
-            return np.asarray([float(v[time])]) if time in v.coords else np.zeros(1)
-        return (
-            np.asarray(v[time].values, float) if time in v.coords else np.arange(v.sizes[time], dtype=float)
-        )
+        return np.atleast_1d(self._numbers(time)) if time in (*v.coords, *v.dims) else np.zeros(1)
 
     @property
     def margin(self) -> float:
@@ -283,8 +279,17 @@ class View:
 
     def points(self, dim: str) -> np.ndarray:
         """Positions of the samples along an axis."""
+        return self._numbers(dim)
+
+    def _numbers(self, name: str) -> np.ndarray:
+        """The numbers of a coordinate; without one those of the samples."""
         v = self.variable
-        return np.asarray(v[dim].values, float) if dim in v.coords else np.arange(v.sizes[dim], dtype=float)
+        if name not in v.coords:
+            return np.arange(v.sizes[name], dtype=float)
+        stored = v[name].values
+        if stored.dtype.kind not in "biuf" or not np.isfinite(stored).all():
+            raise RecordError(f"has values of {name} that are no finite numbers", where=self.name)
+        return np.asarray(stored, float)
 
     def extent(self, dim: str) -> tuple[float, float]:
         """Outer edges of the first and the last cell."""

@@ -61,7 +61,7 @@ def work_at(path: str | Path) -> Work:
             file by its full path, which is not found on another computer.
     """
     place = Path(os.path.abspath(examples.named(path)))
-    if place.is_dir():
+    if os.path.isdir(place):  # False for a name that is too long
         return _results_folder(place) if (place / results.ROWS).is_file() else _record(place)
     if place.name in (results.TABLE, results.DATASET) and (place.parent / results.ROWS).is_file():
         return _results_folder(place.parent)

@@ -5,6 +5,7 @@ A video file is read by a child (`_capture`); devices and streams are read in th
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 import weakref
@@ -309,7 +310,7 @@ def source_of(name: int | str) -> CameraSource:
         address = Address.of(name)
         return CameraSource("address", address.shown, address=address)
     path = Path(name)
-    if path.is_char_device():
+    if os.path.exists(path) and path.is_char_device():  # False for a name that is too long
         return CameraSource("device", name, str(path.absolute()))
     regular_file.refuse_special(path, WorldError)
     if not regular_file.is_file(path):

@@ -14,7 +14,7 @@ from deodar.worlds._base import Signal
 CHANNELS = 3
 
 MOST_PIXELS = 100_000_000
-"""Largest number of pixels of a picture with the black beside it: 0.3 GB."""
+"""Largest number of pixels of a picture with the black beside it: 0.4 GB."""
 
 PICTURE = Signal("colour over two dimensions; the last axis is red, green, blue")
 """Signal of the sensor `picture` in all worlds that have one."""

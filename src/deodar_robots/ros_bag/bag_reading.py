@@ -16,9 +16,9 @@ KEY = "deodar"
 LAST = 2**63
 """Bound of the times of messages, ns: they are stored as 64 bits."""
 
-MOST_METADATA = 500_000
-"""Largest number of bytes of metadata.yaml, which is parsed at about 0.2 MB/s (a guess, room for hundreds of
-topics)."""
+MOST_METADATA = 1_000_000
+"""Largest number of bytes of metadata.yaml, which is parsed at about 0.2 MB/s (a guess, room for two
+thousand topics)."""
 
 
 class BagSummary(TypedDict):

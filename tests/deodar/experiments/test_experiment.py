@@ -526,8 +526,8 @@ def test_a_plan_with_more_entries_than_are_checked_is_refused(name):
 
 
 def test_values_of_a_cell_are_compared_once_for_all_its_trials(monkeypatch):
-    asked = []
+    trials = []
     setup = choice(trials=1000).setup()
     changes = type(setup).changes
-    monkeypatch.setattr(type(setup), "changes", lambda self, k: asked.append(k) or changes(self, k))
-    assert sum(map(len, setup.pieces())) == 4000 and len(asked) <= 8
+    monkeypatch.setattr(type(setup), "changes", lambda self, k: trials.append(k) or changes(self, k))
+    assert sum(map(len, setup.pieces())) == 4000 and len(trials) <= 8

@@ -154,3 +154,13 @@ def test_times_along_another_dimension_are_refused() -> None:
     )
     with pytest.raises(RecordError, match=r"u\.activation: has times along place"):
         View(variable)
+
+
+@pytest.mark.parametrize("times", [["a", "b", "c"], [0.0, np.nan, 2.0]], ids=["text", "not a number"])
+def test_times_that_are_no_numbers_are_refused(times: list[Any]) -> None:
+    variable = xarray.DataArray(np.zeros(3), {"time": times}, "time", name="u.activation")
+    with pytest.raises(RecordError, match=r"u\.activation: has values of time that are no finite numbers"):
+        View(variable, time_range=(0, 2))
+    places = xarray.DataArray(np.zeros(3), {"x": ("x", times, {"lower": 0})}, "x", name="u.activation")
+    with pytest.raises(RecordError, match=r"u\.activation: has values of x that are no finite numbers"):
+        View(places).extent("x")

@@ -21,10 +21,11 @@ from deodar import registry
 from deodar.errors import EditFix, ModelError, Problem, assign
 from deodar.model import edit, fits, new_elements
 from deodar.model.check import check
-from deodar.model.checks.resolution import with_cells
+from deodar.model.checks.resolution import fix_with_cells
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
 from deodar.model.proposed import MOST_TRIED, CheckedDocument, apply, bound
+from deodar.model.wiring import Wiring
 from deodar.proposed_edit import InsertCoupling, SetAxis
 from tests.deodar.model.proven_fix import faults, finding
 from tests.deodar.model.test_mistakes import KINDS, document
@@ -555,7 +556,10 @@ def test_values_that_no_field_can_have_are_not_proposed(model: dd.Model) -> None
 @pytest.mark.parametrize("values", [{"sigmoid.beta": 1e9}, {"global_inhibition": math.inf}])
 def test_values_that_a_field_refuses_stay_as_they_are(values: dict[str, Any]) -> None:
     """The fix of which they are a part states the reason; the check does not raise."""
-    assert with_cells(dd.Field("u", [X]), values) == values
+    model = _model(dd.Field("u", [X]))
+    fix = assign("Change it", values)
+    wiring = Wiring(model.document, graph(model.document).nodes)
+    assert fix_with_cells(wiring, model["u"].element, fix) is fix  # type: ignore[arg-type]
 
 
 def test_checks_of_many_fixes_take_little_longer_than_those_of_few() -> None:

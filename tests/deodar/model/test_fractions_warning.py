@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 import deodar as dd
@@ -71,4 +73,46 @@ def test_a_coupling_that_others_read_keeps_its_input() -> None:
     ids=["no coupling", "sums over points", "negative anyway", "a threshold"],
 )
 def test_other_readers_get_no_warning(model: dd.Model) -> None:
+    assert warned(model) == []
+
+
+def test_many_ways_through_couplings_are_walked_once() -> None:
+    model = learning([])
+    layer = [model["u"]]
+    for depth in range(12):
+        layer, before = [model.add(dd.Gain(0.5, name=f"g{depth}{side}")) for side in "ab"], layer
+        for gain in layer:
+            for source in before:
+                source >> gain
+    trace = model.add(dd.MemoryTrace("trace", X))
+    for gain in layer:
+        gain >> trace
+    began = time.process_time()
+    assert {p.where for p in warned(model)} == {"trace"}
+    assert time.process_time() - began < 2
+
+
+def test_a_delayed_connection_to_a_coupling_is_found_and_keeps_its_delay() -> None:
+    model = learning([])
+    gain = model.add(dd.Gain(1.0, name="gain"))
+    model.connect("u.output", "gain.input", reads="delayed")
+    gain >> model.add(dd.MemoryTrace("trace", X))
+    (problem,) = warned(model)
+    assert problem.where == "trace" and "reads='delayed'" in problem.fix_at("script")
+    fixed = apply(model.document, problem.edits)
+    assert ("bounded", "delayed") in {(c.source_port, c.reads) for c in fixed.connections}
+    assert warned(dd.Model(document=fixed)) == []
+
+
+def test_a_coupling_that_also_reads_the_bounded_means_is_left_to_a_person() -> None:
+    model = learning([dd.Gain(1.0, name="first")])
+    model.connect("u.bounded", "first.input")
+    (problem,) = warned(model)
+    assert not problem.edits
+
+
+def test_a_node_has_no_cells() -> None:
+    model = dd.Model("node")
+    u = model.add(dd.Field("u", [], quadrature="cell"))
+    u >> model.add(dd.Gain(1.0, name="gain")) >> model.add(dd.MemoryTrace("trace", []))
     assert warned(model) == []

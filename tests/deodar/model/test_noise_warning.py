@@ -36,13 +36,15 @@ def test_white_noise_is_reported_where_the_output_is_averaged_over_cells(element
         assert warned(noisy(element, quadrature=quadrature)) == []
 
 
-def test_noise_is_reported_behind_couplings_and_not_behind_another_field() -> None:
+def test_noise_is_reported_behind_a_gain_and_not_behind_a_convolution_or_another_field() -> None:
     axes = [dd.Axis("x", 0, 3, samples=30, periodic=True)]
     model = dd.Model("noisy")
     u = model.add(dd.Field("u", axes, quadrature="cell"))
     v = model.add(dd.Field("v", axes))
     model.add(dd.Noise("near", axes, amplitude=0.5)) >> model.add(dd.Gain(2.0, name="gain")) >> u
     model.add(dd.Noise("far", axes, amplitude=0.5)) >> v >> u
+    smooth = model.add(dd.Convolve([dd.Gaussian(1.0, 0.5)], name="smooth"))
+    model.add(dd.Noise("smoothed", axes, amplitude=0.5)) >> smooth >> u
     assert [problem.where.split()[0] for problem in warned(model)] == ["near"]
 
 

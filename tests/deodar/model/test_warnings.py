@@ -151,7 +151,8 @@ def test_a_resting_level_whose_sign_slipped_is_a_warning() -> None:
         return [p for p in model.check() if "without any input" in p.what]
 
     (problem,) = finding(3.0)
-    line = 'model.set({"u.resting_level": -3, "u.quadrature": "cell"})'  # its peaks are narrow for the grid
-    assert problem.severity == "warning" and problem.fix == f"Change the sign: {line}"
+    line = 'model.set({"u.resting_level": -3, "u.quadrature": "cell"}) and model.set_axis("x", samples=18)'
+    assert problem.severity == "warning"
+    assert problem.fix == f"Change the sign: {line}", "its peaks are narrow for the grid"
     assert not finding(-3.0), "what the fix writes"
     assert not finding(3.0, -6.0), "an input may keep it silent"

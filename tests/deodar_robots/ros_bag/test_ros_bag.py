@@ -157,8 +157,8 @@ def test_what_is_not_a_bag_is_named(tmp_path):
         dd.ROSBag(path)
     long = bag(tmp_path / "long", counted(3))
     with (long / "metadata.yaml").open("a") as metadata:
-        metadata.write("# \n" * 200_000)
-    with pytest.raises(WorldError, match=r"its metadata\.yaml has 600,\d+ bytes, more than 500,000"):
+        metadata.write("# \n" * 400_000)
+    with pytest.raises(WorldError, match=r"its metadata\.yaml has 1,200,\d+ bytes, more than 1,000,000"):
         dd.ROSBag(long)
     late = bag(tmp_path / "late", counted(3)) / "metadata.yaml"
     late.write_text(re.sub(r"nanoseconds: \d+", "nanoseconds: " + 400 * "9", late.read_text()))

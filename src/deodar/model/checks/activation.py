@@ -46,7 +46,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
         e = n.element
         if isinstance(e, (Field, RateNode)) and not isinstance(e.sigmoid, Linear):
             for problem in _field(wiring, n, e):
-                fix = fix_with_cells(e, problem.fix) if isinstance(e, Field) else problem.fix
+                fix = fix_with_cells(wiring, e, problem.fix) if isinstance(e, Field) else problem.fix
                 yield dc.replace(problem, fix=fix)
         else:
             yield from _waiting(wiring, n)

@@ -41,7 +41,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
         kernels: Sequence[Any] = parameter if isinstance(parameter, tuple) else ()
         for i, kernel in enumerate(kernels):
             if isinstance(kernel, Kernel):
-                yield from _kernel(n, f"kernel.{i}", kernel)
+                yield from _kernel(wiring, n, f"kernel.{i}", kernel)
         for name in ("global_inhibition", "inhibition") if n.element.stateful else ():
             inhibition: Any = getattr(n.element, name, 0.0)
             if inhibition < 0:
@@ -52,12 +52,12 @@ def check(wiring: Wiring) -> Iterator[Problem]:
                 yield warning(n, sentence, assign("Change the sign", {name: -inhibition}))
 
 
-def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
+def _kernel(wiring: Wiring, n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
     element_axes: Any = getattr(n.element, "axes", None)
     axes = tuple(element_axes) if element_axes is not None else n.ins.get("input", ())
     for fault, fix in _faults(where, kernel, axes):
         if isinstance(n.element, Field):
-            fix = fix_with_cells(n.element, fix)
+            fix = fix_with_cells(wiring, n.element, fix)
         yield warning(n, f"{where}: {fault}", fix)
 
 

@@ -6,6 +6,8 @@ import functools
 import math
 from collections.abc import Iterator
 
+from deodar.couplings.arithmetic import Gain, Product, Sum
+from deodar.couplings.delays import Delay, DelayLine
 from deodar.element import Element
 from deodar.elements.changing_stimuli import Noise
 from deodar.elements.field import Field
@@ -14,6 +16,9 @@ from deodar.leaves import per_axis
 from deodar.model.resolve import reach
 from deodar.model.wiring import Wiring, warning
 from deodar.proposed_edit import rounded
+
+POINTWISE = (Gain, Sum, Product, Delay, DelayLine)
+"""Couplings that pass noise on as it is."""
 
 
 def check(wiring: Wiring) -> Iterator[Problem]:
@@ -35,9 +40,13 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 
 
 def _before(wiring: Wiring, ident: str) -> list[str]:
-    """Return what a node reads, but not what another field does: its noise has an effect of its own."""
-    reads = wiring.nodes[ident].reads.values()
-    sources = [source for slots in reads for source, _, _ in slots]
+    """Return what a node reads and passes on sample by sample. A convolution or an integral averages the
+    noise, and that of another field has an effect of its own.
+    """
+    n = wiring.nodes[ident]
+    if n.declared and not isinstance(n.element, (Field, *POINTWISE)):
+        return []
+    sources = [source for slots in n.reads.values() for source, _, _ in slots]
     return [source for source in sources if not isinstance(wiring.nodes[source].element, Field)]
 
 

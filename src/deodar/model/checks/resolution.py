@@ -2,33 +2,34 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from deodar.elements.field import Field
-from deodar.errors import DeodarError, EditFix, Problem, assign
+from deodar.errors import DeodarError, EditFix, Problem
 from deodar.leaves import per_axis, replace
 from deodar.model import document_files
-from deodar.model.checks._grid_errors import QUADRATURES, REST, STEEPEST, largest_edge, percent
+from deodar.model.checks._grid_errors import QUADRATURES, REST, STEEPEST, coarsest, percent
 from deodar.model.checks.noise import correlated
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.separable import Gaussian, MexicanHat, TruncatedGaussian
 from deodar.numerics.sigmoids import Absolute, Logistic, Step
-from deodar.proposed_edit import EditValue, SetAxis, SetValues
+from deodar.proposed_edit import SetAxis, SetValues
 
 MOST = 1.0
 """Error of thresholds in percent up to which a grid is fine."""
 
 MOST_FINER = 10.0
-"""How many times the samples are proposed at most (a guess)."""
+"""How many times the samples along an axis are proposed at most (a guess)."""
 
-CHEAPER = (2.0, 1.6, 1.3)
-"""How many times the samples along each of one, two or more axes cost less than means over cells: over one
-axis twice the samples take 1.3 to 1.9 times as long and cells 1.8 to 1.9, over two axes 1.6 times the samples
-take 2.6 times as long and cells 2.8 to 2.9 (docs/resolution.md); over more axes cells were not timed.
+CHEAPER = (2.0, 2.5, 2.0)
+"""How many times the samples of a field over one, two or more axes cost less than means over cells: twice the
+samples of a line take at most 1.9 times as long and cells 1.8 to 1.9 times, four times those of a plane 3.1
+times and cells 2.8 to 3 times (docs/resolution.md); over more axes nothing was timed.
 """
 
 WIDTHS = np.linspace(0.05, 12.0, 240)
@@ -61,69 +62,88 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             f"its grid is coarse for peaks that it holds without input ({reason}):"
             f" {stick}thresholds are {size} off"
         )
-        yield warning(n, sentence, _finer(e, edges, keys))
+        yield warning(n, sentence, _finer(e, keys))
 
 
-def _finer(field: Field, edges: Sequence[float], keys: Mapping[str, Axis]) -> EditFix:
+def _finer(field: Field, keys: Mapping[str, Axis]) -> str:
     """Return the fix: the cheaper of more samples and means over cells, and the other one as text."""
-    most = largest_edge(field.quadrature, len(edges), _sharpness(field), MOST)
-    shares = [edge / most if most else math.inf for edge in edges]
-    samples = [
-        (axis, math.ceil(axis.samples * share))
-        for axis, share in zip(field.axes, shares, strict=True)
-        if 1 < share < math.inf
-    ]
+    if field.quadrature == "cell":
+        samples = _samples(field)
+        return EditFix("Use more samples", _more(samples, keys)) if samples else "Use more samples"
+    samples = _samples(field)
     lines = " and ".join(f"samples={count} on {axis.name!r}" for axis, count in samples)
-    if max(shares) > MOST_FINER:
-        lines = ""
-    if field.quadrature == "cell" or max(shares) <= CHEAPER[min(len(edges), len(CHEAPER)) - 1]:
-        edits = [
-            SetAxis(key, (("samples", count),))
-            for axis, count in samples
-            for key, other in keys.items()
-            if other == axis
-        ]
-        cells = "" if field.quadrature == "cell" else 'Or write quadrature="cell", which costs more here'
-        return EditFix("Use more samples", edits, cells)
-    values = {"quadrature": "cell", **correlated(field)}
-    return assign("Average the output over cells", values, f"Or write {lines}" if lines else "")
+    factor = math.prod(count / axis.samples for axis, count in samples)
+    if samples and factor <= CHEAPER[min(len(field.axes), len(CHEAPER)) - 1]:
+        return EditFix(
+            "Use more samples", _more(samples, keys), 'Or write quadrature="cell", which costs more here'
+        )
+    cells = {"quadrature": "cell", **correlated(field)}
+    needed = _samples(dc.replace(field, quadrature="cell"))  # of a grid that is too coarse for both
+    advice = "Average the output over cells" + (" of a finer grid" if needed else "")
+    edits = [SetValues(tuple(cells.items())), *_more(needed, keys)]
+    return EditFix(advice, edits, f"Or write {lines}" if lines else "")
 
 
-def fix_with_cells(field: Field, fix: str) -> str:
-    """Return a fix with new values of a field, and with the mean over cells where its peaks need it then."""
+def _samples(field: Field) -> list[tuple[Axis, int]]:
+    """Return the axes that need more samples, and how many; none where they would be too many."""
+    limit = coarsest(field.quadrature, len(field.axes), _sharpness(field), MOST)
+    shares = [coarse / limit for coarse in _coarseness(field)]
+    if max(shares, default=0.0) > MOST_FINER:
+        return []
+    pairs = zip(field.axes, shares, strict=True)
+    return [(axis, math.floor(axis.samples * share) + 1) for axis, share in pairs if share > 1]
+
+
+def _coarseness(field: Field) -> list[float]:
+    """Return how coarse the grid is along each axis, for the field's quadrature; empty without a peak."""
+    edges = steepness(field)
+    if field.quadrature == "point" or not edges:
+        return edges
+    _, widths = max(_terms(field), key=lambda term: term[0])
+    return [axis.step / width for axis, width in zip(field.axes, widths, strict=True)]
+
+
+def _more(samples: Sequence[tuple[Axis, int]], keys: Mapping[str, Axis]) -> list[SetAxis]:
+    return [
+        SetAxis(key, (("samples", count),))
+        for axis, count in samples
+        for key, other in keys.items()
+        if other == axis
+    ]
+
+
+def fix_with_cells(wiring: Wiring, field: Field, fix: str) -> str:
+    """Return a fix with new values of a field, and with what its peaks need then: the mean over cells, and
+    more samples where the grid is too coarse for it.
+    """
     if not isinstance(fix, EditFix) or not all(
         isinstance(e, SetValues) and e.element is None for e in fix.edits
     ):
         return fix
     values = {path: number for e in fix.edits if isinstance(e, SetValues) for path, number in e.values}
-    return assign(fix.advice, with_cells(field, values), fix.otherwise)
-
-
-def with_cells(field: Field, values: Mapping[str, EditValue]) -> dict[str, EditValue]:
-    """Return new values for a field, with the mean over cells where its peaks need it then.
-
-    Values that the field cannot have are returned as they are.
-    """
     new = field
     try:
         for path, setting in values.items():
             new = replace(new, path, setting)
     except DeodarError:  # the fix with these values states the reason
-        return dict(values)
+        return fix
     if new.quadrature != "point" or _error(new) <= MOST:
-        return dict(values)
-    return {**values, "quadrature": "cell", **correlated(new)}
+        return fix
+    cells = SetValues(tuple({**values, "quadrature": "cell", **correlated(new)}.items()))
+    samples = _samples(dc.replace(new, quadrature="cell"))
+    return EditFix(fix.advice, [cells, *_more(samples, document_files.axes(wiring.doc))], fix.otherwise)
 
 
 def _error(field: Field) -> float:
     """Return the probable error of thresholds in percent; 0 where it is not known."""
-    if field.quadrature not in QUADRATURES or not (edges := steepness(field)):
+    sharpness = _sharpness(field)
+    if field.quadrature not in QUADRATURES or sharpness <= 0 or not (grid := _coarseness(field)):
         return 0.0
-    return percent(field.quadrature, len(edges), _sharpness(field), max(edges))
+    return percent(field.quadrature, len(grid), sharpness, max(grid))
 
 
 def _sharpness(field: Field) -> float:
-    """Return beta times the distance of the resting level from the threshold."""
+    """Return beta times the distance of the resting level from the threshold; 0 where it is not below."""
     distance = getattr(field.sigmoid, "threshold", 0.0) - field.resting_level
     return _beta(field) * distance if distance > 0 else 0.0
 
@@ -176,7 +196,8 @@ def _beta(field: Field) -> float:
         case Absolute(beta=beta):
             return 2 * beta
         case Step(threshold=threshold):
-            return STEEPEST * REST / max(threshold - field.resting_level, 1e-3)
+            distance = threshold - field.resting_level
+            return STEEPEST * REST / distance if distance > 0 else 0.0
         case _:
             return 0.0
 

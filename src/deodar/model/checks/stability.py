@@ -12,7 +12,7 @@ from deodar.elements.stimuli import BoxStimulus, GaussianStimulus
 from deodar.errors import EditFix, Problem, assign, joined
 from deodar.model.checks.activation import off_at_rest
 from deodar.model.checks.noise import correlated
-from deodar.model.checks.resolution import with_cells
+from deodar.model.checks.resolution import fix_with_cells
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
 from deodar.numerics.sigmoids import Linear, SemiLinear
@@ -134,7 +134,7 @@ def _inhibited(wiring: Wiring, n: Node, e: Field, edge: float) -> str:
     edge += values.get("resting_level", e.resting_level) - e.resting_level
     if edge > 0:
         values["global_inhibition"] = rounded(edge / (0.2 * math.prod(a.step * a.samples for a in e.axes)))
-    return assign(advice, with_cells(e, values), otherwise)
+    return fix_with_cells(wiring, e, assign(advice, values, otherwise))
 
 
 def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:

@@ -31,7 +31,7 @@ class Room:
         self.border, self.boxes, self.radius = layout.border, np.asarray(boxes, float).reshape(-1, 4), radius
         self.cell = max(radius / FINE, float(np.sqrt((right - left) * (high - low) / MOST_CELLS)))
         longest = max(right - left, high - low) / self.cell
-        if longest > MOST_CELLS:
+        if not (math.isfinite(self.cell) and longest <= MOST_CELLS):
             raise WorldError(f"an arena of {right - left:g} x {high - low:g} is too long for its width")
         self.x = np.arange(left + self.cell / 2, right, self.cell)
         self.y = np.arange(low + self.cell / 2, high, self.cell)
