@@ -48,14 +48,14 @@ def check(wiring: Wiring) -> Iterator[Problem]:
         e = n.element
         if not isinstance(e, Field) or (error := _error(e)) <= MOST:
             continue
-        edges = steepness(e)
-        most, at = max(zip(edges, e.axes, strict=True), key=lambda pair: pair[0])
-        step = isinstance(e.sigmoid, Step)
-        reason = (
-            f"from sample to sample of {at.name!r} beta times activation changes by {most:.2g} at their edge"
-            if not step
-            else "its sigmoid is a step"
-        )
+        most, at = max(zip(_coarseness(e), e.axes, strict=True), key=lambda pair: pair[0])
+        if e.quadrature == "cell":
+            reason = f"a width of its kernel has {1 / most:.1f} samples of {at.name!r}"
+        elif isinstance(e.sigmoid, Step):
+            reason = "its sigmoid is a step"
+        else:
+            change = f"beta times activation changes by {most:.2g} at their edge"
+            reason = f"from sample to sample of {at.name!r} {change}"
         stick = "peaks stick to samples, and " if e.quadrature == "point" else ""
         size = f"probably {error:.{0 if error >= 10 else 1}f} %" if error < 50 else "more than 50 %"
         sentence = (
