@@ -20,7 +20,7 @@ from jax.typing import DTypeLike
 from deodar import codec
 from deodar.codec import JsonObject
 from deodar.element import Arrays
-from deodar.errors import Problem, WorldError, instance_of
+from deodar.errors import Problem, WorldError, instance_of, reading
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
 from deodar.parameters import show
@@ -545,7 +545,8 @@ class Arena(PureWorld):
 
         @functools.lru_cache(maxsize=1)
         def room(k: int) -> Room:
-            return Room(self.layout, radius, np.asarray([t.box for t in permanent[k]]))
+            with reading(self.source, WorldError):
+                return Room(self.layout, radius, np.asarray([t.box for t in permanent[k]]))
 
         chosen: list[Sequence[float] | np.ndarray] = []
         for k, start in enumerate(stated):

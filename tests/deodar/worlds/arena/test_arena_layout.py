@@ -170,5 +170,5 @@ def test_an_arena_that_is_too_long_for_its_width_is_refused(tmp_path: Path) -> N
     longest = {"arena": {"x": [0, 1e12], "y": [0, 1]}, "walls": []}
     layout = tmp_path / "long.json"
     layout.write_text(json.dumps(longest))
-    with pytest.raises(WorldError, match=r"an arena of 1e\+12 x 1 is too long for its width"):
+    with pytest.raises(WorldError, match=r"long\.json: an arena of 1e\+12 x 1 is too long for its width"):
         Arena(layout)
