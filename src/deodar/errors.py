@@ -429,10 +429,8 @@ def did_you_mean(name: str, known: Iterable[str], kind: str = "") -> str:
         return f"Did you mean {meant!r}?"
     if not names:
         return ""
-    shown = ", ".join(n if len(n) <= 60 else f"{n[:57]}..." for n in names[:12]) + (
-        ", ..." if len(names) > 12 else ""
-    )
-    return f"Valid names: {shown}"
+    listed = [*map(_shortened, names[:12]), *(["..."] if len(names) > 12 else [])]
+    return f"Valid names: {', '.join(listed)}"
 
 
 def no_attribute(module: str, name: str, known: Iterable[str]) -> AttributeError:
@@ -460,6 +458,10 @@ def show(value: Any) -> str:
         text = f"{type(value).__name__} ({error})"
     if " at 0x" in text:
         text = f"{an(type(value).__name__)}"
+    return _shortened(text)
+
+
+def _shortened(text: str) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 

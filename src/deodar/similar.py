@@ -31,7 +31,7 @@ def nearest(name: str, names: Iterable[str]) -> str:
     if len(name) > LONGEST:
         return best
     count = functools.cache(_word_slips)  # names of one document repeat their words
-    for candidate in sorted({known for known in names if len(known) <= LONGEST}, reverse=True):
+    for candidate in sorted({word for word in names if len(word) <= LONGEST}, reverse=True):
         slips = _distance(name, candidate, count)
         if slips is not None and slips < fewest:
             best, fewest = candidate, slips

@@ -178,9 +178,9 @@ def _sigmoid(sigmoid: SigmoidFunction, code: SpikeCode) -> tuple[Verdict, str]:
 def _noise(element: Field, axes: Axes) -> WeightMatrix:
     """Return the matrix from independent deviates to the noise of a field with the strength 1."""
     many = np.eye(math.prod(shape(axes)))
-    if not any(float(v) for v in per_axis(element.noise_length, axes)):
-        return many / math.sqrt(cell(axes))
     with on_cpu(), jax.enable_x64(True):
         filters = noises.prepare(axes, element.noise_length, np.dtype("float64")).get("noise")
+        if filters is None:
+            return many / math.sqrt(cell(axes))
         made = [np.asarray(noises.over(axes, jnp.asarray(row.reshape(shape(axes))), filters)) for row in many]
     return np.stack([m.reshape(-1) for m in made], axis=1)

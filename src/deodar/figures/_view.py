@@ -169,7 +169,7 @@ class View:
         v, time = self.variable, self.time
         if time in v.coords and not set(v[time].dims) <= {time}:
             raise RecordError(f"has times along {', '.join(map(str, v[time].dims))}", where=self.name)
-        return np.atleast_1d(self._numbers(time)) if time in (*v.coords, *v.dims) else np.zeros(1)
+        return np.atleast_1d(self.points(time)) if time in (*v.coords, *v.dims) else np.zeros(1)
 
     @property
     def margin(self) -> float:
@@ -278,17 +278,13 @@ class View:
         return f"{time:g} {unit}" if unit else f"t = {time:g}"
 
     def points(self, dim: str) -> np.ndarray:
-        """Positions of the samples along an axis."""
-        return self._numbers(dim)
-
-    def _numbers(self, name: str) -> np.ndarray:
-        """The numbers of a coordinate; without one those of the samples."""
+        """Positions of the samples along an axis, or of another coordinate; without one their numbers."""
         v = self.variable
-        if name not in v.coords:
-            return np.arange(v.sizes[name], dtype=float)
-        stored = v[name].values
+        if dim not in v.coords:
+            return np.arange(v.sizes[dim], dtype=float)
+        stored = v[dim].values
         if stored.dtype.kind not in "biuf" or not np.isfinite(stored).all():
-            raise RecordError(f"has values of {name} that are no finite numbers", where=self.name)
+            raise RecordError(f"has values of {dim} that are no finite numbers", where=self.name)
         return np.asarray(stored, float)
 
     def extent(self, dim: str) -> tuple[float, float]:

@@ -78,9 +78,9 @@ def converted(tool: str, content: bytes, name: str, bugs: bool, beside: Beside) 
     imported = IMPORTERS[tool].read(content, name, bugs, beside)
     lines = imported.report.lines
     if len(lines) > MOST_LINES:
-        one = lines[len(lines) // 2]
+        example = lines[len(lines) // 2]
         raise DocumentError(
-            f"its report has {len(lines):,} lines, more than {MOST_LINES:,}; one of them: {one}"
+            f"its report has {len(lines):,} lines, more than {MOST_LINES:,}; one of them: {example}"
         )
     document, arrays = document_files.to_data(imported.model.document)
     return {

@@ -18,7 +18,7 @@ from deodar.model.wiring import Wiring, warning
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.separable import Gaussian, MexicanHat, TruncatedGaussian
 from deodar.numerics.sigmoids import Absolute, Logistic, Step
-from deodar.proposed_edit import SetAxis, SetValues
+from deodar.proposed_edit import EditValue, SetAxis, SetValues
 
 MOST = 1.0
 """Error of thresholds in percent up to which a grid is fine."""
@@ -43,7 +43,6 @@ _erf = np.vectorize(math.erf, otypes=[float])
 
 def check(wiring: Wiring) -> Iterator[Problem]:
     """Check fields with Gaussian kernels of their own that hold peaks without input."""
-    keys = document_files.axes(wiring.doc)
     for n in wiring.declared:
         e = n.element
         if not isinstance(e, Field) or (error := _error(e)) <= MOST:
@@ -62,25 +61,22 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             f"its grid is coarse for peaks that it holds without input ({reason}):"
             f" {stick}thresholds are {size} off"
         )
-        yield warning(n, sentence, _finer(e, keys))
+        yield warning(n, sentence, _finer(wiring, e))
 
 
-def _finer(field: Field, keys: Mapping[str, Axis]) -> str:
+def _finer(wiring: Wiring, field: Field) -> str:
     """Return the fix: the cheaper of more samples and means over cells, and the other one as text."""
+    samples, advice = _samples(field), "Use more samples"
     if field.quadrature == "cell":
-        samples = _samples(field)
-        return EditFix("Use more samples", _more(samples, keys)) if samples else "Use more samples"
-    samples = _samples(field)
+        return EditFix(advice, _axis_edits(wiring, samples)) if samples else advice
     lines = " and ".join(f"samples={count} on {axis.name!r}" for axis, count in samples)
     factor = math.prod(count / axis.samples for axis, count in samples)
     if samples and factor <= CHEAPER[min(len(field.axes), len(CHEAPER)) - 1]:
-        return EditFix(
-            "Use more samples", _more(samples, keys), 'Or write quadrature="cell", which costs more here'
-        )
-    cells = {"quadrature": "cell", **correlated(field)}
+        cells = 'Or write quadrature="cell", which costs more here'
+        return EditFix(advice, _axis_edits(wiring, samples), cells)
     needed = _samples(dc.replace(field, quadrature="cell"))  # of a grid that is too coarse for both
     advice = "Average the output over cells" + (" of a finer grid" if needed else "")
-    edits = [SetValues(tuple(cells.items())), *_more(needed, keys)]
+    edits = [_over_cells(field, {}), *_axis_edits(wiring, needed)]
     return EditFix(advice, edits, f"Or write {lines}" if lines else "")
 
 
@@ -103,13 +99,15 @@ def _coarseness(field: Field) -> list[float]:
     return [axis.step / width for axis, width in zip(field.axes, widths, strict=True)]
 
 
-def _more(samples: Sequence[tuple[Axis, int]], keys: Mapping[str, Axis]) -> list[SetAxis]:
-    return [
-        SetAxis(key, (("samples", count),))
-        for axis, count in samples
-        for key, other in keys.items()
-        if other == axis
-    ]
+def _axis_edits(wiring: Wiring, samples: Sequence[tuple[Axis, int]]) -> list[SetAxis]:
+    """Return the edits that give axes these numbers of samples."""
+    keys = {axis: key for key, axis in document_files.axes(wiring.doc).items()}
+    return [SetAxis(keys[axis], (("samples", count),)) for axis, count in samples]
+
+
+def _over_cells(field: Field, values: Mapping[str, EditValue]) -> SetValues:
+    """Return the edit that sets values of a field, which it has already, and means over cells."""
+    return SetValues(tuple({**values, "quadrature": "cell", **correlated(field)}.items()))
 
 
 def fix_with_cells(wiring: Wiring, field: Field, fix: str) -> str:
@@ -129,9 +127,8 @@ def fix_with_cells(wiring: Wiring, field: Field, fix: str) -> str:
         return fix
     if new.quadrature != "point" or _error(new) <= MOST:
         return fix
-    cells = SetValues(tuple({**values, "quadrature": "cell", **correlated(new)}.items()))
     samples = _samples(dc.replace(new, quadrature="cell"))
-    return EditFix(fix.advice, [cells, *_more(samples, document_files.axes(wiring.doc))], fix.otherwise)
+    return EditFix(fix.advice, [_over_cells(new, values), *_axis_edits(wiring, samples)], fix.otherwise)
 
 
 def _error(field: Field) -> float:
