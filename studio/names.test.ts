@@ -9,8 +9,19 @@ const files = readdirSync(SOURCES, { recursive: true, encoding: "utf8" }).filter
   /(?<!\.test)\.(tsx?|css)$/.test(file),
 );
 
-test("no two files of the page have the same name", () => {
-  expect(doubled(files.map((file) => basename(file)))).toEqual([]);
+// A disk may ignore case, and an import names no ending: "pins" must be one script.
+test("no two files of the page have the same name, whatever its case and ending", () => {
+  const scripts = files.filter((file) => !file.endsWith(".css"));
+  expect(
+    doubled(
+      scripts.map((file) =>
+        basename(file)
+          .replace(/\.tsx?$/, "")
+          .toLowerCase(),
+      ),
+    ),
+  ).toEqual([]);
+  expect(doubled(files.map((file) => basename(file).toLowerCase()))).toEqual([]);
 });
 
 test("no two exported types, classes and components of the page have the same name", () => {

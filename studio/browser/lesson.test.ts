@@ -1,6 +1,6 @@
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { frameOf, type PlanPoint, toPixels } from "../src/world/plan";
+import { frameOf, type PlanPoint, toPixels } from "../src/world/planFrame";
 import { button, openExample, panel } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";

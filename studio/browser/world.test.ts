@@ -1,6 +1,6 @@
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { frameOf, type PlanPoint, toPixels } from "../src/world/plan";
+import { frameOf, type PlanPoint, toPixels } from "../src/world/planFrame";
 import { findings, smallTargets } from "./axe";
 import { button, colours, panel } from "./hands";
 import type { Observer } from "./observer";

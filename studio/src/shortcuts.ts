@@ -11,7 +11,7 @@ import { openPalette } from "./build/palette/palette";
 import { disconnectByKeys, removeSelected } from "./build/removing";
 import { renameSelected } from "./build/renaming";
 import { isOnCanvas } from "./build/stage";
-import { ask, useDialogs } from "./dialogs/dialogs";
+import { ask, useDialogs } from "./dialogs/questions";
 import * as experiment from "./experiment/actions";
 import { open, save, saveAs } from "./files/flows";
 import { useView } from "./gallery/view";

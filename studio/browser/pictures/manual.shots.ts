@@ -8,7 +8,7 @@ import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
-import { frameOf, toPixels } from "../../src/world/plan";
+import { frameOf, toPixels } from "../../src/world/planFrame";
 import { choose, openExample } from "../hands";
 import type { Observer } from "../observer";
 import { runPython } from "../server";

@@ -5,7 +5,7 @@ import type { Point } from "../graph/layout/layout";
 import { keysText, type Shortcut } from "../shortcuts";
 import { useStudio } from "../store";
 import { ALIGNMENTS, align } from "./aligning";
-import { useChooser } from "./palette/chooser";
+import { useChooser } from "./palette/choice";
 import { addElement } from "./edits";
 import type { ListEntry } from "./palette/entries";
 import { isEditable } from "./editable";

@@ -2,7 +2,7 @@
 
 import { request } from "../socket";
 import { useStudio } from "../store";
-import { useChooser } from "./palette/chooser";
+import { useChooser } from "./palette/choice";
 import { endsOf } from "./wiring/ends";
 import { isEditable } from "./editable";
 import { usePicked } from "./picked";

@@ -5,7 +5,7 @@ import { useState } from "react";
 
 import { useStudio } from "../store";
 import { FolderBrowser } from "./FolderBrowser";
-import type { Asking } from "./dialogs";
+import type { Asking } from "./questions";
 import { parent } from "../files/paths";
 import { useFolder } from "./useFolder";
 

@@ -13,7 +13,7 @@ import { ShortcutsDialog } from "./ShortcutsDialog";
 import { TakenDialog } from "./TakenDialog";
 import { WorldDialog } from "../world/WorldDialog";
 import { UnsavedDialog } from "./UnsavedDialog";
-import { type Asked, useDialogs } from "./dialogs";
+import { type Asked, useDialogs } from "./questions";
 
 export function Dialogs() {
   const { asked, cancel } = useDialogs();

@@ -2,7 +2,7 @@
 
 import { Button, Group, Text } from "@mantine/core";
 
-import type { Asking } from "./dialogs";
+import type { Asking } from "./questions";
 
 export function ReplaceDialog({ question, answer }: Asking<"replace">) {
   return (

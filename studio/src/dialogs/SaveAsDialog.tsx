@@ -4,7 +4,7 @@ import { Button, Group, TextInput } from "@mantine/core";
 import { type FormEvent, useState } from "react";
 
 import { FolderBrowser } from "./FolderBrowser";
-import type { Asking } from "./dialogs";
+import type { Asking } from "./questions";
 import { joined, lastPart, nameProblem, parent, withEnding } from "../files/paths";
 import { useFolder } from "./useFolder";
 

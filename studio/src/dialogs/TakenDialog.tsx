@@ -2,7 +2,7 @@
 
 import { Button, Group, Text } from "@mantine/core";
 
-import type { Asking } from "./dialogs";
+import type { Asking } from "./questions";
 import { takenText } from "../files/presets";
 import classes from "./TakenDialog.module.css";
 

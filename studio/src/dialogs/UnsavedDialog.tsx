@@ -2,7 +2,7 @@
 
 import { Button, Group, Text } from "@mantine/core";
 
-import type { Asking } from "./dialogs";
+import type { Asking } from "./questions";
 
 export function UnsavedDialog({ question, answer }: Asking<"unsaved">) {
   return (

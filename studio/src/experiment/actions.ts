@@ -1,6 +1,6 @@
 // What the panel asks of the server.
 
-import { ask } from "../dialogs/dialogs";
+import { ask } from "../dialogs/questions";
 import { done, leave, openExperiment, write, writeAs } from "../files/flows";
 import { same } from "../inspector/parameters/part";
 import type { Answer, ListedProblem } from "../protocol";

@@ -3,7 +3,7 @@
 import { useEffect, useState } from "react";
 
 import { useStudio } from "../store";
-import { useDialogs } from "../dialogs/dialogs";
+import { useDialogs } from "../dialogs/questions";
 import { takeDropped } from "./flows";
 import classes from "./DropArea.module.css";
 

@@ -21,7 +21,7 @@ import type {
 import { openTool } from "../panels/openPlot";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
-import { ask } from "../dialogs/dialogs";
+import { ask } from "../dialogs/questions";
 import { opening, sortOf } from "./paths";
 
 // The largest message that the server accepts, base64 included.

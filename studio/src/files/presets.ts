@@ -3,7 +3,7 @@
 import type { Answer } from "../protocol";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
-import { ask } from "../dialogs/dialogs";
+import { ask } from "../dialogs/questions";
 import { done, isTooLarge } from "./flows";
 import { lastPart } from "./paths";
 

@@ -4,7 +4,7 @@ import { vi } from "vitest";
 import type { Answer, Folder, ToServer } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
-import { type Asked, useDialogs } from "../dialogs/dialogs";
+import { type Asked, useDialogs } from "../dialogs/questions";
 
 // What was sent to the server since `fresh`.
 export const sent: ToServer[] = [];

@@ -27,7 +27,7 @@ import { useStage } from "../build/useStage";
 import { useWires } from "../build/wiring/useWires";
 import { WiringHint } from "../build/wiring/WiringHint";
 import { openPlot } from "../panels/openPlot";
-import { useDialogs } from "../dialogs/dialogs";
+import { useDialogs } from "../dialogs/questions";
 import { SHORTCUTS } from "../shortcuts";
 import { useOffline } from "../connection/NeedsServer";
 import { useStudio } from "../store";

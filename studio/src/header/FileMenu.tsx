@@ -18,7 +18,7 @@ import {
 
 import { useStudio } from "../store";
 import { Logo } from "../gallery/Logo";
-import { ask } from "../dialogs/dialogs";
+import { ask } from "../dialogs/questions";
 import { exportScript } from "../files/exportScript";
 import { leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";

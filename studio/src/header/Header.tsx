@@ -12,7 +12,7 @@ import { ProblemsMenu } from "./ProblemsMenu";
 import { ReportButton } from "../report/ReportButton";
 import { SchemeToggle } from "./SchemeToggle";
 import { UndoButtons } from "./UndoButtons";
-import { ask } from "../dialogs/dialogs";
+import { ask } from "../dialogs/questions";
 import classes from "./Header.module.css";
 
 export function Header() {

@@ -6,7 +6,7 @@ import { IconTrash } from "@tabler/icons-react";
 import { applyKeptPreset } from "../files/presets";
 import { useStudio } from "../store";
 import { DotsMenu } from "../widgets/DotsMenu";
-import { choiceText, type PresetGroup, presetGroups, removeGroup } from "./keptPresets";
+import { choiceText, type PresetGroup, presetGroups, removeGroup } from "./presetGroups";
 
 export function KeptPresets() {
   const groups = useStudio((state) => presetGroups(state.document?.layout));

@@ -7,7 +7,7 @@ import { useLateFocus } from "../widgets/lateFocus";
 import { numberText, typedNumber } from "../inspector/numbers/number";
 import { ProblemLine } from "../widgets/ProblemLine";
 import type { SliderRange } from "../inspector/numbers/sliderRange";
-import { changedPin, keepPins, type Pin } from "./pins";
+import { changedPin, keepPins, type Pin } from "./pin";
 
 type PinEditingProps = { what: "range" | "label"; pin: Pin; range: SliderRange; onDone: () => void };
 

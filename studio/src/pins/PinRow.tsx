@@ -18,7 +18,7 @@ import { useStudio } from "../store";
 import { valueAt } from "../values";
 import { PinEditing } from "./PinEditing";
 import { PinMenu } from "./PinMenu";
-import { changedPin, endsOf, keepPins, withoutPin, type Pin } from "./pins";
+import { changedPin, endsOf, keepPins, withoutPin, type Pin } from "./pin";
 
 type PinRowProps = {
   pin: Pin;

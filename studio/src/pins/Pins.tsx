@@ -13,7 +13,7 @@ import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import { KeptPresets } from "./KeptPresets";
 import { PinRow } from "./PinRow";
-import { isAt, keepPins, pinsOf, withPin } from "./pins";
+import { isAt, keepPins, pinsOf, withPin } from "./pin";
 
 export function Pins() {
   const pins = useStudio((state) => pinsOf(state.document?.layout));

@@ -3,7 +3,7 @@
 import { Button, Tooltip } from "@mantine/core";
 import { IconWorld } from "@tabler/icons-react";
 
-import { ask } from "../dialogs/dialogs";
+import { ask } from "../dialogs/questions";
 import { useStudio } from "../store";
 import classes from "./Transport.module.css";
 

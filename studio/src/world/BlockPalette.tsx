@@ -18,7 +18,7 @@ import {
   type Swatch,
 } from "./blocks";
 import type { Ground } from "./ground";
-import type { PlanPoint } from "./plan";
+import type { PlanPoint } from "./planFrame";
 
 // Further than this a pressed pointer drags a colour, in px.
 const DRAGGED = 5;

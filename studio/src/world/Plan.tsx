@@ -8,7 +8,7 @@ import type { SceneView } from "../protocol";
 import { draw } from "./draw";
 import type { Ground } from "./ground";
 import { live } from "./live";
-import { frameOf, inside, objects, type PlanFrame, type PlanPoint, toWorld, under } from "./plan";
+import { frameOf, inside, objects, type PlanFrame, type PlanPoint, toWorld, under } from "./planFrame";
 import type { Hands } from "./useHands";
 
 type PlanProps = {

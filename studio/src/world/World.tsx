@@ -14,7 +14,7 @@ import type { Ground } from "./ground";
 import { LinkState } from "./LinkState";
 import { live } from "./live";
 import { Plan } from "./Plan";
-import { objects, placeText } from "./plan";
+import { objects, placeText } from "./planFrame";
 import { SolidScene } from "./solid/SolidScene";
 import { useHands } from "./useHands";
 import { WorldPicture } from "./WorldPicture";

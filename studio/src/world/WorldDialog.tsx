@@ -7,7 +7,7 @@ import { useEffect, useRef, useState } from "react";
 
 import { FolderBrowser } from "../dialogs/FolderBrowser";
 import { ProblemText } from "../problems/ProblemText";
-import type { Asking } from "../dialogs/dialogs";
+import type { Asking } from "../dialogs/questions";
 import { base64, isTooLarge } from "../files/flows";
 import { lastPart } from "../files/paths";
 import { useFolder } from "../dialogs/useFolder";
@@ -19,7 +19,7 @@ import { useStudio } from "../store";
 import { bytesOf } from "./base64";
 import { draw } from "./draw";
 import { NOTHING_SEEN } from "./live";
-import { frameOf } from "./plan";
+import { frameOf } from "./planFrame";
 
 type SettingValues = Record<string, unknown>;
 

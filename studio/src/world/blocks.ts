@@ -1,7 +1,7 @@
 // Coloured blocks that a click places in front of the robot: their names, their colours and where they fit.
 
 import type { BodyView, BoxView, SceneView } from "../protocol";
-import type { PlanPoint } from "./plan";
+import type { PlanPoint } from "./planFrame";
 
 export type Swatch = { name: string; color: [number, number, number] };
 

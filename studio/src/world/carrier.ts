@@ -2,7 +2,7 @@
 // is asked no more than it can do.
 
 import type { Answer, ToServer } from "../protocol";
-import type { PlanPoint } from "./plan";
+import type { PlanPoint } from "./planFrame";
 
 export type Ask = (message: ToServer) => Promise<Answer>;
 

@@ -3,7 +3,7 @@
 import type { BodyView, BoxView, MarkView } from "../protocol";
 import { font, type Look } from "../plots/colors/look";
 import type { Seen } from "./live";
-import { type PlanFrame, type PlanPoint, ticks, toPixels } from "./plan";
+import { type PlanFrame, type PlanPoint, ticks, toPixels } from "./planFrame";
 
 const FLOOR = "#f5f5f0";
 const INK = "#1c2420";

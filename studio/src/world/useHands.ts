@@ -8,7 +8,7 @@ import { request, socket } from "../socket";
 import { blockSide } from "./blocks";
 import { Carrier } from "./carrier";
 import { live } from "./live";
-import { freeName, objects, type PlanPoint, within } from "./plan";
+import { freeName, objects, type PlanPoint, within } from "./planFrame";
 
 // A step of an arrow key, as a share of the longer side.
 const STEP = 0.01;

@@ -2,7 +2,7 @@
 
 import { type RefObject, useCallback, useEffect, useLayoutEffect, useRef, useState } from "react";
 
-import { type Choice, useChooser } from "./chooser";
+import { type Choice, useChooser } from "./choice";
 import { EntryList } from "./EntryList";
 
 const WIDTH = 360;

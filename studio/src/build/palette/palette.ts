@@ -4,7 +4,7 @@ import type { Point } from "../../graph/layout/layout";
 import type { Kinds } from "../../inspector/parameters/leaf";
 import type { Kind, TemplateView } from "../../protocol";
 import { useStudio } from "../../store";
-import { useChooser } from "./chooser";
+import { useChooser } from "./choice";
 import { addComment } from "../commenting";
 import { addElement, addPart, addTemplate } from "../edits";
 import type { WireEnds } from "../wiring/ends";

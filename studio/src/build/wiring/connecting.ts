@@ -4,7 +4,7 @@
 import type { Point } from "../../graph/layout/layout";
 import type { FitView, Kind, OfferView } from "../../protocol";
 import { useStudio } from "../../store";
-import { useChooser } from "../palette/chooser";
+import { useChooser } from "../palette/choice";
 import { addElement, connect, reconnect } from "../edits";
 import { between, type End, type Side, type WireEnds } from "./ends";
 import type { ListEntry } from "../palette/entries";

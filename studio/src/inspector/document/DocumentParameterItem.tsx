@@ -4,7 +4,7 @@ import { ActionIcon, Menu, UnstyledButton } from "@mantine/core";
 import { IconLink, IconLinkOff, IconPin, IconPinnedOff, IconTrash } from "@tabler/icons-react";
 import { useState } from "react";
 
-import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../../pins/pins";
+import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../../pins/pin";
 import type { DocumentParameterView, LinkView } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";

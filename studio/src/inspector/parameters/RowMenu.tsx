@@ -11,7 +11,7 @@ import {
 } from "@tabler/icons-react";
 import type { ReactNode } from "react";
 
-import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../../pins/pins";
+import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../../pins/pin";
 import type { DocumentParameterView } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";

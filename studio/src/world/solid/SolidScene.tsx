@@ -8,7 +8,7 @@ import type { SceneView } from "../../protocol";
 import { socket } from "../../socket";
 import type { Ground } from "../ground";
 import { live } from "../live";
-import { objects, type PlanPoint, within } from "../plan";
+import { objects, type PlanPoint, within } from "../planFrame";
 import type { Hands } from "../useHands";
 import { useLatest } from "../../plots/useLatest";
 import type { Point3 } from "../../plots/scenes/sceneView";

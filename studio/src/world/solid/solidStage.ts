@@ -22,7 +22,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { SolidView } from "../../protocol";
-import type { PlanPoint } from "../plan";
+import type { PlanPoint } from "../planFrame";
 import { geometryOf } from "./geometry";
 import type { Point3 } from "../../plots/scenes/sceneView";
 

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 
-import { choiceText, presetGroups } from "./keptPresets";
+import { choiceText, presetGroups } from "./presetGroups";
 
 const off = { name: "go: off", group: "go", values: {} };
 const on = { name: "go: on", group: "go", values: { a: { amplitude: 6 } } };

@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 
-import { changedPin, endsOf, pinsOf, withoutPin, withPin, type Pin } from "./pins";
+import { changedPin, endsOf, pinsOf, withoutPin, withPin, type Pin } from "./pin";
 
 const tau: Pin = { element: "1", parameter: "tau" };
 const tempo: Pin = { element: "", parameter: "tempo", lower: 0, upper: 5, label: "pace" };

@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 
 import type { SceneView } from "../protocol";
-import { frameOf, freeName, inside, placeText, ticks, toPixels, toWorld, under } from "./plan";
+import { frameOf, freeName, inside, placeText, ticks, toPixels, toWorld, under } from "./planFrame";
 
 const box = (name: string, x: number, y: number, fixed = false) => ({
   name,
