@@ -3,7 +3,8 @@ import { join } from "node:path";
 
 import { describe, expect, it } from "vitest";
 
-import { isPressed, keysText, SHORTCUTS } from "./shortcuts";
+import { isPressed, keysText } from "./keys";
+import { SHORTCUTS } from "./shortcuts";
 
 const press = (key: string, held: string = "") => ({
   key,

@@ -15,6 +15,7 @@ import { ask, useDialogs } from "./dialogs/questions";
 import * as experiment from "./experiment/actions";
 import { open, save, saveAs } from "./files/flows";
 import { useView } from "./gallery/view";
+import { isPressed, isTyping, type Press } from "./keys";
 import { isPast, seekFirst, seekFrames, seekLast } from "./replay/replay";
 import { request } from "./socket";
 import { useStudio } from "./store";
@@ -95,46 +96,6 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { keys: ["Ctrl+Shift+S"], does: "Save as", run: saveAs, typing: true },
   { keys: ["?"], does: "Show this list", run: () => ask("shortcuts", null), always: true },
 ];
-
-type Press = Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
-
-// Whether a key press is the one that is written, such as "Ctrl+Shift+Z". Ctrl is Command on a Mac. Of signs
-// such as "?" it does not matter whether a keyboard needs Shift for them.
-export function isPressed(keys: string, press: Press): boolean {
-  const parts = keys.split("+");
-  const key = parts.at(-1) ?? "";
-  const shift = parts.includes("Shift");
-  const same = key === "Space" ? press.key === " " : press.key.toLowerCase() === key.toLowerCase();
-  const shiftMatters = key === "Space" || /^[a-z]$/i.test(key);
-  return (
-    same &&
-    !press.altKey &&
-    (press.ctrlKey || press.metaKey) === parts.includes("Ctrl") &&
-    (!shiftMatters || press.shiftKey === shift)
-  );
-}
-
-// Keys as this computer calls them.
-export function keysText(keys: string, mac = isMac()): string {
-  const named = keys.replace("ArrowLeft", "←").replace("ArrowRight", "→");
-  return mac ? named.replace("Ctrl+", "⌘").replace("Shift+", "⇧") : named;
-}
-
-function isMac(): boolean {
-  return typeof navigator !== "undefined" && /Mac|iP(ad|hone|od)/.test(navigator.userAgent);
-}
-
-// Whether the keys go into a text, or a choice that is searched by letters.
-export function isTyping(target: Element | null): boolean {
-  if (target === null) {
-    return false;
-  }
-  const field = target.closest("input, textarea, select, [contenteditable]:not([contenteditable=false])");
-  return (
-    field !== null &&
-    !field.matches("input:is([type=checkbox], [type=radio], [type=range], [type=button], [type=submit])")
-  );
-}
 
 // Whether the text field uses keys with Ctrl too: a choice from a list does not.
 function isWriting(target: Element | null, press: Press): boolean {

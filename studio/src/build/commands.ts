@@ -2,7 +2,8 @@
 
 import { exportScript } from "../files/exportScript";
 import type { Point } from "../graph/layout/layout";
-import { keysText, type Shortcut } from "../shortcuts";
+import { keysText } from "../keys";
+import type { Shortcut } from "../shortcuts";
 import { useStudio } from "../store";
 import { ALIGNMENTS, align } from "./aligning";
 import { useChooser } from "./palette/choice";

@@ -3,7 +3,8 @@
 import { Kbd } from "@mantine/core";
 import { Fragment } from "react";
 
-import { keysText, SHORTCUTS } from "../shortcuts";
+import { keysText } from "../keys";
+import { SHORTCUTS } from "../shortcuts";
 import classes from "./ShortcutsDialog.module.css";
 
 type Line = { keys: readonly string[]; does: string };

@@ -24,7 +24,7 @@ import { leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";
 import { useView } from "../gallery/view";
 import { openTool } from "../panels/openPlot";
-import { keysText } from "../shortcuts";
+import { keysText } from "../keys";
 import { MenuList } from "../widgets/MenuList";
 import classes from "./FileMenu.module.css";
 

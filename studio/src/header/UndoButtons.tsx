@@ -3,7 +3,7 @@
 import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconArrowBackUp, IconArrowForwardUp } from "@tabler/icons-react";
 
-import { keysText } from "../shortcuts";
+import { keysText } from "../keys";
 import { request } from "../socket";
 import { useStudio } from "../store";
 

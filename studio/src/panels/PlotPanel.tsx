@@ -2,7 +2,7 @@
 
 import type { IDockviewPanelProps } from "dockview-react";
 import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
-import { elementsAlike, mainPort, portAxes, portsOf, weightsOf } from "../plots/kinds/kinds";
+import { elementsAlike, mainPort, portAxes, portsOf, weightsOf } from "../model/ports";
 import { PackagedPlot } from "../plots/kinds/PackagedPlot";
 import { PLOTS, plotKinds } from "../plots/kinds/plots";
 import type { PlotProps } from "../plots/PlotFrame";

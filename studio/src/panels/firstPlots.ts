@@ -1,7 +1,7 @@
 // The plots of a document that stores no arrangement of panels: those that its layout lists, or one of the
 // first field.
 
-import { firstToPlot, mainPort, portAxes, portsOf } from "../plots/kinds/kinds";
+import { firstToPlot, mainPort, portAxes, portsOf } from "../model/ports";
 import { plotKinds } from "../plots/kinds/plots";
 import type { DocumentView, ElementView } from "../protocol";
 import { useStudio } from "../store";

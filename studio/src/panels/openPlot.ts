@@ -1,7 +1,7 @@
 // Adding panels to the dock from anywhere: the dock passes on its interface when it is ready.
 
 import type { DockviewApi, IDockviewPanel } from "dockview-react";
-import { mainPort, type PlotKind, portAxes, portsOf } from "../plots/kinds/kinds";
+import { mainPort, type PlotKind, portAxes, portsOf } from "../model/ports";
 import { plotKinds, tabOf } from "../plots/kinds/plots";
 import { readParams, readSettings } from "../plots/settings";
 import { shownPorts } from "../plots/shownPorts";

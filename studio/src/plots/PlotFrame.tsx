@@ -18,7 +18,7 @@ import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import type { DrawingFormat } from "./export/exportDrawing";
 import { exportCsv, type Table } from "./export/exportCsv";
-import { type PlotKind, portAxes } from "./kinds/kinds";
+import { type PlotKind, portAxes } from "../model/ports";
 import { hasFigure, titleOf } from "./kinds/plots";
 import { PlotParameters } from "./controls/PlotParameters";
 import type { PlotParams, PlotSettings } from "./settings";

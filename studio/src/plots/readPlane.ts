@@ -3,7 +3,7 @@
 import type { AxisView } from "../protocol";
 import type { Live } from "../streams";
 import type { CursorAt } from "./chart/chartCursor";
-import { cell } from "./kinds/kinds";
+import { cell } from "../model/axes";
 import { reading } from "./range";
 
 // Where the cursor of another plot has a position on one axis only, the maximum over the other axis.

@@ -2,7 +2,7 @@
 // (src/deodar_studio/live/section.py).
 
 import type { Announced, AxisView } from "../protocol";
-import { stepOf } from "./kinds/kinds";
+import { stepOf } from "../model/axes";
 
 // All axes of the array of a stream: the drawn ones first, then the others.
 export function allAxes(form: Announced | null): AxisView[] {

@@ -2,7 +2,7 @@
 // are read with care, because a document may hold anything.
 
 import { SCALES, type ScaleName } from "./colors/colors";
-import type { PlotKind } from "./kinds/kinds";
+import type { PlotKind } from "../model/ports";
 import type { Range } from "./colors/paint";
 import type { Viewpoint } from "./scenes/sceneView";
 

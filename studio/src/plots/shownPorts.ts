@@ -2,7 +2,7 @@
 
 import type { DocumentView, ElementView, Kind, RecordedPort } from "../protocol";
 import { inOrder } from "./colors/colors";
-import { elementsAlike, mainPort, type PlotKind, portsAlike } from "./kinds/kinds";
+import { elementsAlike, mainPort, type PlotKind, portsAlike } from "../model/ports";
 import type { PlotSettings } from "./settings";
 
 // The name of the levels among the curves.

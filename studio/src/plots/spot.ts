@@ -1,7 +1,7 @@
 // What is injected where.
 
 import type { AxisView, DocumentView, ElementView } from "../protocol";
-import { portAxes } from "./kinds/kinds";
+import { portAxes } from "../model/ports";
 import type { Spot } from "./injection/pusher";
 
 export type Injection = {

@@ -2,7 +2,7 @@
 
 import type { AxisView, ElementView } from "../protocol";
 import { useStudio } from "../store";
-import { portAxes, portsOf } from "./kinds/kinds";
+import { portAxes, portsOf } from "../model/ports";
 
 export function usePorts(element: ElementView, port: string, fits: (axes: AxisView[]) => boolean): string[] {
   const joined = useStudio(({ document }) =>

@@ -1,7 +1,7 @@
 // What the next record holds: the ports, and how often they are sampled.
 
 import { create } from "zustand";
-import { portsOf } from "../plots/kinds/kinds";
+import { portsOf } from "../model/ports";
 import type { ElementView, RecordedPort } from "../protocol";
 
 type RecordChoice = {

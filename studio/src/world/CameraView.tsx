@@ -3,7 +3,7 @@
 import { Button } from "@mantine/core";
 import { useMemo, useRef } from "react";
 
-import { isPicture, portAxes } from "../plots/kinds/kinds";
+import { isPicture, portAxes } from "../model/ports";
 import { paintPicture } from "../plots/colors/paint";
 import { useStreams } from "../plots/useStreams";
 import type { ElementView } from "../protocol";

@@ -4,7 +4,7 @@ import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconChartGridDots } from "@tabler/icons-react";
 
 import { openPlot } from "../../panels/openPlot";
-import { weightsOf } from "../../plots/kinds/kinds";
+import { weightsOf } from "../../model/ports";
 import { useStudio } from "../../store";
 import { numberText } from "../numbers/number";
 import { ParameterRow } from "../parameters/ParameterRow";

@@ -1,7 +1,7 @@
 // The colours of a plot whose values are colours: a scale, and the range that it covers.
 
 import { centred, type Scale, scale, type ScaleName } from "./colors";
-import { hasLevels } from "../kinds/kinds";
+import { hasLevels } from "../../model/ports";
 import { type Level, thresholdOf } from "../chart/levels";
 import { extent, type Range } from "./paint";
 import type { Kind } from "../../protocol";

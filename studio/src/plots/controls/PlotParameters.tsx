@@ -9,7 +9,7 @@ import { Fields } from "../../inspector/forms/PartFields";
 import "../../inspector/inspector.css";
 import type { AxisView, ElementView, Kind, ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
-import type { PlotKind } from "../kinds/kinds";
+import type { PlotKind } from "../../model/ports";
 
 // The room of the parts that a kind of plot shows.
 const SHOWN: Partial<Record<PlotKind, string>> = {

@@ -3,7 +3,7 @@
 import { Slider } from "@mantine/core";
 import { useOffline } from "../../connection/NeedsServer";
 import type { AxisView } from "../../protocol";
-import { stepOf } from "../kinds/kinds";
+import { stepOf } from "../../model/axes";
 import { reading } from "../range";
 import { ends, middle, moved, sampleAt } from "../section";
 

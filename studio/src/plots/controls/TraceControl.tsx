@@ -3,7 +3,8 @@
 import { NumberInput, SegmentedControl, Select } from "@mantine/core";
 import type { AxisView, ElementView } from "../../protocol";
 import { useStudio } from "../../store";
-import { axisLabel, mainPort, portAxes, portsOf } from "../kinds/kinds";
+import { axisLabel } from "../../model/axes";
+import { mainPort, portAxes, portsOf } from "../../model/ports";
 import type { TraceSetting } from "../settings";
 
 // `label` says what it is the choice of.

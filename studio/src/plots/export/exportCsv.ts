@@ -1,7 +1,7 @@
 // The values of a plot as a CSV file: one row for each position, or moment, with the names and units of axes.
 
 import type { Announced, AxisView } from "../../protocol";
-import { axisLabel, points } from "../kinds/kinds";
+import { axisLabel, points } from "../../model/axes";
 import { type TableColumn, saveFile } from "./save";
 
 export type Table = { header: string[]; columns: TableColumn[] };

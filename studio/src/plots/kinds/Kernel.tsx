@@ -9,7 +9,7 @@ import { drawColorBar } from "../colors/colorBar";
 import { portColor } from "../colors/colors";
 import { arrayTable } from "../export/exportCsv";
 import { exportDrawing } from "../export/exportDrawing";
-import { axisLabel, cell, commonScale, edges, points } from "./kinds";
+import { axisLabel, cell, commonScale, edges, points } from "../../model/axes";
 import { axis, frame, type Look, mapFrame } from "../colors/look";
 import { FollowingColors } from "../colors/mapColors";
 import { paintHeat } from "../colors/paint";

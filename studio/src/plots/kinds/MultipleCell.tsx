@@ -7,7 +7,7 @@ import type { Live } from "../../streams";
 import type { CursorAt } from "../chart/chartCursor";
 import { portColor } from "../colors/colors";
 import type { PlotDrawing } from "../export/exportDrawing";
-import { axisLabel, cell, commonScale, edges, points } from "./kinds";
+import { axisLabel, cell, commonScale, edges, points } from "../../model/axes";
 import { axis, frame, type Look, mapFrame } from "../colors/look";
 import type { FollowingColors } from "../colors/mapColors";
 import { paintHeat } from "../colors/paint";

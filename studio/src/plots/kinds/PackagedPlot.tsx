@@ -6,7 +6,7 @@ import type { ListedProblem, PlotView } from "../../protocol";
 import type { Live, Wish } from "../../streams";
 import { arrayTable } from "../export/exportCsv";
 import { exportPicture } from "../export/exportDrawing";
-import { fits } from "./kinds";
+import { fits } from "../../model/ports";
 import { type Look, pageLook, paperLook } from "../colors/look";
 import { attempt, load, packagedFrame, type PlotModule, problemOf } from "./packaged";
 import { PlotFrame, type PlotProps } from "../PlotFrame";

@@ -8,7 +8,7 @@ import { useStudio } from "../../store";
 import type { Live, Wish } from "../../streams";
 import { curveColor } from "../colors/colors";
 import { exportDrawing } from "../export/exportDrawing";
-import { portAxes } from "./kinds";
+import { portAxes } from "../../model/ports";
 import { axis, frame, type Look } from "../colors/look";
 import { extent } from "../colors/paint";
 import { PlotFrame, type PlotProps } from "../PlotFrame";

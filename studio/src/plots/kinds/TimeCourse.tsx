@@ -9,7 +9,7 @@ import type { Live, Wish } from "../../streams";
 import { curveColor } from "../colors/colors";
 import { CourseControls } from "../controls/CourseControls";
 import { exportDrawing } from "../export/exportDrawing";
-import { portAxes } from "./kinds";
+import { portAxes } from "../../model/ports";
 import { axis, frame, type Look } from "../colors/look";
 import { drawMoment } from "../chart/momentLine";
 import { PlotFrame, type PlotProps } from "../PlotFrame";

@@ -2,7 +2,7 @@
 // at 0. Weights that learn are a port.
 
 import { useStudio } from "../../store";
-import { type WeightsView, weightsOf } from "./kinds";
+import { type WeightsView, weightsOf } from "../../model/ports";
 import { PlaneMap } from "./PlaneMap";
 import type { PlotProps } from "../PlotFrame";
 

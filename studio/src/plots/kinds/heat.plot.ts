@@ -1,4 +1,4 @@
-import { isPicture } from "./kinds";
+import { isPicture } from "../../model/ports";
 import type { PlotDeclaration } from "./plots";
 
 export const plot: PlotDeclaration = {

@@ -4,7 +4,7 @@
 import type { Announced, ListedProblem, PlotView } from "../../protocol";
 import type { Frame } from "../../frames";
 import { curveColor } from "../colors/colors";
-import { points } from "./kinds";
+import { points } from "../../model/axes";
 import type { Look } from "../colors/look";
 
 // What a module receives for each drawing.

@@ -1,7 +1,7 @@
 // The plots of the page: each file `NAME.plot.ts` of this folder declares one.
 
 import type { AxisView, PlotView } from "../../protocol";
-import { fits, type PlotKind } from "./kinds";
+import { fits, type PlotKind } from "../../model/ports";
 
 // What an element has to plot besides its port: an interaction kernel, weights that do not learn, and other
 // elements that have the port over the same axes.

@@ -2,23 +2,18 @@ import { existsSync } from "node:fs";
 
 import { describe, expect, it } from "vitest";
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../../protocol";
+import { axisLabel, cell, commonScale, edges, points, stepOf } from "../../model/axes";
 import {
-  axisLabel,
-  cell,
-  commonScale,
-  edges,
   elementsAlike,
   firstToPlot,
   fits,
   isPicture,
   mainPort,
-  points,
   portAxes,
   portsAlike,
   runsDown,
-  stepOf,
   weightsOf,
-} from "./kinds";
+} from "../../model/ports";
 import { hasFigure, PLOTS, plotKinds, tabOf, titleOf } from "./plots";
 
 const axis = (key: string, samples = 11, more: Partial<AxisView> = {}): AxisView => ({
