@@ -21,8 +21,7 @@ afterAll(() => studio.stop());
 const shown = () => panel(studio.page, "Experiment");
 const box = (name: string): Locator => shown().getByRole("textbox", { name, exact: true });
 const standing = () => shown().getByRole("list", { name: "Standing of the experiment" });
-const status = (text: RegExp) =>
-  expect.poll(() => shown().getByRole("status").innerText(), { timeout: 60_000 }).toMatch(text);
+const status = (text: RegExp) => expect.poll(() => shown().getByRole("status").innerText()).toMatch(text);
 
 async function open(path: string[]): Promise<void> {
   const { page } = studio;

@@ -23,8 +23,7 @@ const field = (name: string): Locator =>
   shown()
     .getByRole("textbox", { name, exact: true })
     .or(shown().getByRole("combobox", { name, exact: true }));
-const status = (text: RegExp) =>
-  expect.poll(() => shown().getByRole("status").innerText(), { timeout: 120_000 }).toMatch(text);
+const status = (text: RegExp) => expect.poll(() => shown().getByRole("status").innerText()).toMatch(text);
 
 async function open(name: string): Promise<void> {
   const { page } = studio;
@@ -68,7 +67,7 @@ test("an experiment opens from the list of files, runs, and shows each condition
 test("a row opens the record of its trial, and the model comes back", async () => {
   const { page } = studio;
   await shown().getByRole("button", { name: "Replay trial 63" }).click();
-  await page.getByRole("toolbar", { name: "Record" }).waitFor({ timeout: 120_000 });
+  await page.getByRole("toolbar", { name: "Record" }).waitFor();
   await shown().getByText("Trial 63 is open as a record.").waitFor();
   const row = shown().getByRole("row", { selected: true });
   expect((await row.innerText()).split(/\s+/)[0]).toBe("63");

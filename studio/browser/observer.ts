@@ -73,7 +73,7 @@ export class Observer {
   }
 
   /** Wait until a condition holds. It is evaluated after each message, and fails after some minutes. */
-  until(condition: () => unknown, minutes = 1): Promise<void> {
+  until(condition: () => unknown, minutes = 3): Promise<void> {
     return new Promise((resolve, reject) => {
       const done = (how: () => void) => {
         clearTimeout(timer);

@@ -7,13 +7,10 @@ import type { Browser, BrowserContext, Page } from "playwright-core";
 
 import { launch } from "./chromium";
 import { Observer } from "./observer";
-import { type Server, type ServerOptions, startServer } from "./server";
+import { PATIENCE, type Server, type ServerOptions, startServer } from "./server";
 
 const ROOT = join(import.meta.dirname, "..", "..");
 const SIZE = { width: 1280, height: 800 };
-
-/** Time after which a wait fails; it is not a measurement. */
-const PATIENCE = 60_000;
 
 export interface StudioOptions extends ServerOptions {
   /**

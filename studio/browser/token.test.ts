@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { expect, onTestFinished, test } from "vitest";
 
 import { box } from "./hands";
-import { runPython } from "./server";
+import { PATIENCE, runPython } from "./server";
 import { startStudio, type Studio } from "./studio";
 
 /** The browser's messages for a server that does not run, or that requires another token. */
@@ -25,7 +25,7 @@ test("the address bar does not show the token, and a page without it asks for it
   await box(page, "u").waitFor();
   expect(page.url()).toBe(new URL("/", url).href);
   const context = await browser.newContext({ locale: "en-US", reducedMotion: "reduce" });
-  context.setDefaultTimeout(60_000);
+  context.setDefaultTimeout(PATIENCE);
   onTestFinished(() => context.close());
   const stranger = await context.newPage();
   await stranger.goto(new URL("/", url).href);
@@ -42,7 +42,7 @@ test("the file that the studio opens in the browser leads to the page", async ()
     "import sys; from deodar_studio.access.redirect_file import RedirectFile; " +
     "print(RedirectFile(sys.argv[1]).address)";
   const context = await browser.newContext({ locale: "en-US", reducedMotion: "reduce" });
-  context.setDefaultTimeout(60_000);
+  context.setDefaultTimeout(PATIENCE);
   onTestFinished(() => context.close());
   const page = await context.newPage();
   await page.goto((await runPython(["-c", code, url])).trim());
