@@ -36,3 +36,11 @@ test("of the alphabets of formulas only those remain that formulas have", () => 
     "Typewriter",
   ]);
 });
+
+test("of the scripts of the typeface Latin and Greek remain", () => {
+  const css = readFileSync("node_modules/@fontsource-variable/inter/wght.css", "utf8");
+  const files = (text: string) =>
+    [...text.matchAll(/url\(\.\/files\/inter-(.*?)-wght/g)].map(([, name]) => name);
+  expect(files(css).length).toBeGreaterThan(5);
+  expect(files(onlyUsed(css)).sort()).toEqual(["greek", "latin"]);
+});

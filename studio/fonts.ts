@@ -6,14 +6,18 @@ const OTHER = /,\s*url\([^)]*\.(?:woff|ttf)["']?\)\s*format\(["'](?:woff|truetyp
 /** Alphabets that no formula of deodar has; in one of a package their letters have the font of the text. */
 const UNUSED = /@font-face\{[^}]*KaTeX_(?:Fraktur|SansSerif|Script|Typewriter)[^}]*\}/g;
 
+/** Scripts of which the page writes no word; letters of one in a document have a font of the system. */
+const OTHER_SCRIPTS =
+  /(?:\/\* inter-[\w-]+ \*\/\s*)?@font-face\s*\{[^}]*inter-(?:cyrillic|cyrillic-ext|greek-ext|latin-ext|vietnamese)-wght[^}]*\}\s*/g;
+
 /** The stylesheet without the sources in woff and ttf that stand behind one in woff2. */
 export function onlyWoff2(css: string): string {
   return css.replace(OTHER, "");
 }
 
-/** The stylesheet of the formulas without the alphabets that none has. */
+/** The stylesheet without the alphabets that no formula has, and without the scripts that the page lacks. */
 export function onlyUsed(css: string): string {
-  return css.replace(UNUSED, "");
+  return css.replace(UNUSED, "").replace(OTHER_SCRIPTS, "");
 }
 
 export function fonts(): Plugin {

@@ -1,4 +1,5 @@
-import "@mantine/core/styles.css";
+import "./mantine.css";
+import "@fontsource-variable/inter/wght.css";
 import "./theme.css";
 
 import { MantineProvider } from "@mantine/core";
@@ -8,16 +9,19 @@ import { createRoot } from "react-dom/client";
 import { App } from "./App";
 import { socket } from "./socket";
 import { theme, variables } from "./theme";
+import { TYPEFACE } from "./typeface";
 
 const root = document.getElementById("root");
 if (root === null) {
   throw new Error("index.html has no element with the id root");
 }
 socket.open();
-createRoot(root).render(
+const page = (
   <StrictMode>
     <MantineProvider theme={theme} cssVariablesResolver={variables} defaultColorScheme="auto">
       <App />
     </MantineProvider>
-  </StrictMode>,
+  </StrictMode>
 );
+// a canvas that is drawn before its typeface is there keeps another one
+void document.fonts.load(`13px ${TYPEFACE}`).finally(() => createRoot(root).render(page));

@@ -1,7 +1,9 @@
-// The theme of Mantine's controls: deodar green, calm greys, system fonts, small sizes. All other colours are
+// The theme of Mantine's controls: deodar green, greys, one typeface, small sizes. All other colours are
 // in theme.css.
 
 import { createTheme, type CSSVariablesResolver, type MantineColorsTuple } from "@mantine/core";
+
+import { TYPEFACE } from "./typeface";
 
 const deodar: MantineColorsTuple = [
   "#eef7f2",
@@ -11,35 +13,35 @@ const deodar: MantineColorsTuple = [
   "#6bb691",
   "#4ba37b",
   "#3a9069",
-  "#2f7d5b",
-  "#276a4d",
-  "#1e563e",
+  "#1f7a50",
+  "#186842",
+  "#115235",
 ];
 
 const gray: MantineColorsTuple = [
-  "#f5f7f5",
-  "#edf0ed",
-  "#e2e6e3",
-  "#d3d9d5",
-  "#b9c1bc",
-  "#8f9a94",
-  "#5f6a64",
-  "#454f4a",
-  "#2f3733",
-  "#1c2420",
+  "#f4f4f5",
+  "#ededef",
+  "#e2e2e5",
+  "#d0d0d5",
+  "#b4b4bc",
+  "#8b8b94",
+  "#5b5b64",
+  "#434349",
+  "#2c2c31",
+  "#18181b",
 ];
 
 const dark: MantineColorsTuple = [
-  "#e4e9e6",
-  "#c3ccc7",
-  "#9aa69f",
-  "#76837c",
-  "#3a433e",
-  "#2e3632",
-  "#232a26",
-  "#1a1f1c",
-  "#131715",
-  "#0d100e",
+  "#ececef",
+  "#c6c6cd",
+  "#a5a5b0",
+  "#6d6d78",
+  "#3b3b42",
+  "#2c2c31",
+  "#232327",
+  "#1a1a1d",
+  "#121214",
+  "#0d0d0f",
 ];
 
 export const theme = createTheme({
@@ -47,9 +49,8 @@ export const theme = createTheme({
   primaryColor: "deodar",
   primaryShade: 7,
   colors: { deodar, gray, dark },
-  black: "#1c2420",
-  fontFamily:
-    '-apple-system, "Segoe UI", Roboto, Cantarell, Ubuntu, "Noto Sans", "Helvetica Neue", Arial, sans-serif',
+  black: "#18181b",
+  fontFamily: TYPEFACE,
   fontFamilyMonospace: 'ui-monospace, SFMono-Regular, Menlo, Consolas, "Liberation Mono", monospace',
   fontSizes: { xs: "12px", sm: "13px", md: "14px", lg: "16px", xl: "19px" },
   headings: { fontWeight: "600" },

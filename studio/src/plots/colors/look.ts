@@ -4,6 +4,7 @@
 import type uPlot from "uplot";
 import { type Shade, shade } from "./colors";
 import { tick } from "../range";
+import { TYPEFACE } from "../../typeface";
 
 // The room that a colour bar needs, as a padding of the chart.
 const BAR_ROOM = 66;
@@ -27,8 +28,6 @@ export function isSmall(width: number, height: number): boolean {
   return width < SMALL.width || height < SMALL.height;
 }
 
-const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", Arial, sans-serif';
-
 export function pageLook(small = false): Look {
   const style = getComputedStyle(document.documentElement);
   const variable = (name: string) => style.getPropertyValue(name).trim();
@@ -49,7 +48,7 @@ export function paperLook(unit: number, small = false): Look {
 }
 
 export function font(look: Look, size = 11): string {
-  return `${size * look.unit}px ${FONT}`;
+  return `${size * look.unit}px ${TYPEFACE}`;
 }
 
 export type AxisHow = { scale: string; side: 1 | 2 | 3; label?: string; grid?: boolean };
