@@ -16,7 +16,6 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
@@ -31,10 +30,10 @@ import deodar as dd
 
 HERE = Path(__file__).parent
 SIZE = (320, 200)
-COLORS = matplotlib.colormaps[dd.figures.DIVERGING]
+COLORS = dd.figures.ACTIVATION
 DARK, LINE = COLORS(0.0), (1.0, 1.0, 1.0, 0.9)
-ACTIVATION = "#56b4e9"
-"""The colour of activation on dark ground, as in the studio."""
+ACTIVATION, EMBER = "#62b5f0", "#ff8a4c"
+"""The colours of activation below and above the threshold on dark ground, as in the studio."""
 EDGE = [withStroke(linewidth=3.6, foreground="#202020")]
 """The edge of a white line, which can be seen on every colour of the map."""
 SCALE = 3
@@ -94,9 +93,10 @@ def heat(axes: Axes, values: np.ndarray, low: float, high: float, threshold: boo
 
 def course(axes: Axes, u: xarray.DataArray, low: float, high: float) -> None:
     """The activation of a node over time, bright where it is on."""
-    axes.fill_between(u.time, u, 0, where=u > 0, color=ACTIVATION, alpha=0.6, linewidth=0)
+    axes.fill_between(u.time, u, 0, where=u > 0, color=EMBER, alpha=0.6, linewidth=0)
     axes.axhline(0, color=LINE, linewidth=0.5)
     axes.plot(u.time, u, color=ACTIVATION, linewidth=1.6)
+    axes.plot(u.time, np.where(u > 0, u, np.nan), color=EMBER, linewidth=1.6)
     axes.set_xlim(float(u.time[0]), float(u.time[-1]))
     axes.set_ylim(low, high)
 
@@ -441,10 +441,11 @@ PICTURES: tuple[Callable[[], Figure], ...] = (
 
 def scale_colors() -> Image.Image:
     """The colours of the scale, pure and mixed with the white of lines, for pictures that hold no others."""
-    pure = np.array([*COLORS(np.linspace(0, 1, 40))[:, :3], to_rgb(ACTIVATION), to_rgb("#202020")])
+    lines = np.array([to_rgb(ACTIVATION), to_rgb(EMBER)])
+    pure = np.array([*COLORS(np.linspace(0, 1, 40))[:, :3], *lines, to_rgb("#202020")])
     ground = np.array(DARK[:3])
     mixed = [pure[::5] * (1 - part) + part for part in (0.33, 0.67)]
-    mixed += [ground * (1 - part) + np.array([to_rgb(ACTIVATION)]) * part for part in (0.3, 0.6, 0.8)]
+    mixed += [ground * (1 - part) + lines * part for part in (0.3, 0.6, 0.8)]
     palette = Image.new("P", (1, 1))
     palette.putpalette((np.concatenate([pure, *mixed, [[1, 1, 1]]]) * 255).round().astype(np.uint8).tobytes())
     return palette

@@ -11,7 +11,7 @@ are objects without global state.
 
 from deodar.figures._file import FigureFile, FigurePanel
 from deodar.figures._files import save_figure
-from deodar.figures._style import COLOR, COLORS, DIVERGING, RC, SEQUENTIAL, THRESHOLD_LINE, Palette
+from deodar.figures._style import ACTIVATION, AMOUNTS, COLOR, COLORS, RC, THRESHOLD_LINE, Palette
 from deodar.figures._view import View
 from deodar.figures.bifurcation import bifurcation_diagram
 from deodar.figures.locus import locus_figure
@@ -25,11 +25,11 @@ from deodar.figures.space_time import space_time
 from deodar.figures.time_course import time_course
 
 __all__ = [
+    "ACTIVATION",
+    "AMOUNTS",
     "COLOR",
     "COLORS",
-    "DIVERGING",
     "RC",
-    "SEQUENTIAL",
     "THRESHOLD_LINE",
     "FigureFile",
     "FigurePanel",

@@ -10,7 +10,7 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize
+from matplotlib.colors import Colormap, ListedColormap, Normalize
 from matplotlib.figure import FigureBase
 
 from deodar.errors import RecordError, did_you_mean
@@ -21,13 +21,20 @@ NEARLY_FLAT = 1e-9
 GAP, WIDE = 0.04, 0.05
 """The distance of a colour bar from a map, and its width, as shares of the map's width."""
 
+COUNT = 256
+"""Colours of a map."""
+
+LEAST_REACH = 3.0
+"""The shorter reach of activation is at least the longer one divided by this."""
+
 LONGEST = 18
 """Characters of a line of the label beside a map that may be low."""
 
 
 def of(arrays: Iterable[Any], view: View, threshold: float | None) -> ScalarMappable:
     """Return the colour scale of some arrays, with the range and the colour map that a view selects."""
-    return scale(arrays, threshold, view.value_range, view.colors)
+    map_of_amounts = _style.amounts(_style.port_color(view.name))
+    return scale(arrays, threshold, view.value_range, view.colors, map_of_amounts)
 
 
 def scale(
@@ -35,13 +42,13 @@ def scale(
     threshold: float | None,
     value_range: Sequence[float] | None = None,
     colors: str | None = None,
+    map_of_amounts: Colormap = _style.AMOUNTS,
 ) -> ScalarMappable:
     """Return the colour scale of some arrays.
 
-    Activation has a diverging map: white at the threshold, blue below, red above, with equal steps of colour
-    for equal steps of activation on both sides. The scale always contains the threshold; otherwise the noise
-    of an inactive field would look like peaks. Other values have a sequential map. `value_range` sets the
-    ends of the scale, and `colors` names another map.
+    Activation is white at the threshold, blue below and ember above it. The scale always contains the
+    threshold; otherwise the noise of an inactive field would look like peaks. Other values have the map of
+    amounts. `value_range` sets the ends of the scale, and `colors` names another map.
     """
     if value_range is not None:
         low, high = map(float, value_range)
@@ -51,13 +58,27 @@ def scale(
             low, high = min(low, threshold), max(high, threshold)
     if colors is not None:
         return ScalarMappable(Normalize(low, high), _named(colors))
-    if threshold is not None:
-        reach = max(abs(low - threshold), abs(high - threshold))
-        return ScalarMappable(
-            Normalize(low, high),
-            _part(_style.DIVERGING, (low - threshold) / reach, (high - threshold) / reach),
-        )
-    return ScalarMappable(Normalize(low, high), _style.SEQUENTIAL)
+    return ScalarMappable(
+        Normalize(low, high), map_of_amounts if threshold is None else activation(low, high, threshold)
+    )
+
+
+def activation(low: float, high: float, threshold: float) -> Colormap:
+    """Return the map of activation from `low` to `high`.
+
+    Each side of the threshold has a reach of its own, over which it takes all of its colours: with one
+    reach, a peak of +3 over a resting level of -10 would be pale. The reach of a side is the distance of the
+    threshold from its end, at least a third of that of the other side, so that noise at the threshold stays
+    pale. The colour of the threshold itself is white.
+    """
+    values = np.linspace(low, high, COUNT)
+    if low <= threshold <= high:
+        # the colour that matplotlib takes for it
+        values[min(COUNT - 1, int(COUNT * (threshold - low) / (high - low)))] = threshold
+    below = max(threshold - low, (high - threshold) / LEAST_REACH)
+    above = max(high - threshold, (threshold - low) / LEAST_REACH)
+    place = np.where(values < threshold, (values - threshold) / below, (values - threshold) / above)
+    return ListedColormap(_style.ACTIVATION(0.5 + 0.5 * np.clip(place, -1.0, 1.0)), "activation")
 
 
 def bar(
@@ -102,11 +123,3 @@ def _named(name: str) -> Colormap:
             f"there is no colour map {name!r}", fix=did_you_mean(name, list(matplotlib.colormaps))
         )
     return matplotlib.colormaps[name]
-
-
-def _part(name: str, low: float, high: float) -> Colormap:
-    """Return a part of a diverging map, whose ends are -1 and 1 and whose middle is 0."""
-    whole = matplotlib.colormaps[name]
-    return LinearSegmentedColormap.from_list(
-        f"{name} part", whole(0.5 + 0.5 * np.linspace(low, high, 256)), 256
-    )

@@ -109,7 +109,7 @@ def _colors(v: xarray.DataArray, others: list[str], grid: tuple[int, ...], name:
     if n == 1:
         return [_style.port_color(name)]
     if len(others) == 1 and n > 2 and v[others[0]].dtype.kind in "iuf" and others[0] in v.coords:
-        return list(matplotlib.colormaps[_style.SEQUENTIAL](np.linspace(0.0, 0.85, n)))
+        return list(matplotlib.colormaps[_style.ORDERED](np.linspace(0.0, 0.85, n)))
     return [_style.COLORS[k % len(_style.COLORS)] for k in range(n)]
 
 

@@ -13,6 +13,7 @@ from typing import Any, cast
 
 import matplotlib
 from matplotlib import font_manager
+from matplotlib.colors import Colormap, LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.rcsetup import cycler
 
@@ -31,6 +32,9 @@ DOTS = 300
 
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 """Colours of lines: Okabe and Ito's set, which colour-blind readers can distinguish."""
+
+ORDERED = "viridis"
+"""The colours of lines in an order, such as those of a sweep."""
 
 BLUE, VERMILION, GREEN, _PURPLE, ORANGE, _SKY, BLACK = COLORS
 GREY = "#999999"
@@ -52,10 +56,10 @@ class Palette:
         claim, baseline, interval: the tested method, the baselines, 95 % intervals.
     """
 
-    activation: str = BLUE
-    output: str = GREEN
-    input: str = "#bf7f00"
-    interaction: str = "#b0568c"
+    activation: str = "#0b6cb3"
+    output: str = "#00795a"
+    input: str = "#96620a"
+    interaction: str = "#a3487f"
     excitation: str = "#333333"
     inhibition: str = VERMILION
     mixed: str = "#6a3d9a"
@@ -115,8 +119,26 @@ OUTLINE: dict[str, Any] = {
 }
 """The outline of an obstacle that appears and disappears."""
 
-SEQUENTIAL = "viridis"
-DIVERGING = "RdBu_r"
+BELOW = ("#ffffff", "#d3e6f5", "#93c1e6", "#4e93cb", "#21659f", "#0e4070", "#08294b")
+ABOVE = ("#ffffff", "#ffe3bd", "#ffb968", "#f98328", "#dd4d0d", "#a02f06", "#641a02")
+"""Colours of activation at equal distances from the threshold, which is white. Lightness falls on both sides
+(L* from 100 to 16 and to 22), so that the map reads without hues too.
+"""
+
+SUNK = "#ededef"
+"""The colour of nothing, in maps of amounts."""
+
+
+def amounts(color: str) -> Colormap:
+    """Return the map of amounts without a threshold: one hue, from the colour of nothing to a line's."""
+    return LinearSegmentedColormap.from_list("amounts", [SUNK, color])
+
+
+ACTIVATION: Colormap = LinearSegmentedColormap.from_list("activation", [*BELOW[::-1], *ABOVE[1:]], 257)
+"""Activation, the threshold in the middle; 257 colours, so that one of them is white."""
+
+AMOUNTS = amounts(COLOR.interaction)
+"""Weights, traces and other amounts that no port has."""
 
 RC: dict[str, Any] = {
     "axes.prop_cycle": cycler(color=COLORS),

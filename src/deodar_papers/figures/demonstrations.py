@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from deodar.architectures.color_search import HUES
-from deodar.figures._style import COLOR, DOUBLE, MEDIUM, SEQUENTIAL, style
+from deodar.figures._style import AMOUNTS, COLOR, DOUBLE, MEDIUM, style
 from deodar.figures._style import figure as sheet
 from deodar_papers.figures.sequence import TICKS, DrawnSearch, draw_hues, draw_nodes, line_colour
 
@@ -72,7 +72,7 @@ def _weights(axes: Axes, result: DrawnDemonstration) -> Any:
         turned.T,
         extent=(0.5, count + 0.5, low, low + HUES),
         origin="lower",
-        cmap=SEQUENTIAL,
+        cmap=AMOUNTS,
         vmin=0.0,
         vmax=1.0,
         aspect="auto",

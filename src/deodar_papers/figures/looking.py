@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from deodar.architectures.looking import PIXELS, REACH
-from deodar.figures._style import COLOR, COLORS, DOUBLE, MEDIUM, SEQUENTIAL, THIN, style
+from deodar.figures._style import AMOUNTS, COLOR, COLORS, DOUBLE, MEDIUM, THIN, style
 from deodar.figures._style import figure as sheet
 
 HEIGHT = 5.6
@@ -141,7 +141,7 @@ def _draw_projection(place: Any, motor: str, retina: str, values: np.ndarray) ->
         values,
         origin="lower",
         aspect="auto",
-        cmap=SEQUENTIAL,
+        cmap=AMOUNTS,
         extent=(-0.5, PIXELS - 0.5, -REACH, REACH),
         interpolation="nearest",
     )

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
 
-from deodar.figures._style import BLACK, DIVERGING, SEQUENTIAL, SINGLE, THICK, style
+from deodar.figures._style import ACTIVATION, AMOUNTS, BLACK, SINGLE, THICK, style
 from deodar.figures._style import figure as sheet
 
 RANGE = 3.0
@@ -48,14 +49,14 @@ def perception_figure(result: ColourPerception) -> Figure:
     with style():
         out = sheet(SINGLE * 1.35, 6.4)
         a, b, c = out.subplots(3, 1, sharex=True)
-        image = _over_hue(a, r, r.activation, DIVERGING, (-RANGE, RANGE))
+        image = _over_hue(a, r, r.activation, ACTIVATION, (-RANGE, RANGE))
         out.colorbar(image, ax=a, label="activation", pad=0.02, aspect=14, extend="min")
         if (r.activation > 0).any():
             x = np.linspace(*r.columns, r.activation.shape[0])
             y = _degrees(r, np.linspace(*r.hues, r.activation.shape[1]))
             a.contour(x, y, r.activation.T, [0.0], colors=BLACK, linewidths=THICK)
         a.set_title("A  colour-space field", loc="left")
-        image = _over_hue(b, r, r.shares, SEQUENTIAL, (0.0, 1.0))
+        image = _over_hue(b, r, r.shares, AMOUNTS, (0.0, 1.0))
         out.colorbar(image, ax=b, label="amount", pad=0.02, aspect=14)
         b.set_title("B  hues of each column of the picture", loc="left")
         c.imshow(
@@ -71,7 +72,9 @@ def perception_figure(result: ColourPerception) -> Figure:
     return out
 
 
-def _over_hue(axes: Axes, r: ColourPerception, values: np.ndarray, colours: str, limits: tuple[float, float]):
+def _over_hue(
+    axes: Axes, r: ColourPerception, values: np.ndarray, colours: Colormap, limits: tuple[float, float]
+):
     image = axes.imshow(
         values.T,
         extent=(*r.columns, 0.0, DEGREES),

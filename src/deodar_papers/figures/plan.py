@@ -18,10 +18,10 @@ from PIL import Image, ImageDraw
 from deodar.architectures.spa import DIRECTIONS
 from deodar.figures import maze
 from deodar.figures._style import (
+    ACTIVATION,
     COLOR,
     COLORS,
     CROSS,
-    DIVERGING,
     DOUBLE,
     MEDIUM,
     SMALL,
@@ -121,7 +121,7 @@ def _motivation(axes: Axes, r: DrawnRun, name: str, step: int | None) -> None:
     u = r.record[f"{name}.motivation.activation"].isel(time=step // r.every)
     x, y = u["x"].values, u["y"].values
     extent = (x[0] - 0.5, x[-1] + 0.5, y[0] - 0.5, y[-1] + 0.5)
-    axes.imshow(u.values.T, extent=extent, cmap=DIVERGING, vmin=-RANGE, vmax=RANGE)
+    axes.imshow(u.values.T, extent=extent, cmap=ACTIVATION, vmin=-RANGE, vmax=RANGE)
     axes.contour(x, y, u.values.T, levels=[0.0], colors="black", linewidths=0.4)
     axes.plot(
         *r.record["pose.output"].values[step // r.every, :2],

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 
 from deodar.architectures.pointing import CUES
-from deodar.figures._style import COLOR, COLORS, DOUBLE, GREY, style
+from deodar.figures._style import ACTIVATION, COLOR, COLORS, DOUBLE, GREY, style
 from deodar.figures._style import figure as sheet
 from deodar.numerics.axes import Axis
 
@@ -89,7 +89,7 @@ def pointing_figure(
             at.set_axis_off()
             at = drawn.add_subplot(grid[1, k])
             shown = at.imshow(
-                view.map.T, origin="lower", extent=extent, vmin=LOWEST, vmax=HIGHEST, cmap="RdBu_r"
+                view.map.T, origin="lower", extent=extent, vmin=LOWEST, vmax=HIGHEST, cmap=ACTIVATION
             )
             for disc in discs:
                 turn = np.linspace(0, 2 * np.pi, 40)

@@ -16,11 +16,11 @@ from PIL import Image, ImageDraw
 
 from deodar.architectures.color_search import HUES
 from deodar.figures._style import (
+    ACTIVATION,
+    AMOUNTS,
     COLOR,
-    DIVERGING,
     DOUBLE,
     MEDIUM,
-    SEQUENTIAL,
     SMALL,
     THIN,
     THRESHOLD_LINE,
@@ -178,7 +178,7 @@ def draw_hues(axes: Axes, r: DrawnSearch, name: str) -> Any:
     image = axes.imshow(
         turned.T,
         extent=(times[0], times[-1], low, low + HUES),
-        cmap=DIVERGING,
+        cmap=ACTIVATION,
         vmin=-RANGE,
         vmax=RANGE,
         aspect="auto",
@@ -194,7 +194,7 @@ def _columns(axes: Axes, r: DrawnSearch, out: Figure) -> None:
     image = axes.imshow(
         field.values.T,
         extent=(times[0], times[-1], -half, half),
-        cmap=SEQUENTIAL,
+        cmap=AMOUNTS,
         vmin=0.0,
         vmax=1.0,
         aspect="auto",

@@ -8,13 +8,14 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 
 import deodar as dd
 from deodar.diagrams import wires
-from deodar.figures import _style
+from deodar.figures import _color, _style
 
 PAGE = Path(__file__).parents[3] / "studio" / "src"
-FIELD = ("activation", "output", "input", "interaction", "level")
+FIELD = ("activation", "above", "output", "input", "interaction", "level")
 
 
 def theme(scheme: str) -> dict[str, str]:
@@ -42,17 +43,34 @@ def test_plots_and_theme_of_the_studio_have_the_same_colours(scheme: str) -> Non
 def test_the_studio_has_the_colours_of_figures_on_a_light_page() -> None:
     palette = dd.figures.COLOR
     figures = {name: getattr(palette, name) for name in _style.PORTS}
-    assert plots("light") == {**figures, "level": palette.threshold}
+    assert plots("light") == {**figures, "level": palette.threshold, "above": plots("light")["above"]}
     assert (theme("light")["inhibition"], theme("light")["mixed"]) == (palette.inhibition, palette.mixed)
     assert {"+": palette.excitation, "-": palette.inhibition, "±": palette.mixed} == wires.COLORS
 
 
+GROUNDS = ("surface", "surface-raised", "surface-hover")
+PAIRS = [
+    *[("text", ground, 7.0) for ground in GROUNDS],
+    *[("text-dim", ground, 4.5) for ground in GROUNDS],
+    *[(name, "surface-raised", 4.5) for name in FIELD],
+    *[(name, "surface-raised", 3.0) for name in ("border-strong", "inhibition", "mixed")],
+    *[(name, "surface-raised", 4.5) for name in ("accent", "warn", "error")],
+    *[(name, f"{name}-soft", 4.5) for name in ("accent", "warn", "error")],
+    ("on-accent", "accent", 4.5),
+]
+"""Colour, its ground, and the least contrast (WCAG 2: 3 for lines that carry a meaning, 4.5 for text; 7 for
+the text of the page).
+"""
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_every_colour_of_the_studio_has_contrast_with_its_ground(scheme: str) -> None:
-    ground = luminance(theme(scheme)["surface-raised"])
-    for name in (*FIELD, "inhibition", "mixed"):
-        one, other = sorted([luminance(theme(scheme)[name]), ground])
-        assert (other + 0.05) / (one + 0.05) > 3, name
+@pytest.mark.parametrize(("name", "ground", "least"), PAIRS)
+def test_a_colour_of_the_studio_has_contrast_with_its_ground(
+    scheme: str, name: str, ground: str, least: float
+) -> None:
+    colors = theme(scheme)
+    low, high = sorted([luminance(colors[name]), luminance(colors[ground])])
+    assert (high + 0.05) / (low + 0.05) >= least
 
 
 def luminance(color: str) -> float:
@@ -62,16 +80,40 @@ def luminance(color: str) -> float:
     return float(np.dot(linear, (0.2126, 0.7152, 0.0722)))
 
 
-def test_maps_of_the_studio_and_of_figures_have_the_same_scales() -> None:
+def anchors(name: str) -> list[str]:
+    """Return the colours between which a scale of the studio is interpolated."""
     text = (PAGE / "plots" / "colors" / "colors.ts").read_text()
-    for name, colormap in (("viridis", dd.figures.SEQUENTIAL), ("diverging", dd.figures.DIVERGING)):
-        entries = re.search(rf"\n  {name}: \[(.*?)\]", text, re.S)
-        assert entries is not None
-        anchors = re.findall(r"#[0-9a-f]{6}", entries[1])
-        for color, place in zip(anchors, np.linspace(0, 1, len(anchors)), strict=True):
-            rgb = np.array([int(color[k : k + 2], 16) for k in (1, 3, 5)])
-            assert np.abs(rgb - 255 * np.array(matplotlib.colormaps[colormap](place)[:3])).max() < 4
-    assert 'sequential = scale("viridis")' in text
+    entries = re.search(rf"\n  {name}: \[(.*?)\]", text, re.S)
+    assert entries is not None
+    return re.findall(r"#[0-9a-f]{6}", entries[1])
+
+
+def test_the_map_of_activation_is_one_in_the_studio_and_in_figures() -> None:
+    assert anchors("diverging") == [*_style.BELOW[::-1], *_style.ABOVE[1:]]
+    colors = anchors("viridis")
+    for color, place in zip(colors, np.linspace(0, 1, len(colors)), strict=True):
+        rgb = np.array([int(color[k : k + 2], 16) for k in (1, 3, 5)])
+        assert np.abs(rgb - 255 * np.array(matplotlib.colormaps["viridis"](place)[:3])).max() < 4
+
+
+@pytest.mark.parametrize("side", [_style.BELOW, _style.ABOVE])
+def test_lightness_falls_on_both_sides_of_the_threshold(side: tuple[str, ...]) -> None:
+    lightness = [luminance(color) for color in side]
+    assert lightness == sorted(lightness, reverse=True)
+
+
+@pytest.mark.parametrize(("low", "high", "threshold"), [(-10, 4, 0), (-3, 9, 1), (-10.3, 3.7, 0.1)])
+def test_activation_takes_all_colours_on_each_side_and_is_white_at_the_threshold(
+    low: float, high: float, threshold: float
+) -> None:
+    scale = _color.scale([np.array([low, high])], threshold)
+    values = np.array([low, threshold, high])
+    assert [to_hex(c) for c in scale.to_rgba(values)] == [_style.BELOW[-1], "#ffffff", _style.ABOVE[-1]]
+
+
+def test_a_value_just_above_the_threshold_of_a_field_at_rest_is_pale() -> None:
+    scale = _color.scale([np.array([-9.0, 0.5])], 0.0)
+    assert luminance(to_hex(scale.to_rgba(0.5))) > 0.6
 
 
 def test_a_line_has_the_colour_of_its_port() -> None:

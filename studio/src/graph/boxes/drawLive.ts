@@ -1,6 +1,14 @@
 // One live picture inside a box; its form follows from the shape of the data alone.
 
-import { diverging, portColor, sequential, shade, type Shade } from "../../plots/colors/colors";
+import {
+  activationScale,
+  FIELD_COLORS,
+  portColor,
+  scale,
+  type Scale,
+  shade,
+  type Shade,
+} from "../../plots/colors/colors";
 import { paintCurve, paintHeat, paintPicture } from "../../plots/colors/paint";
 import type { Live } from "../../streams";
 import { follow, open, type Span } from "../wires/span";
@@ -38,17 +46,22 @@ export function drawLive(canvas: Canvas, { form, frame }: Live): void {
     drawCurve(canvas, values, lower, upper);
   } else {
     squares(canvas, true);
-    const most = Math.max(-lower, upper);
-    const both = lower < 0;
-    paintHeat(
-      canvas.element,
-      values,
-      form.shape[0] ?? 1,
-      form.shape[1] ?? 1,
-      both ? [-most, most] : [0, upper],
-      both ? diverging : sequential,
-    );
+    const table = lower < 0 ? activationOf(canvas.span) : scale("viridis");
+    paintHeat(canvas.element, values, form.shape[0] ?? 1, form.shape[1] ?? 1, [lower, upper], table);
   }
+}
+
+const tables = new WeakMap<Span, Scale>();
+
+// The colours of a span around 0; they are computed once for as long as it stays.
+function activationOf(span: Span): Scale {
+  let table = tables.get(span);
+  if (table === undefined) {
+    const { lower, upper } = open(span);
+    table = activationScale(lower, upper, 0);
+    tables.set(span, table);
+  }
+  return table;
 }
 
 export function clear(canvas: Canvas): void {
@@ -81,6 +94,7 @@ function drawCurve(canvas: Canvas, values: Float32Array, lower: number, upper: n
     lower,
     upper,
     color: portColor(port, [port], shade()),
+    above: aboveColor(port),
     zero: ink().line,
   };
   paintCurve(ctx, values.length === 1 ? [values[0] as number, values[0] as number] : values, how);
@@ -98,7 +112,7 @@ function drawNumber(canvas: Canvas, value: number, lower: number, upper: number)
   ctx.fillStyle = ink().ground;
   ctx.fillRect(0, middle - 4, bar, 8);
   if (Number.isFinite(value)) {
-    ctx.fillStyle = portColor(port, [port], shade());
+    ctx.fillStyle = value > 0 ? aboveColor(port) : portColor(port, [port], shade());
     ctx.fillRect(Math.min(place(0), place(value)), middle - 4, Math.abs(place(value) - place(0)), 8);
   }
   ctx.fillStyle = ink().line;
@@ -111,6 +125,11 @@ function drawNumber(canvas: Canvas, value: number, lower: number, upper: number)
   ctx.textAlign = "right";
   ctx.textBaseline = "middle";
   ctx.fillText(Number.isFinite(value) ? rounded(value) : "not finite", width - 2, middle + 0.5);
+}
+
+// The colour of a port above 0: activation has one of its own there.
+function aboveColor(port: string): string {
+  return port === "activation" ? FIELD_COLORS[shade()].above : portColor(port, [port], shade());
 }
 
 // Digits that change slowly enough to be read.

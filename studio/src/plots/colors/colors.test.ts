@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { centred, curveColor, inOrder, portColor, scale, SCALES } from "./colors";
+import { activationScale, curveColor, inOrder, portColor, scale, SCALES } from "./colors";
 
 const lightness = (table: Uint8ClampedArray, i: number) =>
   0.3 * (table[4 * i] ?? 0) + 0.59 * (table[4 * i + 1] ?? 0) + 0.11 * (table[4 * i + 2] ?? 0);
@@ -20,11 +20,32 @@ it("the diverging scale is lightest at its centre", () => {
   expect(lightness(table, 255)).toBeLessThan(80);
 });
 
-it("a part of the diverging scale keeps its centre, and is equally steep on both sides", () => {
-  const piece = centred(scale("diverging"), -5, 2.5, 0);
-  expect(lightness(piece, 170)).toBeGreaterThan(240);
-  expect([...piece.slice(0, 3)]).toEqual([...scale("diverging").slice(0, 3)]);
-  expect([...piece.slice(4 * 255, 4 * 255 + 3)]).toEqual([...scale("diverging").slice(4 * 191, 4 * 191 + 3)]);
+const colorAt = (table: Uint8ClampedArray, i: number) => [...table.slice(4 * i, 4 * i + 3)];
+const WHITE = [255, 255, 255];
+
+it("activation takes all of its colours on each side of the threshold, which is white", () => {
+  for (const [lower, upper, threshold] of [
+    [-10, 4, 0],
+    [-3, 9, 1],
+    [-10.3, 3.7, 0.1],
+  ] as const) {
+    const table = activationScale(lower, upper, threshold);
+    const middle = Math.round((255 * (threshold - lower)) / (upper - lower));
+    expect(colorAt(table, middle)).toEqual(WHITE);
+    expect(colorAt(table, 0)).toEqual(colorAt(scale("diverging"), 0));
+    expect(colorAt(table, 255)).toEqual(colorAt(scale("diverging"), 255));
+  }
+});
+
+it("a value just above the threshold of a field at rest is pale", () => {
+  const table = activationScale(-9, 0.5, 0);
+  expect(lightness(table, 255)).toBeGreaterThan(210);
+  expect(lightness(activationScale(-0.5, 9, 0), 0)).toBeGreaterThan(210);
+});
+
+it("a range on one side of the threshold has the colours of that side", () => {
+  expect(colorAt(activationScale(1, 5, 0), 0)).not.toEqual(WHITE);
+  expect(colorAt(activationScale(-5, -1, 0), 0)).toEqual(colorAt(scale("diverging"), 0));
 });
 
 it("a port has the same colour in every plot", () => {

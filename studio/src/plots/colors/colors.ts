@@ -31,18 +31,21 @@ const ANCHORS: Record<ScaleName, string[]> = {
     "#b5de2b",
     "#fde725",
   ],
+  // Activation: below the threshold, white at it, above it. Lightness falls on both sides.
   diverging: [
-    "#053061",
-    "#2166ac",
-    "#4393c3",
-    "#92c5de",
-    "#d1e5f0",
-    "#f7f7f7",
-    "#fddbc7",
-    "#f4a582",
-    "#d6604d",
-    "#b2182b",
-    "#67001f",
+    "#08294b",
+    "#0e4070",
+    "#21659f",
+    "#4e93cb",
+    "#93c1e6",
+    "#d3e6f5",
+    "#ffffff",
+    "#ffe3bd",
+    "#ffb968",
+    "#f98328",
+    "#dd4d0d",
+    "#a02f06",
+    "#641a02",
   ],
   gray: ["#000000", "#ffffff"],
 };
@@ -50,7 +53,7 @@ const ANCHORS: Record<ScaleName, string[]> = {
 export const SCALES: { name: ScaleName; label: string }[] = [
   { name: "viridis", label: "Violet to yellow" },
   { name: "cividis", label: "Blue to yellow" },
-  { name: "diverging", label: "Blue to red, white at 0" },
+  { name: "diverging", label: "Blue, white at the threshold, ember" },
   { name: "gray", label: "Black to white" },
 ];
 
@@ -65,14 +68,10 @@ export function scale(name: ScaleName): Scale {
   return table;
 }
 
-// The scale for values on both sides of 0 and the one for values on one side.
-export const sequential = scale("viridis");
-export const diverging = scale("diverging");
-
 // Okabe and Ito's colours, with the two that vanish on white or on black exchanged for their neighbours.
 const CURVES = {
-  light: ["#0072b2", "#d55e00", "#007f5f", "#b0568c", "#a66f00", "#2a8fc4", "#1a1a1a"],
-  dark: ["#56b4e9", "#f0793a", "#1fbf92", "#e29ac4", "#e6a817", "#8fd0f5", "#f0e442"],
+  light: ["#0b6cb3", "#d55e00", "#00795a", "#a3487f", "#96620a", "#2a8fc4", "#1a1a1a"],
+  dark: ["#62b5f0", "#f0793a", "#35c795", "#e29ac4", "#e3ad3c", "#8fd0f5", "#f0e442"],
 };
 
 export type Shade = keyof typeof CURVES;
@@ -87,18 +86,20 @@ export function curveColor(n: number, shade: Shade): string {
 // `dd.figures.COLOR`, and theme.css has both: a test compares all three.
 export const FIELD_COLORS = {
   light: {
-    activation: "#0072b2",
-    output: "#009e73",
-    input: "#bf7f00",
-    interaction: "#b0568c",
+    activation: "#0b6cb3",
+    above: "#c2410c",
+    output: "#00795a",
+    input: "#96620a",
+    interaction: "#a3487f",
     level: "#555555",
   },
   dark: {
-    activation: "#56b4e9",
-    output: "#1fbf92",
-    input: "#e6a817",
+    activation: "#62b5f0",
+    above: "#ff8a4c",
+    output: "#35c795",
+    input: "#e3ad3c",
     interaction: "#e29ac4",
-    level: "#9faaa4",
+    level: "#a5a5b0",
   },
 } as const;
 
@@ -124,24 +125,34 @@ export function shade(): Shade {
   return document.documentElement.dataset["mantineColorScheme"] === "dark" ? "dark" : "light";
 }
 
-// The piece of a two-sided scale that belongs to a range: its middle is at `middle`, and equal steps are
-// equal changes of colour on both sides of it.
-export function centred(table: Scale, lower: number, upper: number, middle: number): Scale {
-  const reach = Math.max(upper - middle, middle - lower);
-  const piece = new Uint8ClampedArray(4 * 256);
-  for (let i = 0; i < 256; i++) {
-    const value = lower + (i / 255) * (upper - lower);
-    const from =
-      4 * Math.min(255, Math.max(0, Math.round(127.5 + (127.5 * (value - middle)) / (reach || 1))));
-    piece.set(table.subarray(from, from + 4), 4 * i);
-  }
-  return piece;
+// The shorter reach of activation is at least the longer one divided by this.
+const LEAST_REACH = 3;
+
+// The colours of activation from `lower` to `upper`, as `dd.figures` has them: each side of the threshold has a
+// reach of its own, over which it takes all of its colours. The colour nearest to the threshold is white.
+export function activationScale(lower: number, upper: number, threshold: number): Scale {
+  const below = Math.max(threshold - lower, (upper - threshold) / LEAST_REACH) || 1;
+  const above = Math.max(upper - threshold, (threshold - lower) / LEAST_REACH) || 1;
+  const nearest = Math.round((255 * (threshold - lower)) / (upper - lower));
+  const places = Array.from({ length: 256 }, (_, i) => {
+    const distance = i === nearest ? 0 : lower + (i / 255) * (upper - lower) - threshold;
+    return 0.5 + (0.5 * distance) / (distance < 0 ? below : above);
+  });
+  return colored(ANCHORS.diverging.map(parts), places);
 }
 
 function interpolated(anchors: number[][]): Scale {
+  return colored(
+    anchors,
+    Array.from({ length: 256 }, (_, i) => i / 255),
+  );
+}
+
+// The colours at 256 places from 0 to 1 between anchors at equal distances.
+function colored(anchors: number[][], places: number[]): Scale {
   const table = new Uint8ClampedArray(4 * 256);
-  for (let i = 0; i < 256; i++) {
-    const place = (i / 255) * (anchors.length - 1);
+  for (const [i, wanted] of places.entries()) {
+    const place = Math.min(1, Math.max(0, wanted)) * (anchors.length - 1);
     const left = Math.min(Math.floor(place), anchors.length - 2);
     const share = place - left;
     for (let c = 0; c < 3; c++) {

@@ -1,6 +1,6 @@
 // The colours of a plot whose values are colours: a scale, and the range that it covers.
 
-import { centred, type Scale, scale, type ScaleName } from "./colors";
+import { activationScale, type Scale, scale, type ScaleName } from "./colors";
 import { hasLevels } from "../../model/ports";
 import { type Level, thresholdOf } from "../chart/levels";
 import { extent, type Range } from "./paint";
@@ -44,7 +44,7 @@ export class FollowingColors {
     ) {
       return false;
     }
-    const table = middle === null ? scale(name) : centred(scale(name), range[0], range[1], middle);
+    const table = middle === null ? scale(name) : activationScale(range[0], range[1], middle);
     this.now = { name, range, middle, table };
     return true;
   }

@@ -11,6 +11,8 @@ export type Curve = {
   lower: number;
   upper: number;
   color: string;
+  // The colour of what lies above 0.
+  above?: string;
   // A line at 0, in this colour.
   zero?: string;
   lineWidth?: number;
@@ -104,7 +106,7 @@ export function paintBytes(
 
 // A curve over the whole width; samples that are not finite leave a gap. The caller clears.
 export function paintCurve(ctx: CanvasRenderingContext2D, values: ArrayLike<number>, how: Curve): void {
-  const { width, height, lower, upper, color, zero, lineWidth = 1.5 } = how;
+  const { width, height, lower, upper, color, above = color, zero, lineWidth = 1.5 } = how;
   const factor = upper > lower ? height / (upper - lower) : 0;
   const place = (value: number) => height - (value - lower) * factor;
   if (zero !== undefined && lower <= 0 && upper >= 0) {
@@ -116,10 +118,35 @@ export function paintCurve(ctx: CanvasRenderingContext2D, values: ArrayLike<numb
     ctx.lineTo(width, y);
     ctx.stroke();
   }
-  const step = values.length > 1 ? width / (values.length - 1) : 0;
-  ctx.strokeStyle = color;
   ctx.lineWidth = lineWidth;
   ctx.lineJoin = "round";
+  if (above === color || lower >= 0 || upper <= 0) {
+    ctx.strokeStyle = lower >= 0 ? above : color;
+    trace(ctx, values, width, place);
+    return;
+  }
+  // each colour where it belongs; the edges of the picture cut nothing
+  for (const [ink, top, bottom] of [
+    [color, place(0), height + lineWidth],
+    [above, -lineWidth, place(0)],
+  ] as const) {
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(-lineWidth, top, width + 2 * lineWidth, bottom - top);
+    ctx.clip();
+    ctx.strokeStyle = ink;
+    trace(ctx, values, width, place);
+    ctx.restore();
+  }
+}
+
+function trace(
+  ctx: CanvasRenderingContext2D,
+  values: ArrayLike<number>,
+  width: number,
+  place: (value: number) => number,
+): void {
+  const step = values.length > 1 ? width / (values.length - 1) : 0;
   ctx.beginPath();
   let drawing = false;
   for (let i = 0; i < values.length; i++) {
