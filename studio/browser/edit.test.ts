@@ -275,6 +275,28 @@ test("F2 renames an element in its place, and a name that is taken is refused", 
   expect(paths()).toBe("b,left,u");
 });
 
+test("a problem has a button that removes it, as one step of undo", async () => {
+  const { page } = studio;
+  await select(page, "u");
+  await type(page, "resting_level", "5");
+  const banner = panel(page, "Inspector").getByRole("alert");
+  const repair = banner.getByRole("button", { name: "Change the sign" });
+  await repair.waitFor();
+  expect(await obstacles(page)).toEqual([]);
+  await shot(page, "repair");
+  await repair.click();
+  await observer.until(() => observer.value("u", "resting_level") === -5);
+  await repair.waitFor({ state: "detached" });
+  await page.keyboard.press("Control+z");
+  await observer.until(() => observer.value("u", "resting_level") === 5);
+  await button(page, "1 warning").click();
+  await page
+    .getByRole("list", { name: "1 warning" })
+    .getByRole("button", { name: "Change the sign" })
+    .click();
+  await observer.until(() => observer.value("u", "resting_level") === -5);
+});
+
 test("a box that is dragged with Alt is copied to there", async () => {
   const { page } = studio;
   await select(page, "b");

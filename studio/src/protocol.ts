@@ -728,13 +728,15 @@ export type ListSaved = {
 
 // A problem or a warning: what is wrong, where, what to type, and the element concerned, if any.
 //
-// A warning does not prevent a run.
+// A warning does not prevent a run. `repair` says what the request of that name does about it; empty: the
+// person has to decide.
 export type ListedProblem = {
   what: string;
   where?: string;
   fix?: string;
   element?: string;
   severity?: "problem" | "warning";
+  repair?: string;
 };
 
 // A stream without data, and the reason: the element was removed, or the port cannot be read.
@@ -1215,6 +1217,15 @@ export type Rename = {
   group?: string[];
 };
 
+// Do what the `repair` of a listed problem says, as one step of undo.
+export type Repair = {
+  type: "repair";
+  request?: number;
+  session?: number;
+  where: string;
+  what: string;
+};
+
 // Run a trial of the experiment again, and open its record; the document with its edits is set aside.
 export type RepeatTrial = {
   type: "repeat_trial";
@@ -1663,6 +1674,7 @@ export type ToServer =
   | RemoveObject
   | RemoveSaved
   | Rename
+  | Repair
   | RepeatTrial
   | ResetRun
   | ReturnTo
@@ -1983,6 +1995,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "remove_document_parameter",
   "remove_saved",
   "rename",
+  "repair",
   "return_to",
   "run_experiment",
   "run_from",

@@ -262,6 +262,27 @@ def test_a_refused_value_does_not_change_the_document_and_names_its_path(root: P
         play(address, scene)
 
 
+def test_the_repair_of_a_problem_is_one_edit_that_removes_it(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u = p.element("u")
+        await p.do("set", element=u, parameter="resting_level", value=5)
+        await p.until(lambda: "checked" in p.said and p.said["checked"]["problems"])
+        (problem,) = p.said["checked"]["problems"]
+        assert problem["repair"] == "Change the sign"
+        named = {"where": problem["where"], "what": problem["what"]}
+        await p.do("repair", **named)
+        await p.until(lambda: not p.said["checked"]["problems"])
+        assert p.document["elements"][0]["values"]["resting_level"] == -5 and p.document["undo"] == 2
+        refused = await p.ask("repair", **named)
+        assert "no repair any more" in refused["problems"][0]["what"]
+        await p.do("undo")
+        await p.until(lambda: p.document["elements"][0]["values"]["resting_level"] == 5)
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
 def test_dt_is_stored_in_the_document(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()

@@ -19,7 +19,8 @@ MESSAGES = Family(Message)
 class ListedProblem(Data, frozen=True):
     """A problem or a warning: what is wrong, where, what to type, and the element concerned, if any.
 
-    A warning does not prevent a run.
+    A warning does not prevent a run. `repair` says what the request of that name does about it; empty: the
+    person has to decide.
     """
 
     what: str
@@ -27,6 +28,7 @@ class ListedProblem(Data, frozen=True):
     fix: str = ""
     element: Id = ""
     severity: Literal["problem", "warning"] = "problem"
+    repair: str = ""
 
 
 class ParameterForm(Data, frozen=True):

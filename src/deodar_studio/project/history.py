@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
 import dataclasses as dc
 from collections.abc import Awaitable, Callable
 from typing import Any
 
 from deodar.declarations import Cost
-from deodar.errors import DocumentError
+from deodar.errors import DocumentError, ModelError
 from deodar.importers import stored_report
-from deodar.model import edit, plain_values
+from deodar.model import edit, plain_values, proposed
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar_studio.messages.message import made_of
@@ -136,6 +137,18 @@ class DocumentHistory:
         Changes in sequence with the same `gesture` (not None) are one step together.
         """
         return await self._commit(how(self.require_edited().document), gesture)
+
+    async def repair(self, where: str, what: str) -> Cost:
+        """Make the edits that a problem of the document proposes, as one step of undo.
+
+        Raises:
+            ModelError: the document has no such problem, or its fix needs a decision.
+        """
+        found = await asyncio.to_thread(self._conversions.check, self.require_edited().document)
+        edits = next((p.edits for p in found if (p.where, p.what) == (where, what)), ())
+        if not edits:
+            raise ModelError("this problem has no repair any more; the document has changed", where=where)
+        return await self.change(lambda doc: proposed.apply(doc, edits))
 
     async def describe(self, values: dict[str, Any]) -> None:
         """Change general properties of the document."""

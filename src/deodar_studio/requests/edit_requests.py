@@ -43,6 +43,12 @@ async def describe(
     await hub.project.history.describe({key: value for key, value in properties.items() if value is not None})
 
 
+@changes()
+async def repair(hub: Hub, page: Page, *, where: Text, what: Text) -> Answer:
+    """Do what the `repair` of a listed problem says, as one step of undo."""
+    return answer(cost=await hub.project.history.repair(where, what))
+
+
 @edits()
 def add_document_parameter(doc: Document, *, name: Text, element: Id, parameter: Text) -> Document:
     """Add a document parameter with the value of the first parameter that it sets."""

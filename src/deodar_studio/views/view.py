@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from deodar.errors import EditFix
 from deodar.errors import Problem as Wrong
 from deodar.experiments.design import KINDS, USUAL, Design, by_key
 from deodar.experiments.trial import TrialPlan
@@ -128,8 +129,11 @@ def problems(
     out: list[ListedProblem] = []
     for p in found:
         concerned = [i for path in (p.where, *paths) for i in _named(path, ids)] or [""]
-        fix = p.fix_at("page")
-        out += [made_of(ListedProblem, p, fix=fix, element=ident) for ident in dict.fromkeys(concerned)]
+        repair = p.fix.advice if doc is not None and isinstance(p.fix, EditFix) else ""
+        out += [
+            made_of(ListedProblem, p, fix=p.fix_at("page"), element=ident, repair=repair)
+            for ident in dict.fromkeys(concerned)
+        ]
     return out
 
 

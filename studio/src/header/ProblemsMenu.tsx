@@ -7,6 +7,7 @@ import type { ListedProblem } from "../protocol";
 import { useStudio } from "../store";
 import { countText, isWarning } from "../problems/severity";
 import { ProblemText } from "../problems/ProblemText";
+import { RepairButton } from "../problems/RepairButton";
 import classes from "./ProblemsMenu.module.css";
 
 const NONE: ListedProblem[] = [];
@@ -39,6 +40,9 @@ export function ProblemsMenu() {
           {problems.map((problem, i) => (
             <li key={i}>
               <Entry problem={problem} />
+              <div className={classes.repair}>
+                <RepairButton problem={problem} />
+              </div>
             </li>
           ))}
         </ul>

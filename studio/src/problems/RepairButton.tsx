@@ -1,0 +1,22 @@
+// The button that does what a problem proposes, as one step of undo. Absent where the person has to decide.
+
+import { Button } from "@mantine/core";
+
+import type { ListedProblem } from "../protocol";
+import { request } from "../socket";
+
+export function RepairButton({ problem: { repair = "", where = "", what } }: { problem: ListedProblem }) {
+  if (repair === "") {
+    return null;
+  }
+  return (
+    <Button
+      size="compact-xs"
+      variant="default"
+      mt={6}
+      onClick={() => void request({ type: "repair", where, what })}
+    >
+      {repair}
+    </Button>
+  );
+}
