@@ -1,5 +1,8 @@
 // Documents and kinds for tests.
 
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
 import type { ConnectionView, DocumentView, ElementView, Kind, ParameterForm } from "../protocol";
 
 export function fakeElement(path: string, kind = "Field", more: Partial<ElementView> = {}): ElementView {
@@ -53,6 +56,30 @@ export function fakeDocument(
     redo: 0,
   };
   return { file: "", title: "test", time_unit: "ms", dt: 1, ...rest, elements, connections, ...more };
+}
+
+type CosivinaPart = { label: string; class: string; input: { label: string }[] | { label: string } | null };
+
+// A file of cosivina of the importer's tests: its elements as boxes, stimuli and couplings.
+export function fakeCosivina(file: string): DocumentView {
+  const path = join(import.meta.dirname, "../../../tests/deodar_interop/importers/cosivina", file);
+  const { simulator } = JSON.parse(readFileSync(path, "utf8")) as { simulator: { elements: CosivinaPart[] } };
+  const boxes = /NeuralField|SingleNode|MemoryTrace|DynamicVariable|RunningHistory/;
+  const elements = simulator.elements.map(({ label, class: name }) =>
+    /Stimulus|Noise/.test(name)
+      ? fakeElement(label, /Gauss/.test(name) ? "GaussianStimulus" : "Noise", { inputs: [] })
+      : fakeElement(label, boxes.test(name) ? "Field" : "Gain"),
+  );
+  const links = simulator.elements.flatMap(({ label, input }) =>
+    [input ?? []].flat().map(({ label: source }) => ({
+      source,
+      source_port: "output",
+      target: label,
+      target_port: "input",
+      reads: "",
+    })),
+  );
+  return fakeDocument(elements, links);
 }
 
 export function fakeKind(name: string, room: string, more: Partial<Kind> = {}): Kind {

@@ -6,12 +6,10 @@ export type Found = { element: string; path: string; title: string };
 
 const MOST = 50;
 
-// Every word must occur; names that begin with the typed text come first.
+// Every word must occur; the name that is the typed text comes first, then those that begin with it.
 export function find(text: string, elements: ElementView[], kinds: Map<string, Kind>): Found[] {
-  const words = text
-    .toLowerCase()
-    .split(/\s+/)
-    .filter((word) => word !== "");
+  const typed = text.trim().toLowerCase().replace(/\s+/g, " ");
+  const words = typed.split(" ").filter((word) => word !== "");
   return elements
     .map((e) => ({
       element: e.id,
@@ -23,12 +21,15 @@ export function find(text: string, elements: ElementView[], kinds: Map<string, K
     .filter(({ path, title, kind }) =>
       words.every((word) => `${path} ${title} ${kind}`.toLowerCase().includes(word)),
     )
-    .map((found) => ({ found, rank: rank(found.name, words) }))
+    .map((found) => ({
+      found,
+      rank: Math.min(rank(found.name, typed), 3 + rank(found.name, words[0] ?? "")),
+    }))
     .sort((a, b) => a.rank - b.rank || a.found.path.localeCompare(b.found.path))
     .slice(0, MOST)
     .map(({ found: { element, path, title } }) => ({ element, path, title }));
 }
 
-function rank(name: string, [first = ""]: string[]): number {
-  return name === first ? 0 : name.startsWith(first) ? 1 : name.includes(first) ? 2 : 3;
+function rank(name: string, text: string): number {
+  return name === text ? 0 : name.startsWith(text) ? 1 : name.includes(text) ? 2 : 3;
 }

@@ -1,6 +1,7 @@
 // The place on a wire of what is drawn there: its couplings, or the number of connections.
 
 import type { Point, Rect } from "../layout/layout";
+import { meet } from "../layout/rects";
 import type { Turn } from "../wires/turns";
 
 // `room` is the width of its label; 0: it has none.
@@ -74,8 +75,4 @@ function isStraight({ from, to }: Piece): boolean {
 
 function around({ x, y }: Point, width: number, height: number): Rect {
   return { x: x - width / 2, y: y - height / 2, width, height };
-}
-
-function meet(a: Rect, b: Rect): boolean {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { fakeElement } from "../fakes";
 import { FOLDED, FRAME, places, type Point, type Rect } from "./layout";
+import { meet } from "./rects";
 import { tree } from "./tree";
 
 const SIZE = { width: 100, height: 50 };
@@ -26,10 +27,6 @@ function laid(
   );
   const at = (id: string) => where.elements.get(id) ?? { x: NaN, y: NaN };
   return { ...where, at };
-}
-
-function meet(a: Rect, b: Rect): boolean {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
 test("connected elements are placed from left to right", () => {

@@ -3,6 +3,7 @@
 
 import { Graph, layout as arrange } from "@dagrejs/dagre";
 import type { Branch } from "./tree";
+import { meet } from "./rects";
 import { squeezed } from "./squeeze";
 import { wrapped } from "../boxes/wrap";
 
@@ -209,10 +210,6 @@ function frameAround(items: Item[]): Rect {
 
 function moveTo(item: Item, x: number, y: number): void {
   item.rect = { ...item.rect, x, y };
-}
-
-function meet(a: Rect, b: Rect): boolean {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
 function sizeOf(sizes: Map<string, Size>, id: string): Size {

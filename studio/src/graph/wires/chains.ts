@@ -31,7 +31,11 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
     document.elements
       .filter(
         (e) =>
-          isCoupling(e, kinds.get(e.kind)) && into.get(e.id)?.length === 1 && from.get(e.id)?.length === 1,
+          e.inputs.length === 1 &&
+          e.outputs.length === 1 &&
+          isWeight(e, kinds.get(e.kind)) &&
+          into.get(e.id)?.length === 1 &&
+          from.get(e.id)?.length === 1,
       )
       .map((e) => e.id),
   );
@@ -90,24 +94,24 @@ function edge(first: ConnectionView, last: ConnectionView, couplings: string[], 
 
 // Kinds of other packages do not declare whether they are couplings: one with its own axes or levels gets a
 // box.
-function isCoupling(element: ElementView, kind: Kind | undefined): boolean {
-  if (kind === undefined || element.inputs.length !== 1 || element.outputs.length !== 1) {
-    return false;
+export function isWeight(element: ElementView, kind: Kind | undefined): boolean {
+  if (kind === undefined || kind.room === "couplings") {
+    return kind !== undefined;
   }
-  if (kind.room === "couplings") {
-    return true;
-  }
-  const own = kind.room === "own" && element.inputs[0] === "input" && element.outputs[0] === "output";
+  const isAlone = element.inputs.length === 1 && element.outputs.length === 1;
+  const own =
+    isAlone && kind.room === "own" && element.inputs[0] === "input" && element.outputs[0] === "output";
   return own && Object.keys(kind.levels).length === 0 && !kind.parameters.some((p) => p.form === "axes");
 }
 
 const LATER = ["", "current", "previous", "delayed"];
 
-function later(one: string, other: string): string {
+export function later(one: string, other: string): string {
   return LATER.indexOf(other) > LATER.indexOf(one) ? other : one;
 }
 
-function by(connections: ConnectionView[], end: "source" | "target"): Map<string, ConnectionView[]> {
+// The connections at one of their ends.
+export function by(connections: ConnectionView[], end: "source" | "target"): Map<string, ConnectionView[]> {
   const table = new Map<string, ConnectionView[]>();
   for (const connection of connections) {
     const found = table.get(connection[end]);
