@@ -10,10 +10,10 @@ import { median } from "./bench/figures";
 import { mainThread } from "./bench/frames";
 import { panned, zoomed } from "./bench/measures";
 import { box, button, panel, showEverything } from "./hands";
+import { behind, misplacedNames, overlaps, SMALLEST } from "./legibility";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
-const SMALLEST = 9;
 const RATE = 20;
 const ROUNDS = 3;
 const WIDE = 1280;
@@ -91,48 +91,19 @@ async function settled(page: Page): ReturnType<typeof names> {
   }
 }
 
-/** Pairs of boxes, open groups left out, that cover a part of each other. */
-const overlaps = (page: Page): Promise<string[]> =>
-  panel(page, "Architecture")
-    .locator(".graph-box, .graph-folded")
-    .evaluateAll((all) => {
-      const rects = all.map((one) => one.getBoundingClientRect());
-      return rects.flatMap((a, i) =>
-        rects
-          .slice(i + 1)
-          .filter((b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom)
-          .map((b) => `${a.left},${a.top} and ${b.left},${b.top}`),
-      );
-    });
-
 /** The number of wires that are drawn. */
 const wires = (page: Page): Promise<number> =>
   panel(page, "Architecture").locator(".react-flow__edge").count();
 
-/** Wires that run behind a box. */
-const behind = (page: Page): Promise<string[]> =>
-  panel(page, "Architecture").evaluate((around) => {
-    const boxes = [...around.querySelectorAll(".graph-box, .graph-folded")].map((box) =>
-      box.getBoundingClientRect(),
-    );
-    return [...around.querySelectorAll<SVGPathElement>(".graph-wire")].flatMap((path) => {
-      const [length, matrix] = [path.getTotalLength(), path.getScreenCTM() as DOMMatrix];
-      const hidden = Array.from({ length: 200 }, (_, i) => {
-        const { x, y } = path.getPointAtLength((length * i) / 199).matrixTransform(matrix);
-        return boxes.some(
-          ({ left, right, top, bottom }) => x > left + 1 && x < right - 1 && y > top + 1 && y < bottom - 1,
-        );
-      });
-      return hidden.includes(true) ? [path.parentElement?.getAttribute("aria-label") ?? path.id] : [];
-    });
-  });
-
 async function readable(page: Page, least: number): Promise<void> {
   const small = async () => {
     const all = await settled(page);
-    return all.length < least ? null : all.filter(({ size, height }) => Math.min(size, height) < SMALLEST);
+    return all.length < least
+      ? null
+      : all.filter(({ size, height }) => Math.min(size, height) < SMALLEST - 0.01);
   };
   await expect.poll(small, { message: "names that are too small; null: too few names" }).toEqual([]);
+  expect(await misplacedNames(page), "names that leave their box or cover others").toEqual([]);
   expect(await overlaps(page), "boxes that overlap").toEqual([]);
   expect(await behind(page), "wires behind boxes").toEqual([]);
 }

@@ -9,6 +9,9 @@ import { usePicked } from "./picked";
 import { chosen } from "./selection";
 import { contentOf } from "./wiring/wires";
 
+const SHARED =
+  "All couplings of this wire belong to other wires too. Show every element to remove one of them.";
+
 export async function removeSelected(): Promise<void> {
   if (!isEditable()) {
     return;
@@ -18,6 +21,9 @@ export async function removeSelected(): Promise<void> {
   const all = [...new Set([...elements, ...wires.flatMap((wire) => wire.elements)])];
   const connections = wires.flatMap((wire) => wire.connections);
   if (all.length + groups.length + connections.length === 0) {
+    if (wires.length > 0) {
+      useStudio.getState().notify({ what: SHARED }, "info");
+    }
     return;
   }
   const { problems = [] } = await request({ type: "remove", elements: all, groups, connections });

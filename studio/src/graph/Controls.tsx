@@ -2,6 +2,8 @@
 
 import { ActionIcon, Tooltip } from "@mantine/core";
 import {
+  IconArrowsDiagonal,
+  IconArrowsMinimize,
   IconMaximize,
   IconMinus,
   IconPlus,
@@ -16,9 +18,15 @@ import { useOffline } from "../connection/NeedsServer";
 import { FIT } from "./layout/fit";
 import { glide } from "./layout/glide";
 
-type Props = { onSearch: () => void; onTidy: () => void };
+type Props = {
+  onSearch: () => void;
+  onTidy: () => void;
+  // Whether a large architecture shows every element; null where it always does.
+  every: boolean | null;
+  onEvery: (shown: boolean) => void;
+};
 
-export function Controls({ onSearch, onTidy }: Props) {
+export function Controls({ onSearch, onTidy, every, onEvery }: Props) {
   const { zoomIn, zoomOut, fitView, getNodes } = useReactFlow();
   const offline = useOffline();
   return (
@@ -41,9 +49,22 @@ export function Controls({ onSearch, onTidy }: Props) {
       >
         <IconMaximize size={16} />
       </Control>
-      <Control label="Tidy: compute a new layout" disabled={offline} onClick={onTidy}>
+      <Control
+        label={every === false ? "Tidy to grid" : "Tidy: compute a new layout"}
+        disabled={offline}
+        onClick={onTidy}
+      >
         <IconSitemap size={16} style={{ transform: "rotate(-90deg)" }} />
       </Control>
+      {every !== null && (
+        <Control
+          label={every ? "Couplings on wires, stimuli in boxes" : "Show every element"}
+          disabled={offline}
+          onClick={() => onEvery(!every)}
+        >
+          {every ? <IconArrowsMinimize size={16} /> : <IconArrowsDiagonal size={16} />}
+        </Control>
+      )}
     </div>
   );
 }

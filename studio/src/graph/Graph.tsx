@@ -29,9 +29,11 @@ import { WiringHint } from "../build/wiring/WiringHint";
 import { openPlot } from "../panels/openPlot";
 import { useDialogs } from "../dialogs/questions";
 import { SHORTCUTS } from "../shortcuts";
+import type { Answer } from "../protocol";
 import { useOffline } from "../connection/NeedsServer";
 import { useStudio } from "../store";
-import { place, unfold } from "./layout/arrange";
+import { contractionIn, showsEvery } from "./contract";
+import { place, showEvery, toGrid, unfold } from "./layout/arrange";
 import { Box } from "./boxes/Box";
 import { ElementCard } from "./boxes/ElementCard";
 import { CommentBox } from "./boxes/CommentBox";
@@ -44,6 +46,7 @@ import { FIT, ZOOM } from "./layout/fit";
 import { tidied } from "./layout/folding";
 import { glide } from "./layout/glide";
 import "./graph.css";
+import { useNear } from "./focus";
 import { useHover } from "./hover";
 import { moved } from "./layout/moved";
 import { newPainting, PainterContext } from "./boxes/PainterContext";
@@ -97,7 +100,9 @@ function Canvas({ structure }: { structure: Structure }) {
   const [searching, setSearching] = useState(false);
   const { center, centerGroup } = useCenter(now);
   const shown = useCallback((canvas: HTMLCanvasElement) => layer.attach(canvas), [layer]);
-  useEffect(() => layer.change(), [layer, nodes]);
+  const repaint = useCallback(() => layer.change(), [layer]);
+  useEffect(repaint, [repaint, nodes]);
+  useNear(now, repaint);
   const flow = useReactFlow<SceneNode>();
   const views = useStoreApi();
   // Every change of the view, also one that the page makes itself.
@@ -137,12 +142,17 @@ function Canvas({ structure }: { structure: Structure }) {
     return () => window.removeEventListener("keydown", key);
   }, []);
 
-  const tidy = useCallback(async () => {
-    const { problems = [] } = await place(tidied(structure, kinds));
-    if (problems.length === 0) {
-      requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: glide(GLIDE_MS) }));
-    }
-  }, [structure, kinds, flow]);
+  const contraction = useMemo(() => contractionIn(structure, kinds), [structure, kinds]);
+  const arranged = useCallback(
+    async (answer: Promise<Answer>) => {
+      const { problems = [] } = await answer;
+      if (problems.length === 0) {
+        requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: glide(GLIDE_MS) }));
+      }
+    },
+    [flow],
+  );
+  const every = contraction === null ? null : showsEvery(structure.layout);
 
   // While the canvas is moved it is one layer that the browser only shifts: live boxes are painted about once
   // a second.
@@ -257,7 +267,12 @@ function Canvas({ structure }: { structure: Structure }) {
           />
         </ReactFlow>
         {nodes.length === 0 && <EmptyHint />}
-        <Controls onSearch={() => setSearching(true)} onTidy={() => void tidy()} />
+        <Controls
+          onSearch={() => setSearching(true)}
+          onTidy={() => void arranged(every === false ? toGrid() : place(tidied(structure, kinds)))}
+          every={every}
+          onEvery={(shown) => void arranged(showEvery(shown, contraction?.couplings ?? new Set()))}
+        />
         {searching && (
           <Search
             onClose={() => setSearching(false)}
@@ -296,9 +311,8 @@ function useCenter(now: GraphScene): Record<"center" | "centerGroup", (id: strin
       return;
     }
     const wire = now.wires.find(({ id }) => id === now.pills.get(wanted.id));
-    const { x, y, width, height } = getNodesBounds(
-      wire === undefined ? [wanted.id] : [wire.source, wire.target],
-    );
+    const box = now.holders.get(wanted.id) ?? wanted.id;
+    const { x, y, width, height } = getNodesBounds(wire === undefined ? [box] : [wire.source, wire.target]);
     void setCenter(x + width / 2, y + height / 2, { zoom, duration });
   }, [wanted, now, views, getNodesBounds, setCenter, setViewport, getZoom]);
   const want = (id: string, isGroup: boolean) => {

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { contract, contractAll, contractible, everyElement } from "./contract";
+import { contract, contractAll, contractionIn, everyElement } from "./contract";
 import { fakeConnections, fakeCosivina, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
 import { find } from "./find";
 import type { ElementView } from "../protocol";
@@ -47,7 +47,7 @@ test("small documents, those with groups, and those that show every element are 
   expect(contract({ ...large, groups: [["g"]] }, KINDS)).toBeNull();
   const shown = { ...large, layout: everyElement(true) };
   expect(contract(shown, KINDS)).toBeNull();
-  expect(contractible(shown, KINDS)).not.toBeNull();
+  expect(contractionIn(shown, KINDS)).not.toBeNull();
   expect(contract({ ...large, layout: everyElement(false) }, KINDS)).not.toBeNull();
 });
 

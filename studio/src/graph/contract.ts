@@ -15,13 +15,13 @@ type Ends = Pick<ConnectionView, "source" | "source_port" | "target" | "target_p
 export type WireContent = { elements: string[]; connections: Ends[] };
 
 // `isChain`: its couplings follow each other, and belong to no other wire.
-export type Link = Chain & { content: WireContent; isChain: boolean };
+export type BoxLink = Chain & { content: WireContent; isChain: boolean };
 
-type Bare = Omit<Link, "content" | "isChain">;
+type Bare = Omit<BoxLink, "content" | "isChain">;
 
 export type Contraction = {
   boxes: string[];
-  edges: Link[];
+  edges: BoxLink[];
   // By box, the elements that it shows as dots, and those that couple it to itself.
   dots: Map<string, string[]>;
   badges: Map<string, string[]>;
@@ -42,19 +42,23 @@ export const everyElement = (shown: boolean): Record<string, true | null> => ({
 // Null where all elements are drawn: in small documents, in those whose names form no grid, in those with
 // groups, which fold instead, and where a person wants to see every element.
 export function contract(structure: Structure, kinds: Map<string, Kind>): Contraction | null {
-  return showsEvery(structure.layout) ? null : contractible(structure, kinds);
+  const placed = new Set(readBoxes(structure.layout).keys());
+  return showsEvery(structure.layout) ? null : contracted(structure, kinds, placed);
 }
 
-// The same whatever a person wants to see; null where nothing would be contracted.
-export function contractible(structure: Structure, kinds: Map<string, Kind>): Contraction | null {
-  const { elements, groups, layout } = structure;
+// The same whatever a person wants to see or has placed; null where nothing can be contracted.
+export const contractionIn = (structure: Structure, kinds: Map<string, Kind>): Contraction | null =>
+  contracted(structure, kinds, new Set());
+
+function contracted(structure: Structure, kinds: Map<string, Kind>, placed: Set<string>): Contraction | null {
+  const { elements, groups } = structure;
   if (groups.length > 0 || elements.some(({ group }) => group.length > 0)) {
     return null;
   }
-  const contracted = contractAll(structure, kinds, new Set(readBoxes(layout).keys()));
-  const boxes = new Set(contracted.boxes);
+  const contraction = contractAll(structure, kinds, placed);
+  const boxes = new Set(contraction.boxes);
   const names = elements.filter(({ id }) => boxes.has(id)).map(({ name }) => name);
-  return contracted.couplings.size > 0 && isGrid(names) ? contracted : null;
+  return contraction.couplings.size > 0 && isGrid(names) ? contraction : null;
 }
 
 // `placed`: elements that stay boxes.
@@ -107,7 +111,7 @@ export function contractAll(
     streams.map(({ id }) => streamOf(net, id, parts)),
     net,
   );
-  const isBadge = ({ source, target, couplings }: Link) => source === target && couplings.length > 0;
+  const isBadge = ({ source, target, couplings }: BoxLink) => source === target && couplings.length > 0;
   return { boxes, edges: edges.filter((one) => !isBadge(one)), dots, badges, couplings: parts };
 }
 
@@ -221,7 +225,7 @@ function weight(
 }
 
 // A coupling or a connection that several wires share, or a wire and a stimulus, belongs to none of them.
-function withContent(links: Bare[], streams: ConnectionView[][], net: Net): Link[] {
+function withContent(links: Bare[], streams: ConnectionView[][], net: Net): BoxLink[] {
   const keyOf = (c: Ends) => [c.source, c.source_port, c.target, c.target_port].join(" ");
   const uses = new Map<string, number>();
   for (const ways of [...links.map((one) => waysOf(net, one)), ...streams]) {

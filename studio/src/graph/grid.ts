@@ -13,7 +13,7 @@ const LEAST = { boxes: 12, shared: 0.5 };
 // Rows and columns with at most so many boxes share their place with others.
 const SPARSE = 2;
 // Gaps between boxes have room for wires; a frame stands apart. They grow with the canvas up to `most`.
-const GAP = { x: 48, y: 40, frame: 44, most: 110 };
+const GAP = { x: 48, y: 40, frame: 44, most: 160 };
 // In px. `up`: a wire better leads down; `fed`: of a row that receives stimuli, for each row above it.
 const COST = { up: 60, fed: 5000 };
 

@@ -4,6 +4,8 @@
 import { Position, type Edge, type Node, type NodeHandle } from "@xyflow/react";
 import type { DocumentView, ElementView, Kind } from "../protocol";
 import { boxSize, dimensions, portHeight, readBoxes, readFolded } from "./boxes/boxes";
+import { contract, type WireContent } from "./contract";
+import { CHIP, contractedWires, inGrid, linksOf, withParts } from "./contracted";
 import { chains, type Chain } from "./wires/chains";
 import { type CanvasComment, readComments } from "./boxes/comments";
 import { elementFamily, type ElementFamily } from "./boxes/family";
@@ -24,6 +26,9 @@ export type BoxData = {
   dimensions: number | null;
   inputs: string[];
   outputs: string[];
+  // The elements of a contracted architecture that are drawn in the box.
+  dots: string[];
+  badges: string[];
 };
 // A port of an element in a folded group that is connected with the outside.
 export type FoldedPort = { element: string; port: string; path: string };
@@ -46,6 +51,8 @@ export type WireData = {
   room: number;
   course: Course | null;
   chains: Chain[];
+  content: WireContent | null;
+  revealed: string[];
 };
 
 export type BoxNode = Node<BoxData, "box">;
@@ -60,7 +67,11 @@ export type GraphScene = {
   wires: Wire[];
   tree: Tree;
   places: Places;
+  // The wires and the boxes that show elements without a box.
   pills: Map<string, string>;
+  holders: Map<string, string>;
+  // What each box, part and wire of a contracted architecture is joined with; null for others.
+  links: Map<string, Set<string>> | null;
 };
 
 // Ids of nodes for groups cannot be those of elements, which are hashes.
@@ -75,27 +86,38 @@ export const PILL = { height: 22, gap: 4, letter: 6.6, pad: 34, most: 132 };
 // `panel` is the size of the canvas, whose shape the layout takes.
 export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Size): GraphScene {
   const { elements, groups, layout } = structure;
-  const chained = chains(structure, kinds);
+  const contraction = contract(structure, kinds);
+  const chained = contraction ?? chains(structure, kinds);
   const found = tree(elements, groups, readFolded(layout), chained.couplings);
   const names = new Map(elements.map((e) => [e.id, e]));
   const sizes = new Map<string, Size>(elements.map((e) => [e.id, boxSize(e)]));
-  const bonds = chained.edges.map((e) => ({
-    source: e.source,
-    target: e.target,
-    room: widthOf(e, names),
-  }));
-  const where = places(found.root, sizes, bonds, readBoxes(layout), panel);
+  const room = (edge: Chain) => (contraction === null ? widthOf(edge, names) : CHIP);
+  const bonds = chained.edges.map((e) => ({ source: e.source, target: e.target, room: room(e) }));
+  const stored = readBoxes(layout);
+  const grid = contraction === null ? [] : inGrid({ contraction, names, kinds, sizes }, stored, panel);
+  const boxes = new Map([...grid, ...stored]);
+  const where = places(found.root, sizes, bonds, boxes, panel);
   const borders = foldedPorts(chained.edges, found, names);
-  const wires = wiresOf(chained.edges, found, names);
+  const led = wiresOf(chained.edges, found, names);
+  const wires = contraction === null ? led : contractedWires(led, contraction);
+  const nodes = nodesOf(found.root, names, kinds, sizes, where, borders);
   return {
     nodes: [
-      ...nodesOf(found.root, names, kinds, sizes, where, borders),
+      ...(contraction === null ? nodes : nodes.map((node) => withParts(node, contraction))),
       ...readComments(layout).map(commentNode),
     ],
     wires,
     tree: found,
     places: where,
-    pills: new Map(wires.flatMap((wire) => (wire.data?.pills ?? []).map((id) => [id, wire.id] as const))),
+    pills: new Map(
+      wires.flatMap(({ id, data }) => (data?.revealed ?? []).map((pill) => [pill, id] as const)),
+    ),
+    holders: new Map(
+      [...(contraction?.badges ?? []), ...(contraction?.dots ?? [])].flatMap(([box, parts]) =>
+        parts.map((part) => [part, box] as const),
+      ),
+    ),
+    links: contraction === null ? null : linksOf(wires, contraction),
   };
 }
 
@@ -188,6 +210,8 @@ function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, sta
       dimensions: dimensions(element),
       inputs,
       outputs,
+      dots: [],
+      badges: [],
     },
     ariaLabel: `${path}, ${title}`,
     zIndex: 2,
@@ -300,6 +324,7 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
       known.count += 1;
       known.chains.push(edge);
       known.pills = [];
+      known.revealed = [];
       known.room = COUNT;
       continue;
     }
@@ -312,6 +337,8 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
       room: widthOf(edge, names),
       course: null,
       chains: [edge],
+      content: null,
+      revealed: edge.couplings,
     };
     const called = [
       from?.key ?? names.get(edge.source)?.path ?? edge.source,

@@ -1,24 +1,26 @@
 // The connections on the canvas, and their meaning in the document.
 
+import type { WireContent } from "../../graph/contract";
+import type { WireData } from "../../graph/scene";
 import type { Chain } from "../../graph/wires/chains";
 import { useStudio } from "../../store";
 import { type Side, type WireEnds, endsOf } from "./ends";
 import { getStage } from "../stage";
 
-function chainsOf(wire: string): Chain[] {
-  return (
-    getStage()
-      ?.scene()
-      .wires.find(({ id }) => id === wire)?.data?.chains ?? []
-  );
-}
+const dataOf = (wire: string): WireData | undefined =>
+  getStage()
+    ?.scene()
+    .wires.find(({ id }) => id === wire)?.data;
+
+const chainsOf = (wire: string): Chain[] => dataOf(wire)?.chains ?? [];
 
 // What is removed with a connection on the canvas: the couplings on it, or else the connection.
-export function contentOf(wire: string): { elements: string[]; connections: WireEnds[] } {
-  const chains = chainsOf(wire);
+export function contentOf(wire: string): WireContent {
+  const { chains = [], content = null } = dataOf(wire) ?? {};
+  const whole = chains.filter((chain) => chain.couplings.length === 0);
   return {
-    elements: chains.flatMap((chain) => chain.couplings),
-    connections: chains.filter((chain) => chain.couplings.length === 0).map(endsOf),
+    elements: content?.elements ?? chains.flatMap((chain) => chain.couplings),
+    connections: (content?.connections ?? whole).map(endsOf),
   };
 }
 

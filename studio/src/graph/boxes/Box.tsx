@@ -9,7 +9,9 @@ import { useStudio } from "../../store";
 import { BOX, dimensionsText, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
 import { useHover } from "../hover";
 import { LiveBox } from "./LiveBox";
+import { useFocus } from "../focus";
 import { Mark } from "./Mark";
+import { Parts } from "./Parts";
 import type { BoxNode } from "../scene";
 import { useProblem, useWarning } from "../problem";
 import { useDetail } from "./useDetail";
@@ -29,6 +31,7 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
   );
   useFitMarks(holder, marked);
   const reached = useWiring((state) => state.target === id);
+  const far = useFocus(({ near }) => near !== null && !near.has(id));
   const { enter, leave } = useHover.getState();
   const ports = (side: PortsProps["side"], names: string[]) =>
     level === "dot" ? (
@@ -43,10 +46,20 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
       data-family={family}
       data-reached={reached || undefined}
       data-selected={selected || undefined}
+      data-tall={live > LIVE.number || undefined}
+      data-far={far || undefined}
       data-problem={problem !== "" || undefined}
       data-marked={problem !== "" || warning !== "" || undefined}
-      onPointerEnter={({ currentTarget }) => useWiring.getState().wiring === null && enter(id, currentTarget)}
-      onPointerLeave={leave}
+      onPointerEnter={({ currentTarget }) => {
+        useFocus.setState({ hovered: id });
+        if (useWiring.getState().wiring === null) {
+          enter(id, currentTarget);
+        }
+      }}
+      onPointerLeave={() => {
+        useFocus.setState({ hovered: null });
+        leave();
+      }}
     >
       {ports("target", inputs)}
       <div className="graph-box-head">
@@ -65,6 +78,7 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
           height={level === "full" ? live : LIVE.number}
         />
       )}
+      {level !== "dot" && <Parts dots={data.dots} badges={data.badges} />}
       {ports("source", outputs)}
     </div>
   );

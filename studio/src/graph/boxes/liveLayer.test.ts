@@ -34,7 +34,7 @@ const rect = (left: number, top: number, width: number, height: number) => ({
   bottom: top + height,
 });
 const slot = (left: number, top: number) =>
-  ({ getBoundingClientRect: () => rect(left, top, 100, 50) }) as unknown as HTMLElement;
+  ({ closest: () => null, getBoundingClientRect: () => rect(left, top, 100, 50) }) as unknown as HTMLElement;
 const picture = (style = {}) => ({ width: 100, height: 100, style }) as unknown as HTMLCanvasElement;
 
 function stage() {

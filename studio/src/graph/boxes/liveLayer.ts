@@ -7,6 +7,8 @@ import type { Viewport } from "@xyflow/react";
 
 // Without a further move for this time the view is at rest, with or without a message of its end.
 const STILL_MS = 400;
+// The opacity of what is not brought to the fore, in graph.css too.
+const FAR = 0.5;
 
 export class LiveLayer {
   private pictures = new Map<HTMLElement, HTMLCanvasElement>();
@@ -108,6 +110,7 @@ export class LiveLayer {
             ? Math.min(at.width / picture.width, at.height / picture.height)
             : 0;
         const [w, h] = whole > 0 ? [picture.width * whole, picture.height * whole] : [at.width, at.height];
+        ctx.globalAlpha = slot.closest("[data-far]") === null ? 1 : FAR;
         ctx.imageSmoothingEnabled = picture.style.imageRendering !== "pixelated";
         ctx.drawImage(
           picture,

@@ -12,11 +12,11 @@ test("the level of detail follows the zoom", () => {
   ]);
 });
 
-test("names keep their size on the screen, at least 9 px", () => {
+test("names keep their size on the screen, at least 11 px", () => {
   for (let zoom = 0.04; zoom < FULL; zoom *= 1.01) {
     const size = lookAt(zoom).text * zoom;
-    expect(size).toBeGreaterThanOrEqual(9);
+    expect(size).toBeGreaterThanOrEqual(11);
     expect(size).toBeLessThan(13);
   }
-  expect(11 * FULL).toBeGreaterThanOrEqual(9);
+  expect(11 * FULL).toBeGreaterThanOrEqual(10);
 });

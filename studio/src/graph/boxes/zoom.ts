@@ -6,14 +6,14 @@ import { create } from "zustand";
 // dot: the colour of the family; title: name and live picture; full: everything.
 export type DetailLevel = "dot" | "title" | "full";
 
-// The smallest text of a full box is 11 px, that on a screen at most 9.
-export const FULL = 9 / 11;
+// The smallest text of a full box is 11 px, that on a screen at least 10.
+export const FULL = 10 / 11;
 // A box is then about 30 px wide.
 export const TITLE = 0.2;
 // Edges are then long enough for the numbers of couplings.
 export const NUMBERS = 0.42;
 // Text on the screen has between this size and that of the next step, in px.
-const TEXT = 9.7;
+const TEXT = 11.2;
 const STEPS = 8;
 
 export type CanvasLook = { level: DetailLevel; text: number; numbers: boolean };

@@ -4,6 +4,7 @@ import type { Answer } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
 import { readBoxes } from "../boxes/boxes";
+import { everyElement } from "../contract";
 import { foldedNow, useOpening } from "./folding";
 import type { Point } from "./layout";
 
@@ -26,6 +27,22 @@ function now(): string[] {
 function keep(folded: string[]): void {
   useOpening.setState({ folded });
   void request({ type: "arrange", layout: { folded }, undoable: false });
+}
+
+// Without stored positions, so that a contracted architecture takes the shape of its canvas; as one step of undo.
+export function toGrid(): Promise<Answer> {
+  return request({ type: "arrange", layout: { boxes: null } });
+}
+
+// Shows every element of a large architecture, or contracts them again. What a person has placed has its box;
+// so that `contracted` elements lose theirs, their positions are forgotten.
+export function showEvery(shown: boolean, contracted: ReadonlySet<string>): Promise<Answer> {
+  const stored = readBoxes(useStudio.getState().document?.layout ?? {});
+  const boxes = [...stored].filter(([id]) => shown || !contracted.has(id));
+  return request({
+    type: "arrange",
+    layout: { ...everyElement(shown), boxes: boxes.length === 0 ? null : Object.fromEntries(boxes) },
+  });
 }
 
 // Sets the positions of boxes, as one step of undo. Those that the document has already are not sent: another

@@ -2,8 +2,9 @@
 
 import { BaseEdge, EdgeLabelRenderer, type EdgeProps } from "@xyflow/react";
 import { memo } from "react";
-import { usePicked } from "../../build/picked";
+import { pickWire, usePicked } from "../../build/picked";
 import { useStudio } from "../../store";
+import { useFocus } from "../focus";
 import { Pill } from "../boxes/Pill";
 import { markOf } from "./SignMarks";
 import type { Point } from "../layout/layout";
@@ -18,6 +19,8 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
       selected.includes(target) ||
       (data?.pills.some((p) => selected.includes(p)) ?? false),
   );
+  const revealed = useStudio(({ selected }) => data?.revealed.some((p) => selected.includes(p)) ?? false);
+  const hovered = useFocus((state) => state.hovered === source || state.hovered === target);
   const picked = usePicked((state) => state.wires.includes(id));
   const over = usePicked((state) => state.over === id);
   if (data === undefined) {
@@ -25,6 +28,7 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   }
   const { path, middle } = courseNow(data.course, { x: sourceX, y: sourceY }, { x: targetX, y: targetY });
   const several = data.count > 1;
+  const contracted = data.content !== null;
   return (
     <>
       <BaseEdge
@@ -35,16 +39,20 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
         className="graph-wire"
         data-reads={data.reads}
         data-sign={data.sign}
-        data-touched={touched || undefined}
+        data-touched={touched || (contracted && hovered) || undefined}
+        data-faint={contracted || undefined}
         data-picked={picked || over || undefined}
       />
-      {(data.pills.length > 0 || several) && (
+      {(data.pills.length > 0 || several) && (!contracted || touched || picked) && (
         <EdgeLabelRenderer>
           <div
             className="graph-pills"
+            data-listed={contracted || undefined}
             style={{ transform: `translate(-50%, -50%) translate(${middle.x}px, ${middle.y}px)` }}
           >
-            {several ? (
+            {contracted && !picked && !revealed ? (
+              <Chip wire={id} pills={data.pills} />
+            ) : several ? (
               <span className="graph-count" title={`${data.count} connections`}>
                 {data.count}
               </span>
@@ -57,6 +65,30 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
     </>
   );
 });
+
+// The number of couplings on a wire of a contracted architecture. A click shows them; a single one is selected.
+function Chip({ wire, pills }: { wire: string; pills: string[] }) {
+  const names = useStudio(({ elements }) => pills.map((id) => elements.get(id)?.path ?? "").join(", "));
+  const [only, ...others] = pills;
+  return (
+    <button
+      type="button"
+      className="graph-count graph-chip nodrag nopan"
+      title={names}
+      aria-label={names}
+      onClick={(event) => {
+        event.stopPropagation();
+        if (only !== undefined && others.length === 0) {
+          useStudio.getState().select([only]);
+        } else {
+          pickWire(wire, false);
+        }
+      }}
+    >
+      {pills.length}
+    </button>
+  );
+}
 
 // The border of a box moves its ports by less than this.
 const MOVED = 3;

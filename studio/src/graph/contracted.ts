@@ -1,0 +1,92 @@
+// A contracted architecture on the canvas: its grid, what its boxes and wires show, and what belongs together.
+
+import { dimensions } from "./boxes/boxes";
+import type { Contraction } from "./contract";
+import { gridPlaces } from "./grid";
+import { PANEL, type Point, type Size } from "./layout/layout";
+import type { ElementView, Kind } from "../protocol";
+import type { SceneNode, Wire } from "./scene";
+
+// The width of a chip on a wire.
+export const CHIP = 22;
+
+type Parts = {
+  contraction: Contraction;
+  names: Map<string, ElementView>;
+  kinds: Map<string, Kind>;
+  sizes: Map<string, Size>;
+};
+
+// The positions of boxes in the grid. Where a document places most of its boxes there is none: the others
+// stand beside these.
+export function inGrid(
+  { contraction, names, kinds, sizes }: Parts,
+  stored: Map<string, Point>,
+  panel: Size = PANEL,
+): Map<string, Point> {
+  const { boxes, edges, dots } = contraction;
+  const free = boxes.filter((id) => !stored.has(id));
+  if (free.length <= boxes.length / 2) {
+    return new Map();
+  }
+  const own = free.map((id) => sizes.get(id) ?? { width: 0, height: 0 });
+  const size = {
+    width: Math.max(...own.map(({ width }) => width)),
+    height: Math.max(...own.map(({ height }) => height)),
+  };
+  const isStimulus = (id: string) => {
+    const element = names.get(id);
+    const equation = kinds.get(element?.kind ?? "")?.equation.join(" ") ?? "";
+    return element?.inputs.length === 0 && dimensions(element) !== 0 && !equation.includes("\\xi");
+  };
+  const cells = free.map((id) => ({
+    id,
+    name: names.get(id)?.name ?? "",
+    fed: (dots.get(id) ?? []).some(isStimulus),
+  }));
+  return gridPlaces(cells, edges, size, panel);
+}
+
+// A box with the elements that it shows inside.
+export function withParts(node: SceneNode, { dots, badges }: Contraction): SceneNode {
+  return node.type !== "box"
+    ? node
+    : {
+        ...node,
+        data: { ...node.data, dots: dots.get(node.id) ?? [], badges: badges.get(node.id) ?? [] },
+      };
+}
+
+// The wires with what they alone have. A coupling of several wires is revealed by the first.
+export function contractedWires(wires: Wire[], { edges }: Contraction): Wire[] {
+  const links = new Map(edges.map((edge) => [edge.id, edge]));
+  const revealed = new Set<string>();
+  return wires.map((wire) => {
+    const link = links.get(wire.id);
+    if (wire.data === undefined || link === undefined) {
+      return wire;
+    }
+    const own = link.couplings.filter((id) => !revealed.has(id));
+    own.forEach((id) => revealed.add(id));
+    const chains = link.isChain ? wire.data.chains : [];
+    const room = link.couplings.length > 0 ? CHIP : 0;
+    return { ...wire, data: { ...wire.data, chains, room, content: link.content, revealed: own } };
+  });
+}
+
+// The boxes that each box, part and wire is joined with.
+export function linksOf(wires: Wire[], { boxes, dots, badges }: Contraction): Map<string, Set<string>> {
+  const links = new Map(boxes.map((id) => [id, new Set<string>()]));
+  const join = (id: string, ...others: string[]) => {
+    links.set(id, new Set([...(links.get(id) ?? []), ...others]));
+  };
+  for (const { id, source, target, data } of wires) {
+    join(source, target);
+    join(target, source);
+    [id, ...(data?.pills ?? [])].forEach((part) => join(part, source, target));
+  }
+  for (const [box, parts] of [...dots, ...badges]) {
+    parts.forEach((part) => join(part, box));
+  }
+  return links;
+}
