@@ -17,15 +17,29 @@ export function nearOf(links: ReadonlyMap<string, ReadonlySet<string>>, ids: str
   return new Set(ids.flatMap((id) => [id, ...(links.get(id) ?? [])]));
 }
 
+// Keeps `near`. It follows the stores past React, which would draw the whole canvas again for each box below
+// the pointer.
 export function useNear({ links }: GraphScene, changed: () => void): void {
-  const selected = useStudio((state) => state.selected);
-  const wires = usePicked((state) => state.wires);
-  const hovered = useFocus((state) => state.hovered);
   useEffect(() => {
-    const ids = hovered === null ? [...selected, ...wires] : [hovered];
-    const known = links === null ? [] : ids.filter((id) => links.has(id));
-    useFocus.setState({ near: links === null || known.length === 0 ? null : nearOf(links, known) });
-    changed();
-  }, [links, selected, wires, hovered, changed]);
-  useEffect(() => () => useFocus.setState({ hovered: null, near: null }), []);
+    if (links === null) {
+      return;
+    }
+    const follow = () => {
+      const { hovered } = useFocus.getState();
+      const chosen = [...useStudio.getState().selected, ...usePicked.getState().wires];
+      const known = (hovered === null ? chosen : [hovered]).filter((id) => links.has(id));
+      useFocus.setState({ near: known.length === 0 ? null : nearOf(links, known) });
+      changed();
+    };
+    follow();
+    const leave = [
+      useStudio.subscribe((state, before) => state.selected !== before.selected && follow()),
+      usePicked.subscribe((state, before) => state.wires !== before.wires && follow()),
+      useFocus.subscribe((state, before) => state.hovered !== before.hovered && follow()),
+    ];
+    return () => {
+      leave.forEach((end) => end());
+      useFocus.setState({ near: null });
+    };
+  }, [links, changed]);
 }
