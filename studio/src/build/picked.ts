@@ -17,11 +17,18 @@ type PickedItems = {
   into: string | null;
 };
 
-export const usePicked = create<PickedItems>(() => ({ wires: [], groups: [], over: null, into: null }));
+const NOTHING: PickedItems = { wires: [], groups: [], over: null, into: null };
+
+export const usePicked = create<PickedItems>(() => NOTHING);
 
 // Another selection of elements ends that of groups and connections.
 let own = "";
-useStudio.subscribe(({ selected }, before) => {
+useStudio.subscribe(({ selected, session }, before) => {
+  // Nothing of the document before is picked in another one.
+  if (session !== before.session) {
+    usePicked.setState(NOTHING);
+    return;
+  }
   const { wires, groups } = usePicked.getState();
   if (selected !== before.selected && wires.length + groups.length > 0 && selected.join() !== own) {
     usePicked.setState({ wires: [], groups: [] });
