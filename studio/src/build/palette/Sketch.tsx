@@ -60,6 +60,14 @@ const DRAWN: Record<Shape, Drawing> = {
   ramp: { line: "M2,21H17L34,3", faint: GROUND },
   line: { line: "M4,21L34,3", faint: "M2,12H36M19,2V22" },
   peak: { line: curve((x) => 0.08 + 0.92 * bell(x, 0.24)), faint: "M2,12H36" },
+  trace: {
+    line: curve((x) => 0.42 * bell(x + 0.3, 0.24) + 0.3 * bell(x - 0.4, 0.2)),
+    faint: curve((x) => bell(x + 0.3, 0.16)),
+  },
+  winner: {
+    line: curve((x) => bell(x, 0.15)),
+    faint: curve((x) => 0.4 * bell(x + 0.62, 0.13) + 0.4 * bell(x - 0.62, 0.13)),
+  },
   node: { line: "M10,12A9,9 0 1 1 28,12A9,9 0 1 1 10,12", faint: "M2,12H10M28,12H36" },
   decay: { line: curve((x) => 1 - Math.exp(-2 * (x + 1))), faint: "M2,3H36" },
   convolve: { line: curve((x) => bell(x - 0.05, 0.2) * 0.95), faint: "M2,12H12M26,12H36M32,8L36,12L32,16" },

@@ -7,6 +7,7 @@ const GAUSS = "\\exp\\!\\left( -\\frac{d^2}{2 \\sigma^2} \\right)";
 const CASES = "\\begin{cases} 1 & u > 0 \\\\ 0 & \\text{else} \\end{cases}";
 const LOGISTIC = "\\frac{1}{1 + e^{-\\beta u}}";
 const sigmoid = fakeKind("S", "sigmoids", { equation: [LOGISTIC] });
+const kernel = fakeKind("K", "kernels", { equation: [GAUSS] });
 const output = { ports: { output: "over `axes`" } };
 const through = { ports: { input: "any axes", output: "the same" } };
 const axes = fakeForm("axes", "axes");
@@ -31,12 +32,43 @@ const WANTED: [string, string, Parameters<typeof fakeKind>[2], Shape][] = [
     },
     "peak",
   ],
+  [
+    "dynamics that build up and decay at different rates",
+    "elements",
+    {
+      equation: [`\\frac{dp}{dt} = ${CASES}`],
+      parameters: [axes, fakeForm("activity", "part", { of: ["S"] })],
+      ...through,
+    },
+    "trace",
+  ],
+  [
+    "dynamics with a kernel, without a threshold of activation",
+    "elements",
+    {
+      equation: ["\\tau \\frac{dr}{dt}"],
+      parameters: [axes, fakeForm("kernel", "parts", { of: ["K"] })],
+      ...through,
+    },
+    "winner",
+  ],
+  [
+    "dynamics with a kernel and a threshold",
+    "elements",
+    {
+      equation: ["\\tau \\frac{du}{dt}"],
+      parameters: [axes, fakeForm("kernel", "parts", { of: ["K"] })],
+      levels: { activation: { threshold: "threshold" } },
+      ...through,
+    },
+    "peak",
+  ],
   ["dynamics without one", "elements", { equation: ["\\frac{dx}{dt}"], ...through }, "decay"],
   ["a sum", "couplings", { equation: ["\\sum \\mathrm{inputs}"], ...through }, "sum"],
 ];
 
 test.each(WANTED)("the sketch of %s follows from its description", (_, room, more, shape) => {
   const kind = fakeKind("Any", room, more);
-  expect(shapeOf(kind, kindsOf(kind, sigmoid))).toBe(shape);
-  expect(shapeOf({ ...kind, name: "Other", title: "Other" }, kindsOf(sigmoid))).toBe(shape);
+  expect(shapeOf(kind, kindsOf(kind, sigmoid, kernel))).toBe(shape);
+  expect(shapeOf({ ...kind, name: "Other", title: "Other" }, kindsOf(sigmoid, kernel))).toBe(shape);
 });

@@ -7,6 +7,8 @@ import { isPart, isSource } from "./families";
 // In this order they are listed.
 export const SHAPES = [
   "peak",
+  "trace",
+  "winner",
   "node",
   "bell",
   "box",
@@ -86,11 +88,25 @@ function source(kind: Kind, equation: string): Shape {
   return has(kind, "array") ? (/\(x, t\)/.test(equation) ? "series" : "samples") : "flat";
 }
 
+// What interacts without a threshold of activation has one winner.
+const hasLevels = (kind: Kind) => Object.keys(kind.levels).length > 0;
+
+// What builds up and decays at different rates is a trace.
+function dynamics(kind: Kind, equation: string): Shape {
+  if (!has(kind, "axes")) {
+    return "node";
+  }
+  return equation.includes("cases") ? "trace" : "peak";
+}
+
 function between(kind: Kind, equation: string, kinds: Kinds): Shape {
   const parts = kind.parameters.flatMap((p) => p.of.map((name) => kinds.get(name)?.room));
   const changes = /\\frac\{d\w/.test(equation) || /\\tau/.test(equation);
-  if (changes && (parts.includes("sigmoids") || parts.includes("kernels"))) {
-    return has(kind, "axes") || parts.includes("kernels") ? "peak" : "node";
+  if (changes && parts.includes("kernels")) {
+    return hasLevels(kind) ? "peak" : "winner";
+  }
+  if (changes && parts.includes("sigmoids")) {
+    return dynamics(kind, equation);
   }
   if (changes) {
     return "decay";
