@@ -18,7 +18,7 @@ type Parts = {
 };
 
 // The positions of boxes in the grid. Where a document places most of its boxes there is none: the others
-// stand beside these.
+// are placed beside these.
 export function inGrid(
   { contraction, names, kinds, sizes }: Parts,
   stored: Map<string, Point>,

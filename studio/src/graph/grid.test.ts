@@ -78,7 +78,7 @@ test("a prefix is a row, a suffix is a column, and a digit is a frame", () => {
   );
 });
 
-test("rows that receive stimuli stand on top, alone", () => {
+test("rows that receive stimuli are on top, alone", () => {
   const places = laid("presetSceneRepresentation.json");
   const rows = [...new Set([...places.values()].map(({ y }) => y))].sort((a, b) => a - b);
   const names = (y: number | undefined) =>
@@ -87,7 +87,7 @@ test("rows that receive stimuli stand on top, alone", () => {
   expect(new Set([...names(rows[0]), ...names(rows[1])])).toEqual(new Set(["vis", "atn"]));
 });
 
-test("connected rows stand beside each other", () => {
+test("connected rows are neighbours", () => {
   const names = ["a", "b", "c"].flatMap((prefix) => ["x", "y", "z"].map((suffix) => `${prefix}_${suffix}`));
   const wires = ["x", "y", "z"].map((suffix) => ({ source: `a_${suffix}`, target: `c_${suffix}` }));
   const places = gridPlaces(boxes(...names), wires, SIZE, PANEL);

@@ -10,7 +10,7 @@ export type GridBox = { id: string; name: string; fed: boolean };
 
 // Fewer boxes, or fewer names that share both parts with others, form no grid.
 const LEAST = { boxes: 12, shared: 0.5 };
-// Rows and columns with at most so many boxes share their place with others.
+// Rows and columns with at most this number of boxes share their place with others.
 const SPARSE = 2;
 // Gaps between boxes have room for wires; a frame stands apart. They grow with the canvas up to `most`.
 const GAP = { x: 48, y: 40, frame: 44, most: 160 };

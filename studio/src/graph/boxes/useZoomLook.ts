@@ -15,13 +15,14 @@ export function useZoomLook(around: RefObject<HTMLElement | null>): void {
     let timer = 0;
     let last = 0;
     const apply = () => {
-      const { level, text, numbers } = lookAt(flow.getState().transform[2]);
+      const { level, text, numbers, lines } = lookAt(flow.getState().transform[2]);
       const before = useLook.getState();
       around.current?.setAttribute("data-level", level);
       around.current?.toggleAttribute("data-numbers", numbers);
+      around.current?.toggleAttribute("data-lines", lines);
       around.current?.style.setProperty("--graph-text", `${text}px`);
       if (before.level !== level || before.text !== text) {
-        useLook.setState({ level, text, numbers });
+        useLook.setState({ level, text, numbers, lines });
       }
     };
     apply();

@@ -16,7 +16,10 @@ export const NUMBERS = 0.42;
 const TEXT = 11.2;
 const STEPS = 8;
 
-export type CanvasLook = { level: DetailLevel; text: number; numbers: boolean };
+// A box with a curve then has room for two lines of its name.
+export const LINES = 0.3;
+
+export type CanvasLook = { level: DetailLevel; text: number; numbers: boolean; lines: boolean };
 
 export function lookAt(zoom: number): CanvasLook {
   // A zoom that differs from a step by rounding alone belongs to that step.
@@ -25,6 +28,7 @@ export function lookAt(zoom: number): CanvasLook {
     level: zoom >= FULL ? "full" : zoom >= TITLE ? "title" : "dot",
     text: TEXT / step,
     numbers: zoom >= NUMBERS,
+    lines: zoom >= LINES,
   };
 }
 
