@@ -1,5 +1,13 @@
 // Generated from src/deodar_studio/requests and messages/to_page.py; change those, not this one:
 // python tools/generate.py
+// Add an axis that no element has yet; `axis` has the properties of `change_axis`.
+export type AddAxis = {
+  type: "add_axis";
+  request?: number;
+  session?: number;
+  axis: Record<string, unknown>;
+};
+
 // Add a document parameter with the value of the first parameter that it sets.
 export type AddDocumentParameter = {
   type: "add_document_parameter";
@@ -358,6 +366,7 @@ export type Describe = {
   name?: string | null;
   notes?: string | null;
   dt?: number | null;
+  time_unit?: string | null;
 };
 
 // The first moment at which a port of two records differs, and the sample with the largest difference.
@@ -1173,6 +1182,14 @@ export type Release = {
   request?: number;
 };
 
+// Remove an axis, given by its key, also from the elements that have it; refused if one needs it.
+export type RemoveAxis = {
+  type: "remove_axis";
+  request?: number;
+  session?: number;
+  key: string;
+};
+
 // Remove a document parameter; the parameters that it set keep their values.
 export type RemoveDocumentParameter = {
   type: "remove_document_parameter";
@@ -1611,6 +1628,7 @@ export type ToPage =
   | WorldSolids;
 
 export type ToServer =
+  | AddAxis
   | AddDocumentParameter
   | AddElement
   | AddTemplate
@@ -1669,6 +1687,7 @@ export type ToServer =
   | Redo
   | RedoExperiment
   | Release
+  | RemoveAxis
   | RemoveDocumentParameter
   | RemoveElements
   | RemoveObject
@@ -1961,6 +1980,7 @@ export type WorldSolids = {
 
 // Types of the requests that are meant for the document that the page shows.
 export const MEANT: readonly ToServer["type"][] = [
+  "add_axis",
   "add_document_parameter",
   "add_element",
   "add_template",
@@ -1992,6 +2012,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "redo",
   "redo_experiment",
   "remove",
+  "remove_axis",
   "remove_document_parameter",
   "remove_saved",
   "rename",

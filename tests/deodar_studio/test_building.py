@@ -289,6 +289,33 @@ def test_an_axis_changes_for_all_elements_that_have_it(root: Path) -> None:
         play(address, scene)
 
 
+def test_an_axis_is_added_used_and_removed_each_as_one_step_of_undo(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("new")
+        steps = p.document["undo"]
+        y = {"name": "y", "lower": 0, "upper": 10, "samples": 21, "unit": "mm"}
+        await p.do("add_axis", axis=y)
+        assert [a["key"] for a in p.document["axes"]] == ["y"] and p.document["undo"] == steps + 1
+        assert "already has" in (await p.ask("add_axis", axis=y))["problems"][0]["what"]
+        (u,) = await made(p, "add_element", kind="Field", name="u", values={"axes": ["y"]})
+        z = {"name": "z", "lower": 0, "upper": 5, "samples": 11}
+        await p.do("set", element=u, parameter="axes", value=["y", z])
+        assert [a["key"] for a in p.document["axes"]] == ["y", "z"] and p.document["undo"] == steps + 3
+        await p.do("remove_axis", key="y")
+        assert p.document["elements"][0]["values"]["axes"] == ["z"]
+        await p.do("undo")
+        assert p.document["elements"][0]["values"]["axes"] == ["y", "z"]
+        assert "no axis 'w'" in (await p.ask("remove_axis", key="w"))["problems"][0]["what"]
+        await p.do("describe", time_unit="s")
+        assert p.document["time_unit"] == "s"
+        await p.do("undo")
+        assert p.document["time_unit"] == "ms"
+        assert "time_unit is" in (await p.ask("describe", time_unit="years"))["problems"][0]["what"]
+
+    with studio(root, None) as address:
+        play(address, scene)
+
+
 def test_every_kind_of_the_palette_is_added_to_an_empty_document(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.open("new")

@@ -11,7 +11,9 @@ from deodar.codec import Json
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.leaves import StepLimit, resting, step_limits, structure
+from deodar.model.parts import axes_in
 from deodar.model.paths import Index, PathNames, display
+from deodar.numerics.axes import Axes
 from deodar.summary import Summarised, Summary, counted
 
 VERSION = 4
@@ -147,6 +149,8 @@ class Document(Summarised):
     """An architecture as immutable data. Only `deodar.model.edit` makes new documents.
 
     Attributes:
+        spare_axes: axes that no element has yet, for elements to come. An axis that an element has is not
+            among them, so that a document and its file, which has one table of axes, are equal.
         foreign: whether the document came from a file or another process and the user has not allowed the
             functions that it names to be run. It is not written to files, does not count when documents are
             compared, and is copied to every document that is made from this one.
@@ -163,7 +167,14 @@ class Document(Summarised):
     t0: float = 0.0
     notes: str = ""
     layout: Mapping[str, Json] = dc.field(default_factory=dict[str, Any])
+    spare_axes: Axes = ()
     foreign: bool = dc.field(default=False, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.spare_axes:
+            taken = {axis for e in self.entries for axis in axes_in(e.element)}
+            spare = tuple(axis for axis in dict.fromkeys(self.spare_axes) if axis not in taken)
+            object.__setattr__(self, "spare_axes", spare)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for a pickle, without cached look-ups and without trust: it is valid only in the

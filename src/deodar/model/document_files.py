@@ -71,6 +71,8 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
             **({"every": e.every} if e.every != 1 else {}),
             **body,
         }
+    for axis in doc.spare_axes:
+        axis_key(table, axis)
     connections = [
         {"source": f"{by[c.source].path}.{c.source_port}", "target": f"{by[c.target].path}.{c.target_port}"}
         | ({"reads": c.reads} if c.reads else {})
@@ -108,6 +110,8 @@ def axes(doc: Document) -> dict[str, Axis]:
     for e in doc.entries:
         for axis in axes_in(e.element):
             axis_key(table, axis)
+    for axis in doc.spare_axes:
+        axis_key(table, axis)
     return table
 
 

@@ -10,7 +10,7 @@ import dataclasses as dc
 import math
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar, cast
 
 from deodar import codec
 from deodar.codec import Json
@@ -19,9 +19,10 @@ from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, 
 from deodar.leaves import replace
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, DocumentParameter, Entry, Use
+from deodar.model.parts import axes_in
 from deodar.model.paths import PathNames, as_taken, display, stored_id
 from deodar.numerics.axes import Axis
-from deodar.parameters import Reference, is_text, parameters, real, show
+from deodar.parameters import Parameter, Reference, is_text, parameters, real, show
 
 T = TypeVar("T")
 
@@ -386,17 +387,47 @@ def assignments(path: Any, value: Any) -> Mapping[str, Any]:
     }
 
 
+def add_axis(doc: Document, axis: Axis) -> Document:
+    """Return a document with one more axis, which no element has yet.
+
+    Raises:
+        ModelError: the document has the axis already.
+    """
+    if has_axis(doc, axis):
+        raise ModelError(f"the document already has the axis {axis}", fix="Choose it at an element")
+    return dc.replace(doc, spare_axes=(*doc.spare_axes, axis))
+
+
+def remove_axis(doc: Document, axis: Axis) -> Document:
+    """Return a document without an axis: elements over several axes lose this one, with what they state for
+    it alone, such as one of two widths.
+
+    Raises:
+        ParameterError: an element needs the axis, such as one whose array has a dimension for it.
+    """
+    entries = tuple(
+        e if after is e.element else dc.replace(e, element=after)
+        for e in doc.entries
+        for after in [_without_axis(e.element, axis, (), e.path)]
+    )
+    return dc.replace(doc, entries=entries, spare_axes=tuple(a for a in doc.spare_axes if a != axis))
+
+
+def has_axis(doc: Document, axis: Axis) -> bool:
+    """Return whether an axis is one of a document's, also one that no element has yet."""
+    return axis in doc.spare_axes or any(axis in axes_in(e.element) for e in doc.entries)
+
+
 def replace_axis(doc: Document, old: Axis, new: Axis) -> Document:
     """Return a document in which every element and part has another axis in the place of one.
 
     Raises:
-        ModelError: no element has the axis.
+        ModelError: the document does not have the axis.
         ParameterError: an element cannot have the new axis, such as one with an array of the old length.
     """
-    changed = replace_axes(doc, {old: new})
-    if all(after.element is e.element for after, e in zip(changed.entries, doc.entries, strict=True)):
+    if not has_axis(doc, old):
         raise ModelError(f"no element has the axis {old}")
-    return changed
+    return replace_axes(doc, {old: new})
 
 
 def replace_axes(doc: Document, new: Mapping[Axis, Axis]) -> Document:
@@ -406,9 +437,8 @@ def replace_axes(doc: Document, new: Mapping[Axis, Axis]) -> Document:
     Raises:
         ParameterError: an element cannot have its new axes.
     """
-    return dc.replace(
-        doc, entries=tuple(dc.replace(e, element=_with_axes(e.element, new)) for e in doc.entries)
-    )
+    entries = tuple(dc.replace(e, element=_with_axes(e.element, new)) for e in doc.entries)
+    return dc.replace(doc, entries=entries, spare_axes=tuple(new.get(a, a) for a in doc.spare_axes))
 
 
 def every(doc: Document, ident: str, ticks: int) -> Document:
@@ -636,6 +666,40 @@ def _with_axes(part: Any, new: Mapping[Axis, Axis]) -> Any:
         )
         moved |= {} if same else {p.name: after}
     return dc.replace(part, **moved) if moved else part
+
+
+def _without_axis(part: Any, axis: Axis, outer: Sequence[Axis], where: str) -> Any:
+    """Return a part without an axis, and without its values for it alone; the same object if it has neither.
+
+    `outer` are the axes of what the part belongs to, which it describes if it has no axes itself.
+    """
+    axes: Sequence[Axis] = getattr(part, "axes", outer)
+    moved: dict[str, Any] = {}
+    for p in parameters(type(part)):
+        value: Any = getattr(part, p.name)
+        if value is not None:
+            after = _value_without_axis(p, value, axis, axes, f"{where}.{p.name}")
+            moved |= {} if after is value or after == value else {p.name: after}
+    return dc.replace(part, **moved) if moved else part
+
+
+def _value_without_axis(p: Parameter, value: Any, axis: Axis, axes: Sequence[Axis], where: str) -> Any:
+    match p.form:
+        case "axes":
+            return tuple(a for a in value if a != axis)
+        case "axis" if value == axis:
+            if not p.optional:
+                fix = "Choose another axis there, or remove the element"
+                raise ParameterError(f"needs the axis {axis.name}", where=where, fix=fix)
+            return None
+        case "per_axis" if isinstance(value, tuple) and len(cast("tuple[Any, ...]", value)) == len(axes):
+            return tuple(v for v, a in zip(value, axes, strict=True) if a != axis)
+        case "part":
+            return _without_axis(value, axis, axes, where)
+        case "parts":
+            return tuple(_without_axis(v, axis, axes, f"{where}.{i}") for i, v in enumerate(value))
+        case _:
+            return value
 
 
 def _put(doc: Document, ident: str, path: str, value: Any) -> Document:

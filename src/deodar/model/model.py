@@ -17,6 +17,7 @@ from deodar.model.document import Document, Entry
 from deodar.model.handle import Handle as Handle
 from deodar.model.paths import PathNames, display, quote, readings, split
 from deodar.model.script import script
+from deodar.numerics.axes import Axis
 from deodar.parameters import show
 from deodar.summary import Summarised, Summary, counted
 
@@ -208,6 +209,26 @@ class Model(Summarised):
     def get(self, path: str) -> Any:
         """Return the value of a parameter."""
         return find.value(self.document, path)
+
+    def add_axis(self, axis: Axis) -> None:
+        """Add an axis that no element has yet, so that the studio offers it and the file contains it.
+
+        Raises:
+            ModelError: the document has the axis already.
+        """
+        self.commit(edit.add_axis(self.document, axis))
+
+    def remove_axis(self, axis: str) -> None:
+        """Remove an axis: elements over several axes lose this one, with what they state for it alone.
+
+        Args:
+            axis: its key in the document, which is its name unless several axes have this name.
+
+        Raises:
+            UnknownName: the document has no such axis.
+            ParameterError: an element needs the axis, such as one whose array has a dimension for it.
+        """
+        self.commit(proposed.remove_axis(self.document, axis))
 
     def set_axis(self, axis: str, **values: Any) -> None:
         """Change an axis in every element that has it: `model.set_axis("x", samples=201, periodic=True)`.

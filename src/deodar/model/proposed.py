@@ -266,10 +266,24 @@ def change_axis(doc: Document, key: str, values: dict[str, object]) -> Document:
     return edit.replace_axis(doc, *_new_axis(doc, key, values))
 
 
-def _new_axis(doc: Document, key: str, values: dict[str, object]) -> tuple[Axis, Axis]:
-    """Return the axis of a key, and the same axis with other values."""
+def remove_axis(doc: Document, key: str) -> Document:
+    """Return a document without an axis, given by its key.
+
+    Raises:
+        UnknownName: the document has no axis of this key.
+        ParameterError: an element needs the axis.
+    """
+    return edit.remove_axis(doc, _axis(doc, key))
+
+
+def _axis(doc: Document, key: str) -> Axis:
     axes = document_files.axes(doc)
     if key not in axes:
         raise UnknownName(f"the document has no axis {key!r}", fix=did_you_mean(key, axes))
-    old: Axis = axes[key]
+    return axes[key]
+
+
+def _new_axis(doc: Document, key: str, values: dict[str, object]) -> tuple[Axis, Axis]:
+    """Return the axis of a key, and the same axis with other values."""
+    old = _axis(doc, key)
     return old, dc.replace(old, **values)  # type: ignore[arg-type]

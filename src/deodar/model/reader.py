@@ -93,7 +93,7 @@ class _Reader:
             self.problem("elements", "is missing", 'A document without elements holds "elements": {}')
         doc = self.general(Document(self.text("name", "model"), foreign=True))
         axes = self.axes()
-        doc = self.elements(doc, axes)
+        doc = dc.replace(self.elements(doc, axes), spare_axes=tuple(axes.values()))
         doc = self.groups(doc)
         # connections and links of elements that failed would only repeat their problems
         if not self.problems:

@@ -108,6 +108,8 @@ class _Script:
 
     def _ending(self) -> Iterator[str]:
         doc = self.doc
+        for axis in doc.spare_axes:
+            yield lines(call("model.add_axis", self.axes[axis]), 4)
         for k in doc.parameters:
             yield lines(call("model.parameter", text(k.name), number(k.value)), 4)
             for ident, leaf in k.links:

@@ -11,7 +11,7 @@ import msgspec
 
 from deodar.errors import DeodarError, DocumentError
 from deodar.importers import stored_report
-from deodar.model import building, clipboard, fits, plain_values, proposed, script
+from deodar.model import building, clipboard, edit, fits, plain_values, proposed, script
 from deodar.model.building import Around, BoxPosition, ElementPort, EndPorts
 from deodar.model.document import Document
 from deodar_studio.catalogue import templates
@@ -262,6 +262,18 @@ async def change_axis(hub: Hub, page: Page, *, key: Text, axis: Mapping[str, Any
     new = dc.asdict(plain_values.axis(axis))
     cost = await hub.project.history.change(lambda doc: proposed.change_axis(doc, key, new))
     return answer(cost=cost)
+
+
+@edits()
+def add_axis(doc: Document, *, axis: Mapping[str, Any]) -> Document:
+    """Add an axis that no element has yet; `axis` has the properties of `change_axis`."""
+    return edit.add_axis(doc, plain_values.axis(axis))
+
+
+@edits()
+def remove_axis(doc: Document, *, key: Text) -> Document:
+    """Remove an axis, given by its key, also from the elements that have it; refused if one needs it."""
+    return proposed.remove_axis(doc, key)
 
 
 @changes()

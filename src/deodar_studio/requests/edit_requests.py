@@ -36,10 +36,16 @@ async def set_parameter(
 
 @changes()
 async def describe(
-    hub: Hub, page: Page, *, name: Text | None = None, notes: str | None = None, dt: float | None = None
+    hub: Hub,
+    page: Page,
+    *,
+    name: Text | None = None,
+    notes: str | None = None,
+    dt: float | None = None,
+    time_unit: Text | None = None,
 ) -> None:
     """Change general properties of the document; None leaves a property unchanged."""
-    properties = {"name": name, "notes": notes, "dt": dt}
+    properties = {"name": name, "notes": notes, "dt": dt, "time_unit": time_unit}
     await hub.project.history.describe({key: value for key, value in properties.items() if value is not None})
 
 

@@ -89,7 +89,8 @@ def convert(doc: Document, before: Converted | None = None) -> Converted:
 
 def _same_model(old: Document, new: Document) -> bool:
     """Return whether two documents share all that is converted: they differ in layout, names or notes."""
-    return old.entries is new.entries and old.connections is new.connections
+    same = old.entries is new.entries and old.connections is new.connections
+    return same and old.spare_axes == new.spare_axes
 
 
 def axes(converted: Converted) -> list[AxisView]:

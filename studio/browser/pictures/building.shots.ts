@@ -36,10 +36,10 @@ for (const colours of COLOURS) {
     await box(page, "gaussian_stimulus").waitFor();
     await pull(page, "gaussian_stimulus", field);
     await page.mouse.up();
-    await option(page, "Field").waitFor();
+    await option(page, "Field, 1-D").waitFor();
     await page.waitForTimeout(DRAWN_MS);
     await shot(page, name("palette"));
-    await option(page, "Field").click();
+    await option(page, "Field, 1-D").click();
     await box(page, "field").waitFor();
     await page.mouse.dblclick(second.x, second.y);
     await option(page, "Gaussian stimulus").click();

@@ -36,7 +36,9 @@ export function openCommands(shortcuts: readonly Shortcut[]): void {
   }));
   const added = isEditable()
     ? [
-        ...kindEntries(kinds, selectedOne(), (kind) => addElement(kind.name, spotFor(kind, at))),
+        ...kindEntries(kinds, selectedOne(), (kind, values) =>
+          addElement(kind.name, spotFor(kind, at), { values }),
+        ),
         ...templateEntries(knownTemplates(), at),
       ]
     : [];

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,8 +12,9 @@ import pytest
 import deodar as dd
 from deodar.elements.stimuli import Boost
 from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName
-from deodar.model import edit
+from deodar.model import document_files, edit
 from deodar.model.document import Document
+from deodar.model.script import script
 
 X = dd.Axis("x", 0, 10, samples=11)
 
@@ -294,3 +297,54 @@ def test_a_layout_changes_in_every_document_and_past_ones_keep_their_folded_grou
     ]
     assert [doc.notes for doc in history.documents] == ["", "renamed", "undone"]
     assert not any("panels" in doc.layout for doc in history.documents)
+
+
+def test_an_axis_stays_in_the_document_without_an_element(tmp_path: Path) -> None:
+    x, y = dd.Axis("x", 0, 100, samples=11), dd.Axis("y", -5, 5, samples=21, unit="mm")
+    model = dd.Model("axes")
+    model.add_axis(y)
+    assert list(document_files.axes(model.document)) == ["y"]
+    with pytest.raises(ModelError, match="already has the axis y"):
+        model.add_axis(y)
+    dd.save(model, tmp_path / "axes.json")
+    assert dd.load(tmp_path / "axes.json").document == model.document
+    namespace: dict[str, Any] = {}
+    exec(script(model.document, "axes.json"), namespace)
+    assert namespace["make"]().document == model.document
+    model.set_axis("y", samples=31)
+    assert model.document.spare_axes == (dd.Axis("y", -5, 5, samples=31, unit="mm"),)
+    model.add(dd.Field("u", [x, *model.document.spare_axes]))
+    assert model.document.spare_axes == (), "an element has it"
+    model.undo()
+    model.remove_axis("y")
+    assert document_files.axes(model.document) == {}
+    with pytest.raises(UnknownName, match="no axis 'y'"):
+        model.remove_axis("y")
+
+
+def test_a_removed_axis_takes_the_values_for_it_along() -> None:
+    x, y = dd.Axis("x", 0, 100, samples=11), dd.Axis("y", -5, 5, samples=21)
+    model = dd.Model("axes")
+    model.add(dd.GaussianStimulus("s", [x, y], center=(50, 1), sigma=(5, 2), amplitude=3))
+    model.add(dd.Field("u", [y, x], kernel=[dd.Gaussian(amplitude=1, sigma=(1, 7))]))
+    model.add(dd.Field("v", [x]))
+    model.remove_axis("y")
+    assert model.get("s.axes") == model.get("u.axes") == model.get("v.axes") == (x,)
+    assert model.get("s.center") == (50,) and model.get("s.sigma") == (5,)
+    assert model.get("u.kernel.0.sigma") == (7,)
+    assert [p for p in model.check() if p.severity == "problem"] == []
+    model.undo()
+    assert model.get("s.center") == (50, 1), "one step of undo"
+    model.remove_axis("x")
+    assert model.get("v.axes") == () and model.get("u.axes") == (y,)
+
+
+def test_an_axis_that_an_element_needs_is_not_removed() -> None:
+    x = dd.Axis("x", 0, 100, samples=11)
+    model = dd.Model("axes")
+    model.add(dd.SampledHistory("past", [], x))
+    model.add(dd.PeakPosition(x, name="peak"))
+    before = model.document
+    with pytest.raises(ParameterError, match=r"past\.slots: needs the axis x") as error:
+        model.remove_axis("x")
+    assert "Choose another axis there" in str(error.value) and model.document is before

@@ -28,7 +28,10 @@ export function EntryLine({ id, entry, active, draggable, onLook, onChoose }: Pr
       aria-disabled={why !== undefined}
       title={why}
       draggable={carried !== null}
-      onDragStart={(event) => carried !== null && carry(event.dataTransfer, carried)}
+      onDragStart={(event) => {
+        const now = carriedBy(entry); // its values follow from the document as it is now
+        return now !== null && carry(event.dataTransfer, now);
+      }}
       onPointerMove={() => !active && why === undefined && onLook()}
       // the text field keeps the focus
       onPointerDown={(event) => carried === null && event.preventDefault()}

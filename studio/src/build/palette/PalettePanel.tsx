@@ -17,7 +17,9 @@ export function PalettePanel() {
   const entries = useMemo(() => {
     const selected: Selected | null = kind === undefined ? null : { id: only, name, kind };
     return [
-      ...kindEntries(kinds, selected, (chosen) => addElement(chosen.name, spotFor(chosen, null))),
+      ...kindEntries(kinds, selected, (chosen, values) =>
+        addElement(chosen.name, spotFor(chosen, null), { values }),
+      ),
       ...templateEntries(templates ?? [], null),
     ];
   }, [kinds, templates, only, name, kind]);

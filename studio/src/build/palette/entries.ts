@@ -1,6 +1,7 @@
 // What a chooser lists: entries by family, found by typed words.
 
 import type { Kind, TemplateView } from "../../protocol";
+import type { Values } from "../../values";
 
 export type ListEntry = {
   id: string;
@@ -12,6 +13,8 @@ export type ListEntry = {
   words?: string;
   // The kind whose sketch and equation are shown.
   kind?: Kind;
+  // The values of the new element, where the entry states some.
+  values?: () => Values;
   // The model whose picture and sentence are shown.
   template?: TemplateView;
   // The element that the entry is about.

@@ -2,8 +2,10 @@
 
 import type { Point } from "../../graph/layout/layout";
 import type { Kinds } from "../../inspector/parameters/leaf";
+import { axesOver } from "../../model/axes";
 import type { Kind, TemplateView } from "../../protocol";
 import { useStudio } from "../../store";
+import type { Values } from "../../values";
 import { useChooser } from "./choice";
 import { addComment } from "../commenting";
 import { addElement, addPart, addTemplate } from "../edits";
@@ -15,21 +17,41 @@ import { SHAPES, shapeOf } from "./shapes";
 import { beside, near, type Placing, under } from "../placing";
 import { getPointer, getStage } from "../stage";
 
-// All kinds as entries; `add` adds an element.
-export function kindEntries(
-  kinds: Kinds,
-  selected: Selected | null,
-  add: (kind: Kind) => unknown,
-): ListEntry[] {
+export type Add = (kind: Kind, values?: Values) => unknown;
+
+// All kinds as entries; `add` adds an element, whose axes follow from what it is connected with, or, where it
+// is added alone, from the entry.
+export function kindEntries(kinds: Kinds, selected: Selected | null, add: Add, alone = true): ListEntry[] {
   const rank = (kind: Kind) => SHAPES.indexOf(shapeOf(kind, kinds));
   const known = [...kinds.values()]
     .filter((kind) => familyOf(kind) !== null)
     .sort((a, b) => rank(a) - rank(b) || a.title.localeCompare(b.title));
   const elements = ELEMENTS.flatMap((family) =>
-    known.filter((kind) => familyOf(kind) === family).map((kind) => elementEntry(kind, add)),
+    known
+      .filter((kind) => familyOf(kind) === family)
+      .flatMap((kind) =>
+        alone && hasDimensions(kind, kinds)
+          ? DIMENSIONS.map((count) => dimensionEntry(kind, count, add))
+          : [elementEntry(kind, add)],
+      ),
   );
   const parts = known.filter(isPart).flatMap((kind) => partEntries(kind, selected));
   return [...elements, ...parts];
+}
+
+const DIMENSIONS = [1, 2, 3];
+
+// Whether a kind is a field, which is built over one, two or three dimensions.
+const hasDimensions = (kind: Kind, kinds: Kinds): boolean =>
+  shapeOf(kind, kinds) === "peak" && Object.keys(kind.levels).length > 0;
+
+function dimensionEntry(kind: Kind, count: number, add: Add): ListEntry {
+  const values = () => {
+    const { document } = useStudio.getState();
+    return document === null ? {} : { axes: axesOver(count, document) };
+  };
+  const entry = elementEntry(kind, (chosen) => add(chosen, values()));
+  return { ...entry, id: `${kind.name} ${count}`, title: `${kind.title}, ${count}-D`, values };
 }
 
 export function elementEntry(kind: Kind, add: (kind: Kind) => unknown): ListEntry {
@@ -92,8 +114,8 @@ export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): v
   if (!isEditable() || getStage() === null) {
     return;
   }
-  const add = (kind: Kind) => addElement(kind.name, spotFor(kind, at), { wire });
-  const entries = kindEntries(kinds, selectedOne(), add);
+  const add: Add = (kind, values) => addElement(kind.name, spotFor(kind, at), { wire, values });
+  const entries = kindEntries(kinds, selectedOne(), add, wire === undefined);
   useChooser.getState().open({
     label: wire === undefined ? "Add an element" : "Insert an element",
     placeholder: "Name, family or parameter",

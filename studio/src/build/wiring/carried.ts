@@ -1,24 +1,26 @@
 // A kind or a template that is dragged from the list of elements to the canvas.
 
+import type { Values } from "../../values";
 import type { ListEntry } from "../palette/entries";
 
 const TYPE = { kind: "application/x-deodar-kind", template: "application/x-deodar-template" };
 
-export type Carried = { what: keyof typeof TYPE; name: string };
+// `values` are those of a new element.
+export type Carried = { what: keyof typeof TYPE; name: string; values?: Values };
 
 // What an entry of the list carries; null: it is not dragged.
-export function carriedBy({ kind, template, why }: ListEntry): Carried | null {
+export function carriedBy({ kind, template, why, values }: ListEntry): Carried | null {
   if (why !== undefined) {
     return null;
   }
   if (template !== undefined) {
     return { what: "template", name: template.name };
   }
-  return kind === undefined ? null : { what: "kind", name: kind.name };
+  return kind === undefined ? null : { what: "kind", name: kind.name, values: values?.() };
 }
 
-export function carry(transfer: DataTransfer, { what, name }: Carried): void {
-  transfer.setData(TYPE[what], name);
+export function carry(transfer: DataTransfer, { what, ...rest }: Carried): void {
+  transfer.setData(TYPE[what], JSON.stringify(rest));
   transfer.effectAllowed = "copy";
 }
 
@@ -28,6 +30,6 @@ export const isCarried = ({ types }: DataTransfer): boolean =>
 // What is dropped.
 export function carried(transfer: DataTransfer): Carried | null {
   const what = transfer.types.includes(TYPE.template) ? "template" : "kind";
-  const name = transfer.getData(TYPE[what]);
-  return name === "" ? null : { what, name };
+  const text = transfer.getData(TYPE[what]);
+  return text === "" ? null : { what, ...(JSON.parse(text) as Omit<Carried, "what">) };
 }

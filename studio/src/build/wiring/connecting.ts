@@ -97,7 +97,7 @@ function fitting(
   const known = useStudio.getState().kinds;
   const ends = side === "source" ? { source: from, replaces } : { target: from, replaces };
   const add = (kind: Kind) => addElement(kind.name, spot(kind), ends);
-  return kindEntries(known, null, add).filter(
+  return kindEntries(known, null, add, false).filter(
     ({ kind, why }) => why === undefined && kind !== undefined && kinds.includes(kind.name),
   );
 }

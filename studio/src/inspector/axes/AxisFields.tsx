@@ -1,16 +1,15 @@
 // The properties of one of the document's axes. A change acts on every element that has the axis.
 
-import { Switch } from "@mantine/core";
+import { Button, Switch } from "@mantine/core";
 import { useState } from "react";
 
+import type { AxisProperties } from "../../model/axes";
 import type { AxisView, ListedProblem } from "../../protocol";
 import { socket } from "../../socket";
 import { useStudio } from "../../store";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { TextBox } from "../forms/TextBox";
 import { NumberBox } from "../numbers/NumberBox";
-
-type Properties = Omit<AxisView, "key">;
 
 export function AxisFields({ axis }: { axis: AxisView }) {
   const [problem, setProblem] = useState<ListedProblem | null>(null);
@@ -20,12 +19,16 @@ export function AxisFields({ axis }: { axis: AxisView }) {
         Object.values(axes).some((keys) => keys.includes(axis.key)),
       ).length ?? 0,
   );
-  const change = async (next: Partial<Properties>): Promise<boolean> => {
+  const change = async (next: Partial<AxisProperties>): Promise<boolean> => {
     const { key, ...properties } = axis;
     const { answer } = await socket.ask({ type: "change_axis", key, axis: { ...properties, ...next } });
     const found = answer.problems?.[0] ?? null;
     setProblem(found);
     return found === null;
+  };
+  const remove = async () => {
+    const { answer } = await socket.ask({ type: "remove_axis", key: axis.key });
+    setProblem(answer.problems?.[0] ?? null);
   };
   const number = (name: "lower" | "upper" | "samples", label: string, unit = "") => (
     <label className="axis-field">
@@ -66,8 +69,19 @@ export function AxisFields({ axis }: { axis: AxisView }) {
         onChange={(event) => void change({ periodic: event.currentTarget.checked })}
       />
       <p className="dim">
-        {users === 1 ? "One element has this axis." : `${users} elements have this axis.`}
+        {users === 0
+          ? "No element has this axis."
+          : users === 1
+            ? "One element has this axis."
+            : `${users} elements have this axis.`}
       </p>
+      <Button size="compact-xs" variant="default" onClick={() => void remove()}>
+        {users === 0
+          ? "Remove"
+          : users === 1
+            ? "Remove, also from the element"
+            : "Remove, also from elements"}
+      </Button>
       <ProblemLine problem={problem} />
     </section>
   );

@@ -6,7 +6,10 @@ import { useState } from "react";
 import type { Describe, ListedProblem } from "../../protocol";
 import { socket } from "../../socket";
 import { useStudio } from "../../store";
+import { AddButton } from "../../widgets/AddButton";
+import { addAxis, NewAxis } from "../axes/NewAxis";
 import { AxisLines } from "../forms/AxisLines";
+import { ChoiceBox } from "../forms/ChoiceBox";
 import { TextBox } from "../forms/TextBox";
 import { DocumentParameterList } from "./DocumentParameterList";
 import { NumberBox } from "../numbers/NumberBox";
@@ -15,10 +18,13 @@ import { ProblemBanner } from "../element/ProblemBanner";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { timeText } from "../numbers/unit";
 
+const TIME_UNITS = ["us", "ms", "s", "min", "abstract"];
+
 export function DocumentInspector() {
   const document = useStudio((state) => state.document);
   const dt = useStudio((state) => state.clock?.dt);
   const [problem, setProblem] = useState<ListedProblem | null>(null);
+  const [adding, setAdding] = useState(false);
   const [notes, setNotes] = useState<string | null>(null);
   if (document === null) {
     return null;
@@ -68,7 +74,14 @@ export function DocumentInspector() {
         </div>
         <div className="row row-inline">
           <div className="row-label">time unit</div>
-          <div className="row-control">{document.time_unit}</div>
+          <div className="row-control">
+            <ChoiceBox
+              label="Time unit"
+              value={document.time_unit}
+              choices={[...new Set([...TIME_UNITS, document.time_unit])]}
+              onCommit={(time_unit) => void describe({ time_unit })}
+            />
+          </div>
         </div>
         <ProblemLine problem={problem} />
         <Textarea
@@ -84,12 +97,14 @@ export function DocumentInspector() {
         />
       </section>
       <DocumentParameterList documentParameters={document.parameters} />
-      {document.axes.length > 0 && (
-        <section className="parameters" aria-label="Axes">
-          <h3>Axes</h3>
-          <AxisLines axes={document.axes} />
-        </section>
-      )}
+      <section className="parameters" aria-label="Axes">
+        <h3>
+          Axes
+          <AddButton aria-label="Add an axis" onClick={() => setAdding(true)} />
+        </h3>
+        {adding && <NewAxis axes={document.axes} onMake={addAxis} onDone={() => setAdding(false)} />}
+        <AxisLines axes={document.axes} />
+      </section>
       <p className="dim hint">Select an element to see its parameters.</p>
     </>
   );

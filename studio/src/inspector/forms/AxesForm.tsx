@@ -1,21 +1,24 @@
 // Several of the document's axes, in order.
 
 import { MultiSelect } from "@mantine/core";
+import { useState } from "react";
 
 import { useStudio } from "../../store";
 import { usePlace } from "../place";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { ParameterRow } from "../parameters/ParameterRow";
 import { useSetting } from "../parameters/setting";
-import { AxisLines, axisOption } from "./AxisLines";
+import { NewAxis } from "../axes/NewAxis";
+import { AxisLines, axisOption, NEW_AXIS } from "./AxisLines";
 import type { FormProps } from "./props";
 
 export function AxesForm({ form, path, value }: FormProps) {
   const { element } = usePlace();
-  const setting = useSetting(element, path, value, form.cost);
+  const setting = useSetting<unknown>(element, path, value, form.cost);
   const axes = useStudio((state) => state.document?.axes) ?? [];
   const keys = (value ?? []) as string[];
-  const options = axes.map(axisOption);
+  const options = [...axes.map(axisOption), NEW_AXIS];
+  const [adding, setAdding] = useState(false);
   return (
     <ParameterRow form={form} path={path} value={value} onReset={(standard) => void setting.commit(standard)}>
       <MultiSelect
@@ -27,14 +30,18 @@ export function AxesForm({ form, path, value }: FormProps) {
           label: keys.includes(key) ? key : label,
         }))}
         value={keys}
-        placeholder={
-          keys.length > 0 ? undefined : options.length > 0 ? "none: a node" : "the document has no axes"
-        }
+        placeholder={keys.length > 0 ? undefined : "none: a node"}
         hidePickedOptions
-        disabled={options.length === 0}
         comboboxProps={{ shadow: "md" }}
-        onChange={(next) => void setting.commit(next)}
+        onChange={(next) => (next.includes(NEW_AXIS.value) ? setAdding(true) : void setting.commit(next))}
       />
+      {adding && (
+        <NewAxis
+          axes={axes}
+          onMake={(axis) => setting.commit([...keys, axis])}
+          onDone={() => setAdding(false)}
+        />
+      )}
       <AxisLines axes={keys.flatMap((key) => axes.find((axis) => axis.key === key) ?? [])} />
       <ProblemLine problem={setting.problem} />
     </ParameterRow>

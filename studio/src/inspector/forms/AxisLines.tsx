@@ -15,14 +15,10 @@ export function AxisLines({ axes }: { axes: AxisView[] }) {
             <Popover.Target>
               <UnstyledButton className="axis-line" title={`Edit the axis ${axis.name}`}>
                 <b className="one-line" title={axis.name}>
-                  {axis.name}
+                  {calledAxis(axis)}
                 </b>
-                <span>
-                  {numberText(axis.lower)} to {numberText(axis.upper)} {axis.unit}
-                </span>
-                <span className="dim">
-                  {axis.samples} samples{axis.periodic ? ", periodic" : ""}
-                </span>
+                <span>{rangeText(axis)}</span>
+                <span className="dim">{samplesText(axis)}</span>
               </UnstyledButton>
             </Popover.Target>
             <Popover.Dropdown>
@@ -35,11 +31,18 @@ export function AxisLines({ axes }: { axes: AxisView[] }) {
   );
 }
 
-// An axis in a list to choose from.
+// An axis in a list to choose from: two of one name differ by key, and in the range or the samples.
 export function axisOption(axis: AxisView): { value: string; label: string } {
-  const name = axis.key === axis.name ? axis.key : `${axis.key} (${axis.name})`;
-  return {
-    value: axis.key,
-    label: `${name}: ${numberText(axis.lower)} to ${numberText(axis.upper)} ${axis.unit}`.trim(),
-  };
+  return { value: axis.key, label: `${calledAxis(axis)}: ${rangeText(axis)}, ${samplesText(axis)}` };
 }
+
+const calledAxis = ({ key, name }: AxisView): string => (key === name ? key : `${key} (${name})`);
+
+const rangeText = ({ lower, upper, unit }: AxisView): string =>
+  `${numberText(lower)} to ${numberText(upper)} ${unit}`.trim();
+
+const samplesText = ({ samples, periodic }: AxisView): string =>
+  `${samples} samples${periodic ? ", periodic" : ""}`;
+
+// The last entry of lists of axes.
+export const NEW_AXIS = { value: "+", label: "+ New axis" };
