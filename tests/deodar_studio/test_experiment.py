@@ -200,6 +200,10 @@ def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
         await p.open("open_experiment", path="two-targets.json")
         await p.do("run_experiment")
         await ended(p)
+        await p.runs()
+        await p.do("step", n=70)
+        await p.until(lambda: p.clock["time"] == 70)
+        await p.do("set", element=p.element("left"), parameter="sigma", value=7.5)
         await p.do("repeat_trial", trial=5)
         record = p.document["record"]
         assert record["path"] == "two_targets-001/repeats/000005.nc"
@@ -218,6 +222,11 @@ def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
         await p.runs()
         assert "record" not in p.document or p.document["record"] is None
         assert p.document["file"] == "two-targets.model.json" and experiment(p)["repeated"] is None
+        await p.until(lambda: p.clock["time"] == 70)  # the run stands where it was
+        assert not p.clock["running"]
+        assert p.document["elements"][1]["values"]["sigma"] == 7.5 and p.document["unsaved"]
+        await p.do("step", n=5)
+        await p.until(lambda: p.clock["time"] == 75)
 
     with studio(folder) as address:
         play(address, scene)

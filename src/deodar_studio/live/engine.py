@@ -203,7 +203,8 @@ class Engine:
     def branch(self, time: float) -> Document:
         """Go back to the last published moment up to a time, and return the document of that moment.
 
-        The state has the bits that it had then; what was published later is forgotten. The run pauses.
+        The state has the bits that it had then; what was published later is forgotten. The run pauses. If an
+        error occurs, the run is as it was.
 
         Raises:
             RecordError: the moment cannot be computed again.
@@ -212,6 +213,9 @@ class Engine:
         if published is None:
             raise ModelError("The run has no moment to continue from", fix="Start it first")
         state = published[1]
+        # all that may fail comes before the session goes back
+        ring = self.ring.until(state.tick)
+        traces = {request: trace.until(state.time) for request, trace in self.traces.items()}
         self._keep_step()
         try:
             self.states.branch(session, state.tick, self._report)
@@ -219,8 +223,7 @@ class Engine:
             self.busy, self._stale = "compiling" if self._target else "", True
         self.play(False)
         self.busy, self._target, self.injection = "", None, None
-        self.ring = self.ring.until(state.tick)
-        self.traces = {request: trace.until(state.time) for request, trace in self.traces.items()}
+        self.ring, self.traces = ring, traces
         self.track.back(session, state.trail, state.passed)
         if session.next_dt != session.document.step:  # a step that was lengthened
             session.dt = session.document.step

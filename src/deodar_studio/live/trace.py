@@ -89,9 +89,9 @@ class Trace:
     def until(self, time: float) -> Trace:
         """Return a new time course with the samples up to a time."""
         trace = Trace()
-        for at, sample in self.since(0):
+        for at, *values in self.since(0):
             if at <= time:
-                trace.add(at, sample)
+                trace.add(at, np.asarray(values))
         return trace
 
 

@@ -190,20 +190,27 @@ class OpenProject:
         await self.store_edits()
         aside, model = self.record.aside, self.history.model
         if model is not None and self.record.reader is None:
-            aside = SetAside(model, self.file.state)
+            aside = SetAside(model, self.file.state, self._engine.session)
         await self._leave(forget=False)
         self.record.open(record, scene, aside)
         self.history.open(Model(document=record.document), self._workspace.shown(path))
         self.history.touch()
 
     async def reopen(self) -> None:
-        """Open the document that was set aside, with its history and its unsaved edits, if there is one."""
+        """Open the document that was set aside, with its history, its unsaved edits and its run, if there is
+        one. The run is paused at the moment at which it was left.
+        """
         aside = self.record.aside
         if aside is None:
             return
         await self._leave(forget=False)
         self.file.reopen(aside.file)
-        self._run_opened(aside.model)
+        if aside.session is None:
+            self._run_opened(aside.model)
+            return
+        self.history.open(aside.model)
+        await self.run.resume(aside.model, aside.session)
+        self.history.touch()
 
     async def open_record_model(self, discard: bool) -> None:
         """Open the document of the open record, as a document without a file."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from deodar.errors import DocumentError
 from deodar.model.model import Model
 from deodar.recording.replay import RecordReader
+from deodar.session.session import Session
 from deodar.worlds._scene import Scene
 from deodar_studio.files.file_thread import in_file_thread, try_in_file_thread
 from deodar_studio.messages.to_page import Comparison
@@ -24,10 +25,12 @@ class SetAside:
     Attributes:
         model: the document, with its history.
         file: its file.
+        session: its run, paused; None: it was not compiled.
     """
 
     model: Model
     file: FileState
+    session: Session | None = None
 
     @property
     def unsaved(self) -> bool:

@@ -303,6 +303,13 @@ class DocumentRun:
         await self._call(lambda: self._engine.load(session))
         await self.play()
 
+    async def resume(self, model: Model, session: Session) -> None:
+        """Take up a run that was left, paused at its moment, with the edits that were not compiled yet."""
+        self.model = model
+        await self._call(lambda: self._engine.load(session))
+        if model.document is not session.document:
+            await self.adopt(model.document)
+
     async def _call(self, function: Callable[[], T]) -> T:
         """Run a function in the thread of the engine."""
         return await asyncio.wrap_future(self._engine.call(function))

@@ -13,10 +13,13 @@ import deodar as dd
 from deodar.errors import ParameterError, RecordError
 from deodar.model import edit
 from deodar.model.document import Document
+from deodar.session.port_reader import PortKey
 from deodar_studio.live import branch_states
 from deodar_studio.live.branch_states import BranchStates, size
 from deodar_studio.live.engine import Injection
-from deodar_studio.live.trace import TraceRequest
+from deodar_studio.live.ring import StateRing
+from deodar_studio.live.section import Section
+from deodar_studio.live.trace import Trace, TraceRequest
 from tests.deodar.session.models import bits, mixed
 from tests.deodar.worlds.test_recorded_run import driving
 from tests.deodar_studio.live.test_engine import Driven
@@ -78,6 +81,52 @@ def test_a_branch_has_the_bits_of_an_undisturbed_session(branching: Callable[...
     span = branched.engine.ring.span()
     assert span is not None and span.last == 14 and branched.session.tick == 14
     assert branched.engine.traces[TraceRequest(branched.place)].since(0)[-1, 0] == 14
+
+
+REQUESTS = {
+    "time courses": lambda place: TraceRequest(place, "mean"),
+    "rows over time": lambda place: TraceRequest(place, section=Section(most=1)),
+}
+
+
+@pytest.mark.parametrize("request_for", REQUESTS.values(), ids=REQUESTS)
+def test_a_branch_keeps_what_any_plot_showed_before_the_moment(
+    branching: Callable[..., Branching], request_for: Callable[[PortKey], TraceRequest]
+) -> None:
+    branched = branching(mixed())
+    request = request_for(branched.place)
+    branched.do(lambda: branched.engine.show([branched.place], [request]))
+    branched.step(35)
+    before = branched.engine.traces[request].since(0)
+    branched.branch(21)
+    left = branched.engine.traces[request].since(0)
+    assert left[-1, 0] == 21 and np.array_equal(left, before[before[:, 0] <= 21])
+    branched.step(14)
+    again = branched.engine.traces[request].since(0)
+    times, first, second = np.intersect1d(before[:, 0], again[:, 0], return_indices=True)
+    assert times[-1] == 35, "single samples may be missing, while a reader is compiled"
+    assert np.array_equal(before[first], again[second])
+
+
+def test_a_branch_that_fails_leaves_the_run_as_it_was(
+    branching: Callable[..., Branching], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    branched = branching(mixed())
+    branched.step(28)
+    before, ring, traces = bits(branched.session), branched.engine.ring, branched.engine.traces
+
+    def fail(*_: Any) -> Any:
+        raise ValueError("no such moment")
+
+    for owner in (Trace, StateRing):
+        with monkeypatch.context() as patch:
+            patch.setattr(owner, "until", fail)
+            with pytest.raises(ValueError, match="no such moment"):
+                branched.branch(7)
+        assert bits(branched.session) == before and branched.session.tick == 28
+        assert branched.engine.ring is ring and branched.engine.traces is traces
+    branched.branch(7)
+    assert branched.session.tick == 7
 
 
 def test_changes_before_the_moment_are_made_again_at_their_ticks(branching: Callable[..., Branching]) -> None:
