@@ -838,6 +838,13 @@ export type OfferView = {
   note: string;
 };
 
+// The sensors and motors that the document can use: those of its world, or, where it has none yet, those of
+// every world whose example stands in and that has all that the document reads and drives.
+export type OfferedSignals = {
+  type: "offered_signals";
+  worlds: WorldSignals[];
+};
+
 // Open an example, as a document without a file.
 export type OpenExample = {
   type: "open_example";
@@ -1505,6 +1512,15 @@ export type SetParameter = {
   gesture?: number;
 };
 
+// A sensor or motor of a world as a new element: its kind, name, title, meaning and values.
+export type SignalView = {
+  kind: string;
+  name: string;
+  title: string;
+  meaning: string;
+  values: Record<string, unknown>;
+};
+
 // A stored snapshot: document time, time of saving (ISO 8601), size in bytes.
 export type SnapshotView = {
   name: string;
@@ -1616,6 +1632,7 @@ export type ToPage =
   | Gallery
   | ImportReportView
   | Lost
+  | OfferedSignals
   | Opened
   | Regime
   | RobotLink
@@ -1970,6 +1987,12 @@ export type WorldSettingView = {
   form: "file" | "flag" | "number" | "numbers" | "text";
   meaning: string;
   default: unknown;
+};
+
+// What a world, given by a phrase, offers.
+export type WorldSignals = {
+  world: string;
+  signals: SignalView[];
 };
 
 // All solids of the world, sent before the first `poses` of them.

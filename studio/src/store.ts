@@ -21,6 +21,7 @@ import type {
   Tuning,
   FileProblems,
   Welcome,
+  WorldSignals,
 } from "./protocol";
 import { patched } from "./patch";
 import { replaced } from "./values";
@@ -61,6 +62,8 @@ export type Studio = {
   savedFiles: SavedFiles | null;
   // The report on the file of another tool that the open document was made from; null: there is none.
   report: ImportReportView | null;
+  // The sensors and motors of worlds that the document can use.
+  offered: WorldSignals[];
   selected: string[];
   notices: Notice[];
   take: (message: ToPage) => void;
@@ -93,6 +96,7 @@ export const useStudio = create<Studio>((set) => ({
   trials: { run: 0, rows: [] },
   savedFiles: null,
   report: null,
+  offered: [],
   selected: [],
   notices: [],
   take: (message) => set((state) => taken(state, message)),
@@ -148,6 +152,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return state.document === null || state.version !== message.version
         ? {}
         : { document: { ...state.document, problems: message.problems } };
+    case "offered_signals":
+      return { offered: message.worlds };
     case "file_problems":
       return { fileProblems: message.problems.length > 0 ? message : null };
     case "clock":

@@ -340,7 +340,7 @@ def test_a_sensor_without_a_world_is_unfinished_and_runs_when_a_world_is_chosen(
         await p.until(lambda: p.clock["tick"] == 5 and not p.clock["busy"])
 
         # one that the chosen world does not have, and an example does
-        (eye,) = await made(p, "add_element", kind="Sensor", name="eye")
+        (eye,) = await made(p, "add_element", kind="Sensor", name="eye", values={"sensor": "picture"})
         assert p.document["problems"] == [] and p.clock["senses"]
         await p.until(lambda: p.clock["world"] == "Picture: an example" and p.clock["tick"] == 5)
         await p.do("undo")
@@ -365,7 +365,7 @@ def test_a_sensor_without_a_world_is_unfinished_and_runs_when_a_world_is_chosen(
         await p.do("remove", elements=[lost])
 
         # axes over which the example can be read are the default
-        (eye,) = await made(p, "add_element", kind="Sensor", name="eye")
+        (eye,) = await made(p, "add_element", kind="Sensor", name="eye", values={"sensor": "picture"})
         await p.do("watch", stream=1, element=eye, port="output")
         await p.do("step", n=1)
         await p.until(lambda: 1 in p.frames and p.frames[1][1].max() > 0)
@@ -378,6 +378,39 @@ def test_a_sensor_without_a_world_is_unfinished_and_runs_when_a_world_is_chosen(
         await p.until(lambda: p.clock["world"] == "Arena: blocks" and p.clock["tick"] == 0)
         await p.do("step", n=1)
         await p.until(lambda: p.clock["tick"] == 1 and p.clock["failure"] == [])
+
+    with studio(root) as address:
+        play(address, scene)
+
+
+def test_sensors_and_motors_of_the_world_are_offered_and_are_never_a_problem(root: Path) -> None:
+    def offered(p: Page) -> dict[str, list[str]]:
+        worlds = p.said["offered_signals"]["worlds"]
+        return {w["world"]: [f"{s['kind']} {s['title']}" for s in w["signals"]] for w in worlds}
+
+    async def scene(p: Page) -> None:
+        await p.open("new")
+        await p.until(lambda: "offered_signals" in p.said)
+        assert {"Arena", "Eye", "Picture"} <= offered(p).keys() and "Camera" not in offered(p)
+        assert {"Sensor Infrared, 8 samples", "Sensor Touching", "Motor Left wheel"} <= set(
+            offered(p)["Arena"]
+        )
+        assert offered(p)["Picture"] == ["Sensor Picture, 16 x 16 x 3 samples"]
+        arena = next(w for w in p.said["offered_signals"]["worlds"] if w["world"] == "Arena")
+        for signal in arena["signals"]:
+            await made(p, "add_element", kind=signal["kind"], name=signal["name"], values=signal["values"])
+        assert p.document["problems"] == []
+        await p.until(lambda: list(offered(p)) == ["Arena: an example"])
+        await p.runs()
+        await p.do("step", n=2)
+        await p.until(lambda: p.clock["tick"] == 2 and p.clock["failure"] == [])
+
+        await p.open("new", discard=True)
+        await p.do("use_world", kind="Arena", path="blocks")
+        await p.until(lambda: list(offered(p)) == ["Arena: blocks"])
+        for kind in ("Sensor", "Motor", "Sensor", "Motor"):  # whatever is there first
+            await made(p, "add_element", kind=kind)
+            assert p.document["problems"] == [], kind
 
     with studio(root) as address:
         play(address, scene)

@@ -738,6 +738,32 @@ class WorldScene(Message, frozen=True, tag="scene"):
     picture: PictureView | None = None
 
 
+class SignalView(Data, frozen=True):
+    """A sensor or motor of a world as a new element: its kind, name, title, meaning and values."""
+
+    kind: str
+    name: str
+    title: str
+    meaning: str
+    values: dict[str, Any]
+
+
+class WorldSignals(Data, frozen=True):
+    """What a world, given by a phrase, offers."""
+
+    world: str
+    signals: list[SignalView]
+
+
+@MESSAGES.register
+class OfferedSignals(Message, frozen=True, tag="offered_signals"):
+    """The sensors and motors that the document can use: those of its world, or, where it has none yet, those
+    of every world whose example stands in and that has all that the document reads and drives.
+    """
+
+    worlds: list[WorldSignals]
+
+
 @MESSAGES.register
 class RobotLink(Message, frozen=True, tag="robot_link"):
     """The link with a robot in another process, a few times a second.

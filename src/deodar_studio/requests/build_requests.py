@@ -103,7 +103,9 @@ class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
         source, target = (None if end is None else end.key for end in (self.source, self.target))
         wire, replaces = (None if ends is None else ends.ports for ends in (self.wire, self.replaces))
         around = Around(source, target, wire, replaces)
-        values = hub.embodiment.starting_values(self.kind, self.values)
+        session, doc = hub.engine.session, hub.project.history.document()
+        world = None if session is None else session.world
+        values = hub.embodiment.starting_values(self.kind, self.values, doc, world)
         ids = await _changed(
             hub, lambda doc: building.add(doc, self.kind, values, self.name, self.group, self.at, around)
         )

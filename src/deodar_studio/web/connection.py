@@ -284,6 +284,9 @@ class PageConnection:
         session, record = self._hub.engine.session, self._hub.project.record
         world = None if session is None or record.reader is not None else session.world
         out = self._new(scene.scene(state.scene, record.scene[1], world))
+        model = self._hub.project.history.model
+        if model is not None:
+            out += self._new(self._hub.embodiment.offered(model.document, world))
         now = time.monotonic()
         if now - self._link_sent >= LINK_EVERY:
             self._link_sent = now

@@ -5,9 +5,8 @@ from __future__ import annotations
 import base64
 import binascii
 import contextlib
-import dataclasses as dc
 import tempfile
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -27,8 +26,8 @@ from deodar.session.exchange import used
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._settings import arguments
-from deodar_studio.messages.to_page import WorldPreview
-from deodar_studio.world import scene
+from deodar_studio.messages.to_page import OfferedSignals, WorldPreview
+from deodar_studio.world import offered, scene
 
 MOST_BYTES = 32 * 2**20
 PREVIEW = (Axis("x", 0, 159, 160), Axis("y", 0, 119, 120), Axis("channel", 0, 2, 3))
@@ -43,6 +42,7 @@ class Embodiment:
 
     def __init__(self, chosen: World | None = None) -> None:
         self.chosen = chosen
+        self._offered: tuple[tuple[object, ...], OfferedSignals] | None = None
         self._dropped: tempfile.TemporaryDirectory[str] | None = None
         self._name = (
             ""
@@ -62,8 +62,8 @@ class Embodiment:
         for known in (present, self.chosen):
             if known is not None and not missing(known, doc):
                 return known
-        for cls in registry.kinds("worlds").values():
-            if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}:
+        for cls in _standing().values():
+            if wanted <= {*cls.sensors, *cls.motors}:
                 # without the extra of a world there is no example of it
                 with contextlib.suppress(MissingExtra), errors_of(cls, "examples"):
                     return _best(cls.examples(), doc)
@@ -75,15 +75,56 @@ class Embodiment:
             return ""
         return self._name if world is self.chosen else _named(type(world).__name__, "an example")
 
-    def starting_values(self, kind: str, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the values of a new element; a sensor gets axes over which an example can be read."""
-        if kind != Sensor.__name__ or "axes" in values:
-            return dict(values)
-        sensor = values.get("sensor", Sensor().sensor)
-        for cls in registry.kinds("worlds").values():
-            if cls.stands_in and sensor in cls.sensors:
-                return {**values, "axes": [dc.asdict(axis) for axis in cls.example_axes(sensor)]}
-        return dict(values)
+    def starting_values(
+        self, kind: str, stated: Mapping[str, Any], doc: Document, present: World | None = None
+    ) -> dict[str, Any]:
+        """Return the values of a new element: a sensor or motor is one that the world of the document has.
+
+        Args:
+            kind: kind of the element.
+            stated: values that were chosen; with axes they stay as they are.
+            doc: the document that the element is made for.
+            present: the world in use.
+        """
+        for name, world in () if "axes" in stated else self._signals(kind, stated, doc, present):
+            found = offered.values(kind, name, world)
+            if found is not None:
+                return {**stated, **found}
+        return dict(stated)
+
+    def _signals(
+        self, kind: str, stated: Mapping[str, Any], doc: Document, present: World | None
+    ) -> Iterator[tuple[str, World | type[World]]]:
+        """Yield the signals that a new element can have, the best first, each with its world: that which is
+        stated, else the default of the kind, else any of a world that the document can use. A motor has one
+        driver.
+        """
+        usable = [world for _, world in self._usable(doc, present)]
+        name = stated.get("sensor", stated.get("motor"))
+        usual = {Sensor.__name__: Sensor().sensor, Motor.__name__: Motor().motor}.get(kind)
+        if name is not None:
+            worlds = [*usable, *_standing().values()]
+            yield from ((name, w) for w in worlds if name in offered.of_kind(kind, w))
+            return
+        driven = offered.driven(doc) if kind == Motor.__name__ else set[str]()
+        pairs = [(n, w) for w in usable for n in offered.of_kind(kind, w) if n not in driven]
+        yield from sorted(pairs, key=lambda pair: pair[0] != usual)
+
+    def offered(self, doc: Document, present: World | None = None) -> OfferedSignals:
+        """Return the sensors and motors that a document can use; `present` is the world in use."""
+        of = (doc, present, self.chosen)
+        if self._offered is None or any(a is not b for a, b in zip(of, self._offered[0], strict=True)):
+            listed = [offered.world_signals(title, world, doc) for title, world in self._usable(doc, present)]
+            self._offered = (of, OfferedSignals(worlds=[w for w in listed if w.signals]))
+        return self._offered[1]
+
+    def _usable(self, doc: Document, present: World | None) -> list[tuple[str, World | type[World]]]:
+        """Return the world of a document, or those that may become it, with their titles."""
+        wanted = signals(doc)
+        world = present if present is not None and wanted else self.chosen
+        if world is not None and not missing(world, doc):
+            return [(self.label(world), world)]
+        return [(name, cls) for name, cls in _standing().items() if wanted <= {*cls.sensors, *cls.motors}]
 
     def kind(self, name: str) -> type[World]:
         """Return the class of a world."""
@@ -142,6 +183,11 @@ class Embodiment:
             )
         self.chosen = world
         self._name = _named(kind, masked(name))
+
+
+def _standing() -> dict[str, type[World]]:
+    """Return the worlds of which an example may be used when none was chosen."""
+    return {name: cls for name, cls in registry.kinds("worlds").items() if cls.stands_in}
 
 
 def _best(worlds: Iterable[World], doc: Document) -> World:

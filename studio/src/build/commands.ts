@@ -10,7 +10,15 @@ import { useChooser } from "./palette/choice";
 import { addElement } from "./edits";
 import type { ListEntry } from "./palette/entries";
 import { isEditable } from "./editable";
-import { kindEntries, knownTemplates, selectedOne, spotFor, templateEntries } from "./palette/palette";
+import {
+  type Add,
+  kindEntries,
+  knownTemplates,
+  selectedOne,
+  signalEntries,
+  spotFor,
+  templateEntries,
+} from "./palette/palette";
 import { getPointer, getStage } from "./stage";
 
 // Commands without keys.
@@ -25,8 +33,9 @@ const WITHOUT_KEYS: ListEntry[] = [
 ];
 
 export function openCommands(shortcuts: readonly Shortcut[]): void {
-  const { document, kinds } = useStudio.getState();
+  const { document, kinds, offered } = useStudio.getState();
   const at = getPointer();
+  const add: Add = (kind, values, name) => addElement(kind.name, spotFor(kind, at), { values, name });
   const elements = (document?.elements ?? []).map(({ id, path, kind }) => ({
     id: `element ${id}`,
     family: "Go to",
@@ -36,9 +45,8 @@ export function openCommands(shortcuts: readonly Shortcut[]): void {
   }));
   const added = isEditable()
     ? [
-        ...kindEntries(kinds, selectedOne(), (kind, values) =>
-          addElement(kind.name, spotFor(kind, at), { values }),
-        ),
+        ...kindEntries(kinds, selectedOne(), add),
+        ...signalEntries(offered, kinds, add),
         ...templateEntries(knownTemplates(), at),
       ]
     : [];

@@ -10,6 +10,8 @@ import { pathOf, type Placing } from "./placing";
 
 export type Adding = {
   values?: Values;
+  // Its name, with a number where that is taken; without one it is named after its kind.
+  name?: string;
   // The ends of connections to the new element.
   source?: End;
   target?: End;
@@ -21,11 +23,12 @@ export type Adding = {
 
 export async function addElement(kind: string, spot: Placing, adding: Adding = {}): Promise<void> {
   const document = useStudio.getState().document;
-  const { values = {}, source = null, target = null, wire = null, replaces = null } = adding;
+  const { values = {}, name = "", source = null, target = null, wire = null, replaces = null } = adding;
   const answer = await request({
     type: "add_element",
     kind,
     values,
+    name,
     group: document === null ? [] : pathOf(spot.group, document),
     at: [spot.at.x, spot.at.y],
     source,

@@ -95,13 +95,13 @@ export function useStage(
 }
 
 // Add what was dropped; a kind that is dropped on a connection is inserted into it.
-function drop({ what, name, values }: Carried, at: Point, over: string | null): void {
+function drop({ what, name, values, called }: Carried, at: Point, over: string | null): void {
   const kind = useStudio.getState().kinds.get(name);
   if (what === "template") {
     void addTemplate(name, spotFor(null, at));
   } else if (kind !== undefined) {
     const wire = over === null || !passes(kind) ? null : firstOf(over);
-    void addElement(name, spotFor(kind, at), wire === null ? { values } : { wire });
+    void addElement(name, spotFor(kind, at), wire === null ? { values, name: called } : { wire });
   }
 }
 

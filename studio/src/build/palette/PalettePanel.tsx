@@ -5,7 +5,7 @@ import { useMemo } from "react";
 import { useStudio } from "../../store";
 import { addElement } from "../edits";
 import { EntryList } from "./EntryList";
-import { kindEntries, type Selected, spotFor, templateEntries } from "./palette";
+import { type Add, kindEntries, type Selected, signalEntries, spotFor, templateEntries } from "./palette";
 
 export function PalettePanel() {
   const kinds = useStudio((state) => state.kinds);
@@ -14,15 +14,17 @@ export function PalettePanel() {
   const name = useStudio((state) => state.elements.get(only)?.name ?? "");
   const templates = useStudio((state) => state.welcome?.templates);
   const kind = useStudio((state) => state.kinds.get(state.elements.get(only)?.kind ?? ""));
+  const offered = useStudio((state) => state.offered);
   const entries = useMemo(() => {
     const selected: Selected | null = kind === undefined ? null : { id: only, name, kind };
+    const add: Add = (chosen, values, called) =>
+      addElement(chosen.name, spotFor(chosen, null), { values, name: called });
     return [
-      ...kindEntries(kinds, selected, (chosen, values) =>
-        addElement(chosen.name, spotFor(chosen, null), { values }),
-      ),
+      ...kindEntries(kinds, selected, add),
+      ...signalEntries(offered, kinds, add),
       ...templateEntries(templates ?? [], null),
     ];
-  }, [kinds, templates, only, name, kind]);
+  }, [kinds, templates, offered, only, name, kind]);
   return (
     <div className="palette-panel" inert={record}>
       <EntryList

@@ -15,6 +15,8 @@ export type ListEntry = {
   kind?: Kind;
   // The values of the new element, where the entry states some.
   values?: () => Values;
+  // The name of the new element, where it is not that of the kind.
+  called?: string;
   // The model whose picture and sentence are shown.
   template?: TemplateView;
   // The element that the entry is about.

@@ -3,7 +3,7 @@
 import type { Point } from "../../graph/layout/layout";
 import type { Kinds } from "../../inspector/parameters/leaf";
 import { axesOver } from "../../model/axes";
-import type { Kind, TemplateView } from "../../protocol";
+import type { Kind, TemplateView, WorldSignals } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
 import { useChooser } from "./choice";
@@ -17,7 +17,7 @@ import { SHAPES, shapeOf } from "./shapes";
 import { beside, near, type Placing, under } from "../placing";
 import { getPointer, getStage } from "../stage";
 
-export type Add = (kind: Kind, values?: Values) => unknown;
+export type Add = (kind: Kind, values?: Values, name?: string) => unknown;
 
 // All kinds as entries; `add` adds an element, whose axes follow from what it is connected with, or, where it
 // is added alone, from the entry.
@@ -37,6 +37,28 @@ export function kindEntries(kinds: Kinds, selected: Selected | null, add: Add, a
   );
   const parts = known.filter(isPart).flatMap((kind) => partEntries(kind, selected));
   return [...elements, ...parts];
+}
+
+// The sensors and motors of worlds, with their axes.
+export function signalEntries(worlds: readonly WorldSignals[], kinds: Kinds, add: Add): ListEntry[] {
+  return worlds.flatMap(({ world, signals }) =>
+    signals.flatMap(({ kind: of, name, title, meaning, values }) => {
+      const kind = kinds.get(of);
+      if (kind === undefined) {
+        return [];
+      }
+      return {
+        id: `${world} ${of} ${name}`,
+        family: `Sensors and motors of ${world}`,
+        title,
+        kind,
+        words: `${name} ${meaning} ${kind.title}`,
+        values: () => values,
+        called: name,
+        run: () => add(kind, values, name),
+      };
+    }),
+  );
 }
 
 const DIMENSIONS = [1, 2, 3];
@@ -110,11 +132,11 @@ export function selectedOne(): Selected | null {
 // Open the palette at a position on the screen, without one at the pointer. An element is inserted into
 // `wire`, if that is given.
 export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): void {
-  const { kinds } = useStudio.getState();
+  const { kinds, offered } = useStudio.getState();
   if (!isEditable() || getStage() === null) {
     return;
   }
-  const add: Add = (kind, values) => addElement(kind.name, spotFor(kind, at), { wire, values });
+  const add: Add = (kind, values, name) => addElement(kind.name, spotFor(kind, at), { wire, values, name });
   const entries = kindEntries(kinds, selectedOne(), add, wire === undefined);
   useChooser.getState().open({
     label: wire === undefined ? "Add an element" : "Insert an element",
@@ -122,7 +144,12 @@ export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): v
     at,
     entries:
       wire === undefined
-        ? [...entries, commentEntry(at), ...templateEntries(knownTemplates(), at)]
+        ? [
+            ...entries,
+            ...signalEntries(offered, kinds, add),
+            commentEntry(at),
+            ...templateEntries(knownTemplates(), at),
+          ]
         : entries.filter(({ kind }) => kind !== undefined && passes(kind)),
     empty: "No kind matches",
   });

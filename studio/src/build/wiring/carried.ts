@@ -5,18 +5,18 @@ import type { ListEntry } from "../palette/entries";
 
 const TYPE = { kind: "application/x-deodar-kind", template: "application/x-deodar-template" };
 
-// `values` are those of a new element.
-export type Carried = { what: keyof typeof TYPE; name: string; values?: Values };
+// `values` are those of a new element, `called` is its name.
+export type Carried = { what: keyof typeof TYPE; name: string; values?: Values; called?: string };
 
 // What an entry of the list carries; null: it is not dragged.
-export function carriedBy({ kind, template, why, values }: ListEntry): Carried | null {
+export function carriedBy({ kind, template, why, values, called }: ListEntry): Carried | null {
   if (why !== undefined) {
     return null;
   }
   if (template !== undefined) {
     return { what: "template", name: template.name };
   }
-  return kind === undefined ? null : { what: "kind", name: kind.name, values: values?.() };
+  return kind === undefined ? null : { what: "kind", name: kind.name, values: values?.(), called };
 }
 
 export function carry(transfer: DataTransfer, { what, ...rest }: Carried): void {
