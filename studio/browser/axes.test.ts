@@ -83,10 +83,12 @@ test("an axis is made, changed and removed in the document's section, each as on
 test("fields over one, two and three dimensions bring their axes, and take those that are there", async () => {
   const { page } = studio;
   await add("Field, 2-D", 0.2, 0.2);
+  await box(page, "field").waitFor();
   await observer.until(() => keys() === "x,y");
   await add("Field, 1-D", 0.7, 0.2);
-  await observer.until(() => observer.document?.elements.length === 2);
+  await box(page, "field2").waitFor();
   await add("Field, 3-D", 0.2, 0.7);
+  await box(page, "field3").waitFor();
   await observer.until(() => observer.document?.elements.length === 3);
   const axesOf = (path: string) => observer.value(path, "axes");
   expect([axesOf("field"), axesOf("field2"), axesOf("field3")]).toEqual([["x", "y"], ["x"], ["x", "y", "z"]]);

@@ -229,7 +229,7 @@ test("architectures are added whole: entered at the pointer, or dragged from the
   await palette().getByText("One behaviour, to be inserted as a group").waitFor();
   await page.keyboard.press("Enter");
   await box(page, "behaviour.intention").waitFor();
-  expect(observer.document?.groups).toEqual([["behaviour"]]);
+  await observer.until(() => observer.document?.groups.join() === "behaviour");
   const first = await box(page, "behaviour.task").boundingBox();
   expect(Math.abs((first?.x ?? 0) - at.x)).toBeLessThan(200);
 

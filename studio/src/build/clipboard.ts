@@ -8,10 +8,11 @@ import { request } from "../socket";
 import { useStudio } from "../store";
 import { showMade } from "./made";
 import { isEditable } from "./editable";
-import { groupAt, pathOf } from "./placing";
+import { extentOf } from "./extent";
+import { afterAll, free, groupAt, pathOf } from "./placing";
 import { removeSelected } from "./removing";
 import { chosen } from "./selection";
-import { getPointer, getStage, isOnCanvas } from "./stage";
+import { getPointer, getStage, isOnCanvas, middleOf } from "./stage";
 
 const APART = 32;
 
@@ -71,14 +72,15 @@ export async function paste(text?: string): Promise<void> {
     return;
   }
   const pointer = getPointer();
-  await insert(content, pointer === null ? null : stage.toFlow(pointer));
+  await insertFree(content, pointer === null ? middleOf(stage) : stage.toFlow(pointer));
 }
 
 // The selection once more, a little aside.
 export async function duplicate(): Promise<void> {
   const corner = cornerOf(allChosen());
   if (isEditable() && corner !== null) {
-    await copyTo({ x: corner.x + APART, y: corner.y + APART });
+    const text = await selectedText();
+    await insertFree(text, { x: corner.x + APART, y: corner.y + APART });
   }
 }
 
@@ -90,15 +92,31 @@ export async function copyTo(at: Point): Promise<void> {
   }
 }
 
-async function insert(text: string, at: Point | null): Promise<void> {
+// Insert where nothing lies, as near to a point as the size of the whole lets it.
+async function insertFree(text: string, at: Point): Promise<void> {
+  const scene = getStage()?.scene();
+  if (scene === undefined || text === "") {
+    return;
+  }
+  const whole = extentOf(text, useStudio.getState().kinds);
+  if (whole === null) {
+    await insert(text, (afterAll(scene) ?? { at }).at);
+    return;
+  }
+  const { pad, size } = whole;
+  const { at: place, group } = free({ x: at.x - pad.x, y: at.y - pad.y }, size, groupAt(at, scene), scene);
+  await insert(text, { x: place.x + pad.x, y: place.y + pad.y }, group);
+}
+
+async function insert(text: string, at: Point, group?: string): Promise<void> {
   const { document } = useStudio.getState();
   const scene = getStage()?.scene();
-  const key = at === null || scene === undefined ? "" : groupAt(at, scene);
+  const key = group ?? (scene === undefined ? "" : groupAt(at, scene));
   const answer = await request({
     type: "paste",
     text,
     group: document === null ? [] : pathOf(key, document),
-    at: at === null ? null : [Math.round(at.x), Math.round(at.y)],
+    at: [Math.round(at.x), Math.round(at.y)],
   });
   showMade(answer.made ?? []);
 }

@@ -6,7 +6,7 @@ import type { Point } from "../graph/layout/layout";
 import type { Answer } from "../protocol";
 import { request } from "../socket";
 import { isEditable } from "./editable";
-import { getPointer, getStage } from "./stage";
+import { getPointer, getStage, middleOf } from "./stage";
 
 // The comment that was added just now, whose text is edited at once.
 export const useNewComment = create<{ comment: string }>(() => ({ comment: "" }));
@@ -18,8 +18,7 @@ export async function addComment(at: Point | null = getPointer()): Promise<void>
   if (!isEditable() || stage === null) {
     return;
   }
-  const { left, top, width, height } = stage.around.getBoundingClientRect();
-  const place = stage.toFlow(at ?? { x: left + width / 2, y: top + height / 2 });
+  const place = at === null ? middleOf(stage) : stage.toFlow(at);
   const position = [Math.round(place.x), Math.round(place.y)];
   const { made = [] } = await request({ type: "comment", text: "Comment", at: position });
   useNewComment.setState({ comment: made[0] ?? "" });

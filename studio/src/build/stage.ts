@@ -38,6 +38,12 @@ export function getPointer(): Point | null {
   return stage !== null && over !== null && stage.around.contains(over) ? pointer : null;
 }
 
+// The middle of the canvas.
+export function middleOf({ around, toFlow }: Stage): Point {
+  const { left, top, width, height } = around.getBoundingClientRect();
+  return toFlow({ x: left + width / 2, y: top + height / 2 });
+}
+
 // The pointer or the finger of an event.
 export const pointerOf = (event: MouseEvent | TouchEvent): MouseEvent | Touch | undefined =>
   "clientX" in event ? event : event.changedTouches[0];

@@ -14,8 +14,8 @@ import type { ListEntry } from "./entries";
 import { isEditable } from "../editable";
 import { ELEMENTS, familyOf, isPart, isSource, takes } from "./families";
 import { SHAPES, shapeOf } from "./shapes";
-import { beside, near, type Placing, under } from "../placing";
-import { getPointer, getStage } from "../stage";
+import { afterAll, beside, near, type Placing, sizeOfKind, under } from "../placing";
+import { getPointer, getStage, middleOf } from "../stage";
 
 export type Add = (kind: Kind, values?: Values, name?: string) => unknown;
 
@@ -170,21 +170,25 @@ function commentEntry(at: Point | null): ListEntry {
 // A kind with an input, of which a connection can pass through the elements.
 export const passes = (kind: Kind): boolean => !isPart(kind) && !isSource(kind);
 
-// At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle, like
-// templates (no kind).
+// At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle. A template
+// (no kind) comes right of everything.
 export function spotFor(kind: Kind | null, at: Point | null): Placing {
   const stage = getStage();
   if (stage === null) {
     return { at: { x: 0, y: 0 }, group: "" };
   }
   const scene = stage.scene();
+  const size = sizeOfKind(kind ?? undefined);
+  const beyond = kind === null ? afterAll(scene) : null;
+  if (beyond !== null) {
+    return beyond;
+  }
   if (at !== null) {
-    return under(stage.toFlow(at), scene);
+    return under(stage.toFlow(at), scene, size);
   }
   const selected = selectedOne();
   if (kind !== null && selected !== null && !scene.pills.has(selected.id)) {
-    return beside(selected.id, !isSource(kind), scene);
+    return beside(selected.id, !isSource(kind), scene, size);
   }
-  const { left, top, width, height } = stage.around.getBoundingClientRect();
-  return near(stage.toFlow({ x: left + width / 2, y: top + height / 2 }), scene);
+  return near(middleOf(stage), scene, size);
 }

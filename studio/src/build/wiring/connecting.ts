@@ -10,7 +10,7 @@ import { between, type End, type Side, type WireEnds } from "./ends";
 import type { ListEntry } from "../palette/entries";
 import { isEditable } from "../editable";
 import { elementEntry, kindEntries } from "../palette/palette";
-import { atEnd, beside, type Placing } from "../placing";
+import { atEnd, beside, between as betweenBoxes, type Placing, sizeOfKind } from "../placing";
 import { getStage } from "../stage";
 import { begin, end, fitOf, judged, stateOf, useWiring } from "./wiring";
 
@@ -75,13 +75,13 @@ function offerKinds(at: Point, from: End, side: Side, kinds: string[], moved?: W
   if (stage === null) {
     return;
   }
-  const spot = atEnd(stage.toFlow(at), side === "source", stage.scene());
+  const spot = (kind: Kind) => atEnd(stage.toFlow(at), side === "source", stage.scene(), sizeOfKind(kind));
   useChooser.getState().open({
     label: "Add a connected element",
     placeholder: "Name, family or parameter",
     hint: `Connected with ${called(from)}`,
     at,
-    entries: fitting(kinds, from, side, () => spot, moved),
+    entries: fitting(kinds, from, side, spot, moved),
     empty: "No kind that fits matches",
   });
 }
@@ -114,7 +114,7 @@ function offerEntry(
   const kind = kinds.get(offer.kind);
   const { source, source_port, target, target_port } = between(from, side, to);
   const run = () =>
-    addElement(offer.kind, midway(source, target), {
+    addElement(offer.kind, midway(source, target, kind), {
       values: offer.values,
       source: { element: source, port: source_port },
       target: { element: target, port: target_port },
@@ -133,14 +133,11 @@ function offerEntry(
   };
 }
 
-// Between two boxes.
-function midway(one: string, other: string): Placing {
+function midway(source: string, target: string, kind: Kind | undefined): Placing {
   const scene = getStage()?.scene();
-  const [a, b] = [one, other].map((id) => scene?.places.elements.get(id) ?? { x: 0, y: 0 });
-  const home = scene?.tree.home;
-  const group = home?.get(one) === home?.get(other) ? (home?.get(one) ?? "") : "";
-  const middle = (from = 0, to = 0) => Math.round((from + to) / 2);
-  return { at: { x: middle(a?.x, b?.x), y: middle(a?.y, b?.y) }, group };
+  return scene === undefined
+    ? { at: { x: 0, y: 0 }, group: "" }
+    : betweenBoxes(source, target, scene, sizeOfKind(kind));
 }
 
 // Begin a connection at the selected element and choose its other end by words and arrow keys.
@@ -175,7 +172,7 @@ export async function connectByKeys(port?: string): Promise<void> {
         fits.kinds.map(({ kind }) => kind),
         from,
         side,
-        () => beside(element.id, right, stage.scene()),
+        (kind) => beside(element.id, right, stage.scene(), sizeOfKind(kind)),
       ),
       ...others.map((name) => ({
         id: `port ${name}`,

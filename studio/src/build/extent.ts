@@ -1,0 +1,48 @@
+// The size of a document that is pasted, from its text.
+
+import { readBoxes } from "../graph/boxes/boxes";
+import { FRAME, type Point, type Size } from "../graph/layout/layout";
+import type { Kind } from "../protocol";
+import { sizeOfKind } from "./placing";
+
+// `pad` is how far the frames of its groups reach beyond the first box.
+export type Extent = { size: Size; pad: Point };
+
+// Null: the text has no positions for all of its boxes, or is no document.
+export function extentOf(text: string, kinds: Map<string, Kind>): Extent | null {
+  const read = parsed(text);
+  const boxes = readBoxes(read?.layout ?? {});
+  const rects = Object.values(read?.elements ?? {}).flatMap(({ id = "", kind = "" }) => {
+    const at = boxes.get(id);
+    return at === undefined ? [] : [{ ...at, ...sizeOfKind(kinds.get(kind)) }];
+  });
+  if (read === null || rects.length === 0 || rects.length < Object.keys(read.elements).length) {
+    return null;
+  }
+  const [left, top] = [Math.min(...rects.map(({ x }) => x)), Math.min(...rects.map(({ y }) => y))];
+  const right = Math.max(...rects.map(({ x, width }) => x + width));
+  const bottom = Math.max(...rects.map(({ y, height }) => y + height));
+  const depth = Math.max(0, ...(read.groups ?? []).map((path) => path.split(".").length));
+  return {
+    size: {
+      width: right - left + 2 * depth * FRAME.side,
+      height: bottom - top + depth * (FRAME.top + FRAME.bottom),
+    },
+    pad: { x: depth * FRAME.side, y: depth * FRAME.top },
+  };
+}
+
+type Pasted = {
+  elements: Record<string, { id?: string; kind?: string }>;
+  groups?: string[];
+  layout?: Record<string, unknown>;
+};
+
+function parsed(text: string): Pasted | null {
+  try {
+    const read = JSON.parse(text) as Partial<Pasted> | null;
+    return typeof read?.elements === "object" ? (read as Pasted) : null;
+  } catch {
+    return null; // the server says why
+  }
+}
