@@ -612,11 +612,13 @@ export type FittingKindView = {
 };
 
 // Content of a folder below the root; `records` are files, and folders that are not in `folders`; `others`
-// are further files.
+// are further files. `facts` has the size in bytes of files and records that are files, and the time of their
+// last change, in seconds since 1970.
 export type Folder = {
   type: "folder";
   request: number;
   path: string;
+  facts: Record<string, unknown[]>;
   folders: string[];
   files: string[];
   pictures: string[];

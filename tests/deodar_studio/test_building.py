@@ -416,6 +416,29 @@ def test_sensors_and_motors_of_the_world_are_offered_and_are_never_a_problem(roo
         play(address, scene)
 
 
+def test_a_document_without_a_title_gets_the_name_of_its_file(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("new")
+        assert p.document["title"] == "untitled"
+        await p.do("save", path="maze")
+        assert (p.document["title"], p.document["file"], p.document["unsaved"]) == (
+            "maze",
+            "maze.json",
+            False,
+        )
+        assert dd.load(root / "maze.json").name == "maze"
+        await p.do("list_folder")
+        size, changed = p.said["folder"]["facts"]["maze.json"]
+        stated = (root / "maze.json").stat()
+        assert (size, changed) == (stated.st_size, stated.st_mtime)
+        await p.do("describe", name="my model")
+        await p.do("save", path="other")
+        assert p.document["title"] == "my model"
+
+    with studio(root) as address:
+        play(address, scene)
+
+
 def test_every_template_is_added_as_a_group(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.open("new")

@@ -110,8 +110,10 @@ def describe(cls: type, known: Mapping[str, type] | None = None) -> Description:
 
 
 def title(name: str) -> str:
-    """Return the name of a class in words: Gaussian stimulus."""
+    """Return the name of a class in words: Gaussian stimulus. A name of syllables stays: MuJoCo."""
     words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])|_+", " ", name).split()
+    if len(words) > 1 and all(len(word) == 2 for word in words):
+        return name
     lower = [w if w.isupper() and len(w) > 1 else w.lower() for w in words]
     return " ".join(w if i or w.isupper() else w.capitalize() for i, w in enumerate(lower))
 

@@ -157,6 +157,7 @@ class Workspace:
         return Folder(
             request=0,
             path="" if place == self.root else self.shown(place),
+            facts=_facts(inside),
             folders=[e.name for e in inside if _is(e.is_dir) and e.name not in records],
             files=_ending(inside, (*DOCUMENTS, *opening.endings())),
             pictures=_ending(inside, PICTURES),
@@ -174,6 +175,15 @@ class Workspace:
         if not place.parent.is_dir():
             raise OutputError("the folder does not exist", where=path)
         return place
+
+
+def _facts(entries: Iterable[os.DirEntry[str]]) -> dict[str, tuple[int, float]]:
+    facts: dict[str, tuple[int, float]] = {}
+    for e in entries:
+        with contextlib.suppress(OSError):
+            if e.is_file():
+                facts[e.name] = (e.stat().st_size, e.stat().st_mtime)
+    return facts
 
 
 def _ending(entries: Iterable[os.DirEntry[str]], suffixes: tuple[str, ...]) -> list[str]:

@@ -920,11 +920,13 @@ class WorldPreview(Data, frozen=True):
 @MESSAGES.register
 class Folder(Message, frozen=True, tag="folder"):
     """Content of a folder below the root; `records` are files, and folders that are not in `folders`;
-    `others` are further files.
+    `others` are further files. `facts` has the size in bytes of files and records that are files, and the
+    time of their last change, in seconds since 1970.
     """
 
     request: int
     path: str
+    facts: dict[str, tuple[int, float]]
     folders: list[str]
     files: list[str]
     pictures: list[str]

@@ -15,6 +15,7 @@ import msgspec
 
 from deodar.errors import DeodarError, Problem
 from deodar.importers import examples, opening
+from deodar.model import edit
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording import files
@@ -41,6 +42,9 @@ from deodar_studio.views import view
 from deodar_studio.views.converted import Converted
 from deodar_studio.world import embodiment
 from deodar_studio.world.embodiment import Embodiment
+
+UNTITLED = "untitled"
+"""Title of a new document."""
 
 
 class OpenProject:
@@ -315,11 +319,17 @@ class OpenProject:
     # ------------------------------------------------------------------------------------------------- saving
 
     async def save(self, path: str, replace: bool) -> Path:
-        """Write the document as `DocumentFile.save` does; that of a record remains without a file."""
+        """Write the document as `DocumentFile.save` does; that of a record remains without a file.
+
+        A document without a title gets the name of its file.
+        """
         doc = self.history.document()
         if self.record.reader is not None:
             return await self.file.write(doc, path, replace)
+        if path and doc.name == UNTITLED:
+            doc = edit.describe(doc, name=self._workspace.target(path).stem)
         place = await self.file.save(doc, path, replace)
+        await self.history.describe({"name": doc.name})
         self.history.touch()
         return place
 

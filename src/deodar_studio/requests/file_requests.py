@@ -15,6 +15,7 @@ from deodar_studio.files.unpacked import unpacked
 from deodar_studio.messages.to_page import Answer, Folder
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
+from deodar_studio.project.open_project import UNTITLED
 from deodar_studio.requests.request import Text, answer, asks, changes, opens
 
 
@@ -35,7 +36,7 @@ async def open_file(
 @opens(tag="new")
 async def new_document(hub: Hub, page: Page, *, discard: bool = False) -> None:
     """Open an empty document without a file."""
-    await hub.project.open_copy(lambda: Document("untitled"), "untitled", discard)
+    await hub.project.open_copy(lambda: Document(UNTITLED), UNTITLED, discard)
 
 
 @opens()

@@ -1,7 +1,8 @@
 // The folders below the root, and the files of one sort in them.
 
 import { IconFileText, IconFolder, IconMovie, IconPhoto } from "@tabler/icons-react";
-import { useEffect, useRef } from "react";
+import { TextInput } from "@mantine/core";
+import { useEffect, useRef, useState } from "react";
 
 import { useStudio } from "../store";
 import { ProblemText } from "../problems/ProblemText";
@@ -37,6 +38,9 @@ export function FolderBrowser({
   records = false,
   first = false,
 }: Props) {
+  const [typed, setTyped] = useState("");
+  const matches = (name: string) => name.toLowerCase().includes(typed.trim().toLowerCase());
+  const facts = (name: string) => factsText(folder?.facts[name]);
   const root = useStudio((state) => state.welcome?.root ?? "");
   const list = useRef<HTMLUListElement>(null);
   const before = useRef(path);
@@ -44,6 +48,7 @@ export function FolderBrowser({
     // The button that led here was removed; the focus moves to the list.
     if (before.current !== path) {
       before.current = path;
+      setTyped("");
       list.current?.focus();
     }
   }, [path]);
@@ -74,6 +79,13 @@ export function FolderBrowser({
           </span>
         ))}
       </nav>
+      <TextInput
+        size="xs"
+        aria-label="Filter the content of the folder"
+        placeholder="Filter"
+        value={typed}
+        onChange={(event) => setTyped(event.currentTarget.value)}
+      />
       <ul
         ref={list}
         className={classes.list}
@@ -81,7 +93,7 @@ export function FolderBrowser({
         tabIndex={-1}
         data-autofocus={first || undefined}
       >
-        {folders.map((name) => (
+        {folders.filter(matches).map((name) => (
           <li key={`${name}/`}>
             <button type="button" className={classes.entry} title={name} onClick={() => onFolder(at(name))}>
               <IconFolder size={17} stroke={1.6} aria-label="Folder" />
@@ -90,15 +102,18 @@ export function FolderBrowser({
           </li>
         ))}
         {records &&
-          folder?.records.map((name) => (
+          folder?.records.filter(matches).map((name) => (
             <li key={`${name} record`}>
               <button type="button" className={classes.entry} title={name} onClick={() => onFile(at(name))}>
                 <IconMovie size={17} stroke={1.6} aria-label="Record" />
                 <span className="one-line">{name}</span>
+                <span className={classes.facts} aria-hidden>
+                  {facts(name)}
+                </span>
               </button>
             </li>
           ))}
-        {names.map((name) => (
+        {names.filter(matches).map((name) => (
           <li key={name}>
             <button
               type="button"
@@ -109,6 +124,9 @@ export function FolderBrowser({
             >
               <FileIcon size={17} stroke={1.6} aria-hidden="true" />
               <span className="one-line">{name}</span>
+              <span className={classes.facts} aria-hidden>
+                {facts(name)}
+              </span>
             </button>
           </li>
         ))}
@@ -133,4 +151,19 @@ export function FolderBrowser({
       </ul>
     </div>
   );
+}
+
+// "12 kB, 29/11/2026", in the words of the browser; empty for a folder.
+function factsText(facts: unknown[] | undefined): string {
+  if (facts === undefined) {
+    return "";
+  }
+  const [bytes, seconds] = facts as [number, number];
+  const size =
+    bytes < 1e3
+      ? `${bytes} B`
+      : bytes < 1e6
+        ? `${Math.round(bytes / 1e3)} kB`
+        : `${(bytes / 1e6).toFixed(1)} MB`;
+  return `${size}, ${new Date(1000 * seconds).toLocaleDateString()}`;
 }

@@ -230,7 +230,7 @@ describe("saving", () => {
 });
 
 describe("a dropped record", () => {
-  const empty = { folders: [], files: [], pictures: [], others: [] };
+  const empty = { facts: {}, folders: [], files: [], pictures: [], others: [] };
   const root: Folder = { type: "folder", request: 1, path: "", ...empty, records: ["night"] };
 
   it("opens where it lies, in the folder of the studio", async () => {

@@ -16,7 +16,8 @@ export function Inspector() {
     return <div className="inspector inspector-empty">No document is open.</div>;
   }
   return (
-    <div className="inspector" inert={record}>
+    // another element begins at its top: the key makes another scrolled box of it
+    <div className="inspector" inert={record} key={selected.join()}>
       {record && (
         <p className="inspector-record">Parameters of the record; its model can be run and changed.</p>
       )}

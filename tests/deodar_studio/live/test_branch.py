@@ -97,15 +97,15 @@ def test_a_branch_keeps_what_any_plot_showed_before_the_moment(
     request = request_for(branched.place)
     branched.do(lambda: branched.engine.show([branched.place], [request]))
     branched.step(35)
-    before = branched.engine.traces[request].since(0)
+    course = branched.engine.traces[request].since(0)
     branched.branch(21)
-    left = branched.engine.traces[request].since(0)
-    assert left[-1, 0] == 21 and np.array_equal(left, before[before[:, 0] <= 21])
+    shortened = branched.engine.traces[request].since(0)
+    assert shortened[-1, 0] == 21 and np.array_equal(shortened, course[course[:, 0] <= 21])
     branched.step(14)
     again = branched.engine.traces[request].since(0)
-    times, first, second = np.intersect1d(before[:, 0], again[:, 0], return_indices=True)
+    times, first, second = np.intersect1d(course[:, 0], again[:, 0], return_indices=True)
     assert times[-1] == 35, "single samples may be missing, while a reader is compiled"
-    assert np.array_equal(before[first], again[second])
+    assert np.array_equal(course[first], again[second])
 
 
 def test_a_branch_that_fails_leaves_the_run_as_it_was(
@@ -113,7 +113,7 @@ def test_a_branch_that_fails_leaves_the_run_as_it_was(
 ) -> None:
     branched = branching(mixed())
     branched.step(28)
-    before, ring, traces = bits(branched.session), branched.engine.ring, branched.engine.traces
+    present, ring, traces = bits(branched.session), branched.engine.ring, branched.engine.traces
 
     def fail(*_: Any) -> Any:
         raise ValueError("no such moment")
@@ -123,7 +123,7 @@ def test_a_branch_that_fails_leaves_the_run_as_it_was(
             patch.setattr(owner, "until", fail)
             with pytest.raises(ValueError, match="no such moment"):
                 branched.branch(7)
-        assert bits(branched.session) == before and branched.session.tick == 28
+        assert bits(branched.session) == present and branched.session.tick == 28
         assert branched.engine.ring is ring and branched.engine.traces is traces
     branched.branch(7)
     assert branched.session.tick == 7

@@ -42,11 +42,11 @@ export function EntryList({
   const active = found.find((entry) => entry.id === wished && entry.why === undefined) ?? best;
   const list = useId();
   useEffect(() => onLook?.(active), [active, onLook]);
+  // the same entry does not scroll again when the list is made anew
+  const shown = active === null ? "" : optionId(list, active);
   useEffect(() => {
-    if (active !== null) {
-      document.getElementById(optionId(list, active))?.scrollIntoView({ block: "nearest" });
-    }
-  }, [active, list]);
+    document.getElementById(shown)?.scrollIntoView({ block: "nearest" });
+  }, [shown]);
 
   const onKey = (event: KeyboardEvent) => {
     const able = found.filter((entry) => entry.why === undefined);
