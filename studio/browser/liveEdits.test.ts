@@ -72,7 +72,7 @@ async function watchColours(): Promise<void> {
     port1.onmessage = () => {
       const layer = document.querySelector<HTMLCanvasElement>(".graph-live-layer");
       const slot = document.querySelector(`.react-flow__node[data-id="${first}"] .graph-live`);
-      const drawn = document.querySelector<HTMLCanvasElement>(".plot-host .u-wrap > canvas");
+      const drawn = document.querySelector<HTMLCanvasElement>(".plot-host .plot-canvas");
       seen.frames += 1;
       if (colours(layer, slot?.getBoundingClientRect()) < 2) seen.blank["box"] = (seen.blank["box"] ?? 0) + 1;
       if (colours(drawn, drawn?.getBoundingClientRect()) < 2)

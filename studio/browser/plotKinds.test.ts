@@ -64,10 +64,10 @@ test("fixed weights are a heat map over target and source, opened beside their p
   await map.getByRole("img", { name: "weights of map as colours over x and y" }).waitFor();
   await expect.poll(() => colours(map.locator("canvas.plot-heat"))).toBeGreaterThan(20);
   // the rows of a picture of the document are over y, which therefore runs downwards
-  await point(map.locator(".u-over"), 0.99, 0.02);
+  await point(map.locator(".plot-over"), 0.99, 0.02);
   await expect.poll(() => reading("Weights of map")).toMatch(/^x 20\.\d* y -0\.\d* 20\.\d*$/);
   await shot(page, "plot-weights");
-  await point(map.locator(".u-over"), 0.01, 0.98);
+  await point(map.locator(".plot-over"), 0.01, 0.98);
   await expect.poll(() => reading("Weights of map")).toMatch(/^x -0\.\d* y 10\.\d* -20\.\d*$/);
 });
 
@@ -76,7 +76,7 @@ test("the kernel of a field over two axes is a heat map over both lags", async (
   await arrange("kernel.json", [[["plane", "kernel"]]]);
   const kernel = plot("Interaction kernel of plane");
   await expect.poll(() => colours(kernel.locator("canvas.plot-heat"))).toBeGreaterThan(10);
-  await point(kernel.locator(".u-over"), 0.5, 0.5);
+  await point(kernel.locator(".plot-over"), 0.5, 0.5);
   // 8 / (2 pi 2^2), the amplitude is the integral
   await expect
     .poll(() => reading("Interaction kernel of plane"))
@@ -112,7 +112,7 @@ test("the cursor is linked among maps, pictures, scenes and multiples, not to a 
   const expectReading = (name: string, words: RegExp) =>
     expect.poll(() => reading(name), { message: name }).toMatch(words);
   for (const name of [surface, volume]) await plot(name).locator("canvas.plot-scene[aria-label]").waitFor();
-  await point(plot("Curves of line").locator(".u-over"), 0.5, 0.5);
+  await point(plot("Curves of line").locator(".plot-over"), 0.5, 0.5);
   for (const name of [heat, surface, volume, "Weights of map"])
     await expectReading(name, /^x (9|10)\.\d* max -?\d/);
   await expectReading("Picture of picture", /^x (9|10)\.\d*$/);
@@ -124,7 +124,7 @@ test("the cursor is linked among maps, pictures, scenes and multiples, not to a 
   expect(await obstacles(studio.page)).toEqual([]);
   await shot(studio.page, "plot-linked-scenes");
 
-  await point(plot(heat).locator(".u-over"), 0.25, 0.75);
+  await point(plot(heat).locator(".plot-over"), 0.25, 0.75);
   for (const name of [surface, volume]) await expectReading(name, /^x 4\.\d* y 7\.\d* -?\d/);
   await expectReading("Picture of picture", /^x 4\.\d* y 7\.\d* r 0\.2\d* g 0\.[78]\d* b 0/);
   expect(await reading(surface), "the same value in both").toBe(await reading(heat));
@@ -139,7 +139,7 @@ test("the cursor is linked among maps, pictures, scenes and multiples, not to a 
   await expect.poll(async () => (await reading(heat)) === (await reading(surface))).toBe(true);
   await expectReading("Curves of line", /^x /);
 
-  await point(plot("Time course of node").locator(".u-over"), 0.05, 0.5);
+  await point(plot("Time course of node").locator(".plot-over"), 0.05, 0.5);
   await expectReading("Phase plot of node", /^t \d/);
   await expectReading(surface, /^$/);
 });
@@ -159,7 +159,7 @@ test("a field over four axes is cut by sliders on the axes that are not drawn", 
   expect(await plot(heat).getByRole("slider").count()).toBe(2);
   expect(await plot(volume).getByRole("slider").count()).toBe(4);
   const value = async (name: string) => Number((await reading(name)).split(" ").at(-1));
-  await point(plot(heat).locator(".u-over"), 0.01, 0.5);
+  await point(plot(heat).locator(".plot-over"), 0.01, 0.5);
   // 100 w + 10 z + x / 100
   await expect.poll(() => value(heat)).toBe(350);
   await slide(heat, "z", "Home");
@@ -196,7 +196,7 @@ test("two axes that share a unit have the same scale in pictures, kernels and mu
     "Heat map of plane": 21 / 11,
   };
   for (const [name, share] of Object.entries(shares)) {
-    for (const over of await plot(name).locator(".u-over").all()) {
+    for (const over of await plot(name).locator(".plot-over").all()) {
       const room = await settled(studio.page, () => over.boundingBox());
       expect((room?.width ?? 0) / (room?.height ?? 1) / share, name).toBeGreaterThan(0.97);
       expect((room?.width ?? 0) / (room?.height ?? 1) / share, name).toBeLessThan(1.03);

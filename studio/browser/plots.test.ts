@@ -242,7 +242,7 @@ test("a plot shows a field over time, also of a moment of the past", async () =>
   await button(page, "Live").click();
   await expect.poll(() => drawn(drawing)).toBe(before);
 
-  await map.locator(".u-over").hover({ position: { x: 20, y: 40 } });
+  await map.locator(".plot-over").hover({ position: { x: 20, y: 40 } });
   await map.getByText(/^t \d.*x \d.*/).waitFor();
   await beside(page, "Settings of this plot", (settings) => settings.getByText("time down").click());
   const across = () => canvas.evaluate((element) => (element as HTMLCanvasElement).width);
@@ -264,15 +264,15 @@ test("the cursor of one plot shows its position and its time in all others, with
       );
   const [curves, map, course] = ["Curves of u", "Space-time plot of u", "Time course of u"] as const;
   await plot(course).getByText("Press play").waitFor({ state: "detached" });
-  const over = plot(map).locator(".u-over");
+  const over = plot(map).locator(".plot-over");
   const room = await settled(page, () => over.boundingBox());
   if (room === null) throw new Error("The plot is not visible.");
   await over.hover({ position: { x: room.width * 0.1, y: room.height * 0.3 } });
   await reads(curves, "x #.# activation #.# output 1.000");
-  await reads(course, "t #.# #.#");
+  await reads(course, "t #.# s #.#");
   await shot(page, "plot-linked");
 
-  await plot(curves).locator(".u-over").hover();
+  await plot(curves).locator(".plot-over").hover();
   await reads(map, "x #.# -#.#");
   expect(await readout(course).textContent()).toBe("");
   await page.getByRole("toolbar", { name: "Run" }).hover();
@@ -338,7 +338,7 @@ test("a plot shows the interaction kernel while a slider moves", async () => {
   const drawing = chart("Interaction kernel of u", "Interaction kernel of u");
   const readout = plot("Interaction kernel of u").locator(".plot-readout");
   await plot("Interaction kernel of u").getByText("Press play").waitFor({ state: "detached" });
-  const over = plot("Interaction kernel of u").locator(".u-over");
+  const over = plot("Interaction kernel of u").locator(".plot-over");
   const room = await over.boundingBox();
   await over.hover({ position: { x: (room?.width ?? 0) / 2, y: 20 } });
   const before = await drawn(drawing);
@@ -357,7 +357,7 @@ test("axis, interaction kernel and time windows are edited in the plot that show
   const axis = () => observer.document?.axes[0];
   const before = axis()?.upper;
   // a click on the axis itself
-  const drawn = await settled(page, () => plot("Curves of u").locator(".u-axis").first().boundingBox());
+  const drawn = await settled(page, () => plot("Curves of u").locator(".plot-axis").first().boundingBox());
   if (drawn === null) throw new Error("the plot has no axis");
   await page.mouse.click(drawn.x + drawn.width / 2, drawn.y + drawn.height / 2);
   const upper = page.getByRole("textbox", { name: "To of the axis x", exact: true });
@@ -436,7 +436,7 @@ test("a field over two dimensions is a heat map with a scale; a sensor shows its
   const bar = map.getByRole("img", { name: "activation of spatial as colours over x and y" });
   await expect.poll(() => colours(bar)).toBeGreaterThan(50);
   // 40 x 40 samples at the same distance are a square
-  const square = await settled(page, () => map.locator(".u-over").boundingBox());
+  const square = await settled(page, () => map.locator(".plot-over").boundingBox());
   expect(Math.abs((square?.width ?? 0) - (square?.height ?? Infinity))).toBeLessThan(2.5);
   await map.getByRole("button", { name: "Menu of this plot" }).click();
   const exported = await downloaded(page, () => page.getByRole("menuitem", { name: "Export SVG" }).click());
@@ -586,7 +586,7 @@ test("a plot is exported as a picture file", async () => {
   expect(download.suggestedFilename()).toBe("u.png");
   const png = readFileSync(await download.path());
   expect(png.subarray(0, 8).toString("latin1")).toBe("\x89PNG\r\n\x1a\n");
-  const drawn = await plot("Curves of u").locator("canvas").first().boundingBox();
+  const drawn = await plot("Curves of u").locator(".plot-canvas").boundingBox();
   const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
   expect(width).toBeGreaterThanOrEqual(2 * Math.floor(drawn?.width ?? Infinity) - 2);
   expect(height).toBeGreaterThan(2 * (drawn?.height ?? Infinity) - 2);
@@ -605,10 +605,6 @@ test("a plot is exported as a picture file", async () => {
     lines.filter((points) => points > 60),
     "two curves",
   ).toHaveLength(2);
-  // uPlot has no option for its context, so that charts and exports replace the method while they are made
-  expect(await page.evaluate(() => String(HTMLCanvasElement.prototype.getContext))).toContain(
-    "[native code]",
-  );
 });
 
 test("a plot is exported as a table", async () => {
@@ -632,7 +628,7 @@ test("the right button, a finger and the key I make a peak while they are held",
   }
   await observer.ask({ type: "play" });
   await observer.until(() => observer.max("u", "activation") < 0);
-  const over = plot("Curves of u").locator(".u-over");
+  const over = plot("Curves of u").locator(".plot-over");
   const place = await over.boundingBox();
   if (place === null) throw new Error("The plot is not visible.");
   const pushing = () => observer.clock?.pushing === observer.element("u").id;

@@ -161,7 +161,7 @@ test("without a connection plots keep their picture and take no change", async (
     await expect
       .poll(() => plot.getByRole("button", { name, exact: true }).isDisabled(), { message: name })
       .toBe(true);
-  const over = plot.locator(".u-over");
+  const over = plot.locator(".plot-over");
   await over.hover();
   await page.mouse.down({ button: "right" });
   expect(await plot.locator(".plot-ghost[data-on]").count(), "an injection that is not made").toBe(0);

@@ -9,7 +9,7 @@ import { createRoot } from "react-dom/client";
 import { App } from "./App";
 import { socket } from "./socket";
 import { theme, variables } from "./theme";
-import { TYPEFACE } from "./typeface";
+import { TYPEFACE } from "./draw/typeface";
 
 const root = document.getElementById("root");
 if (root === null) {

@@ -3,7 +3,7 @@
 
 import { createTheme, type CSSVariablesResolver, type MantineColorsTuple } from "@mantine/core";
 
-import { TYPEFACE } from "./typeface";
+import { TYPEFACE } from "./draw/typeface";
 
 const deodar: MantineColorsTuple = [
   "#eef7f2",

@@ -52,7 +52,7 @@ function watch({
   former: number;
 }): void {
   const { probe } = window;
-  const canvas = document.querySelector(".plot-host > .uplot > .u-wrap > canvas") as HTMLCanvasElement;
+  const canvas = document.querySelector(".plot-host > .plot-canvas") as HTMLCanvasElement;
   const streams = new Set(
     [...probe.watched]
       .filter(([, wish]) => wish.element === element && wish.port === port && (wish.most ?? 0) > 100)

@@ -20,7 +20,7 @@ export async function slowed(rounds: number): Promise<{ free: number; percent: n
     for (let i = 0; i < rounds; i++) {
       const alone = await steps(socket);
       const page = await stage.open();
-      await page.locator(".plot-host > .uplot > .u-wrap > canvas").nth(3).waitFor();
+      await page.locator(".plot-host > .plot-canvas").nth(3).waitFor();
       const watched = await steps(socket);
       await page.context().close();
       free.push(alone);

@@ -193,7 +193,7 @@ export function smoke(name: string, launch: () => Promise<Driver>): void {
     await expect
       .poll(async () => {
         if (pressed) await page.up("right");
-        const { left, top, width, height } = await place(".plot .u-over");
+        const { left, top, width, height } = await place(".plot .plot-over");
         await page.move(left + width * 0.25, top + height / 2);
         await page.down("right");
         pressed = true;

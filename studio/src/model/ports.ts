@@ -1,7 +1,7 @@
 // The ports of elements and their axes, as plots read them.
 
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
-import { sameDimension } from "./axes";
+import { sameDimension } from "../draw/axis";
 
 // A plot of the page, or the name of one of an installed package.
 export type PlotKind = string;

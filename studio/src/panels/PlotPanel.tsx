@@ -6,6 +6,7 @@ import { elementsAlike, mainPort, portAxes, portsOf, weightsOf } from "../model/
 import { PackagedPlot } from "../plots/kinds/PackagedPlot";
 import { PLOTS, plotKinds } from "../plots/kinds/plots";
 import type { PlotProps } from "../plots/PlotFrame";
+import { Tile } from "../plots/Tile";
 import { type PlotParams, readParams, readSettings } from "../plots/settings";
 import { SideBySide } from "../replay/SideBySide";
 import { useStudio } from "../store";
@@ -13,24 +14,20 @@ import { plotTitle } from "./openPlot";
 
 type Components = Record<string, ComponentType<PlotProps>>;
 
-// The files of components. Those with three.js are loaded when they are first shown; all others are part of
-// the page, so that a plot is drawn, and has its first sample, as soon as it is opened.
-const FLAT = import.meta.glob<Components>("../plots/kinds/*.tsx", { eager: true });
-const SCENES = import.meta.glob<Components>("../plots/scenes/*.tsx");
+// What draws with three.js is loaded when it is first shown.
+const FILES = import.meta.glob<Components>("../plots/scenes/*.tsx");
 
 function componentOf(name: string): ComponentType<PlotProps> {
-  const flat = FLAT[`../plots/kinds/${name}.tsx`]?.[name];
-  return (
-    flat ??
-    lazy(async () => {
-      const found = (await SCENES[`../plots/scenes/${name}.tsx`]?.())?.[name];
-      if (found === undefined) throw new Error(`No file has the component ${name}.`);
-      return { default: found };
-    })
-  );
+  return lazy(async () => {
+    const found = (await FILES[`../plots/scenes/${name}.tsx`]?.())?.[name];
+    if (found === undefined) throw new Error(`No file has the component ${name}.`);
+    return { default: found };
+  });
 }
 
-const DRAWN = new Map([...PLOTS].map(([name, plot]) => [name, componentOf(plot.component)]));
+const SCENES = new Map(
+  [...PLOTS].flatMap(([name, plot]) => ("component" in plot ? [[name, componentOf(plot.component)]] : [])),
+);
 
 export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {
   const plot = readParams(params);
@@ -88,12 +85,15 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
     change,
     set: (settings) => change({ settings: { ...plot.settings, ...settings } }),
   };
-  const Plot = DRAWN.get(kind);
+  const plotted = PLOTS.get(kind);
+  const Scene = SCENES.get(kind);
   const drawing =
-    Plot !== undefined ? (
+    Scene !== undefined ? (
       <Suspense key={kind} fallback={null}>
-        <Plot {...props} />
+        <Scene {...props} />
       </Suspense>
+    ) : plotted !== undefined && !("component" in plotted) ? (
+      <Tile key={kind} kind={kind} plot={plotted} {...props} />
     ) : packaged === undefined ? null : (
       <PackagedPlot key={kind} plot={packaged} {...props} />
     );

@@ -17,7 +17,8 @@ import { request } from "../socket";
 import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import type { DrawingFormat } from "./export/exportDrawing";
-import { exportCsv, type Table } from "./export/exportCsv";
+import type { Table } from "../draw/table";
+import { saveTable } from "./export/save";
 import { type PlotKind, portAxes } from "../model/ports";
 import { hasFigure, titleOf } from "./kinds/plots";
 import { PlotParameters } from "./controls/PlotParameters";
@@ -80,7 +81,7 @@ export function PlotFrame(props: PlotFrameProps) {
   const { lost, seen } = streaming;
   const off = useOffline();
   const onClick = (event: MouseEvent) => {
-    if (!off && event.target instanceof Element && event.target.closest(".u-axis") !== null) {
+    if (!off && event.target instanceof Element && event.target.closest(".plot-axis") !== null) {
       setEditing(true);
     }
   };
@@ -164,7 +165,7 @@ export function PlotFrame(props: PlotFrameProps) {
               onClick={() => {
                 const values = table();
                 if (values !== null) {
-                  exportCsv(`${element.path} ${titleOf(kind, packaged)}`, values);
+                  saveTable(`${element.path} ${titleOf(kind, packaged)}`, values);
                 }
               }}
             >

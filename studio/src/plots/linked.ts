@@ -1,10 +1,7 @@
 // The linked cursor: the position and the time under the mouse pointer in one plot, for all others.
 
-import type { AxisView } from "../protocol";
-import { sameDimension } from "../model/axes";
-
-// What a scale of a chart shows: an axis of the model, or time. Null: neither.
-export type Along = AxisView | "time" | null;
+import { sameDimension } from "../draw/axis";
+import type { Along } from "../draw/content";
 
 export type Coordinate = { along: Along; value: number };
 

@@ -2,7 +2,7 @@
 // (src/deodar_studio/live/section.py).
 
 import type { Announced, AxisView } from "../protocol";
-import { stepOf } from "../model/axes";
+import { stepOf } from "../draw/axis";
 
 // All axes of the array of a stream: the drawn ones first, then the others.
 export function allAxes(form: Announced | null): AxisView[] {

@@ -3,7 +3,7 @@
 
 import { SCALES, type ScaleName } from "./colors/colors";
 import type { PlotKind } from "../model/ports";
-import type { Range } from "./colors/paint";
+import type { Range } from "../draw/scale";
 import type { Viewpoint } from "./scenes/sceneView";
 
 export type TraceSetting = { element: string; port: string; reduce: "at" | "max" | "mean"; at: number[] };

@@ -1,6 +1,7 @@
 // What is injected where.
 
-import type { AxisView, DocumentView, ElementView } from "../protocol";
+import type { Axis } from "../draw/axis";
+import type { DocumentView, ElementView } from "../protocol";
 import { portAxes } from "../model/ports";
 import type { Spot } from "./injection/pusher";
 
@@ -8,7 +9,7 @@ export type Injection = {
   element: ElementView;
   document: DocumentView;
   // The axes that are drawn, as they were announced: to the right, and upwards if there are two.
-  shown: AxisView[];
+  shown: readonly Axis[];
   amplitude: number;
   // sigma as a share of each axis.
   width: number;

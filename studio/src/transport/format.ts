@@ -1,15 +1,10 @@
 // How times and speeds are written. All of one length as far as possible, so that read-outs keep still while
 // they count.
 
+import { grouped, SECONDS } from "../draw/text";
 import type { CompilingView } from "../protocol";
 
-// The unit of time in seconds, for units with a name; a custom unit ("abstract", "1 = 64 ms") is used without
-// conversion.
-const SECONDS: Record<string, number> = { us: 1e-6, ms: 1e-3, s: 1, min: 60 };
-
 const SYMBOLS: Record<string, string> = { us: "µs" };
-
-const MINUS = "\u2212";
 
 // A simulated time: below a second in its own unit, above it in seconds.
 export function timeText(time: number, unit: string, dt: number): string {
@@ -51,13 +46,6 @@ export function compilingText({ elapsed, expected }: CompilingView): string {
 
 export function countText(count: number): string {
   return grouped(count, 0);
-}
-
-// A number with thin spaces between thousands.
-function grouped(value: number, digits: number): string {
-  const [whole = "", fraction] = Math.abs(value).toFixed(digits).split(".");
-  const parted = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u2009") : whole;
-  return `${value < 0 ? MINUS : ""}${parted}${fraction === undefined ? "" : `.${fraction}`}`;
 }
 
 // As many decimals as the time step has, at most 3.

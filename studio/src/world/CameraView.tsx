@@ -4,7 +4,7 @@ import { Button } from "@mantine/core";
 import { useMemo, useRef } from "react";
 
 import { isPicture, portAxes } from "../model/ports";
-import { paintPicture } from "../plots/colors/paint";
+import { paintPicture } from "../draw/paint";
 import { useStreams } from "../plots/useStreams";
 import type { ElementView } from "../protocol";
 import { request } from "../socket";

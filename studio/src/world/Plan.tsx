@@ -3,7 +3,7 @@
 import { useComputedColorScheme } from "@mantine/core";
 import { type KeyboardEvent, type PointerEvent, useEffect, useRef } from "react";
 
-import { pageLook } from "../plots/colors/look";
+import { pageInk } from "../plots/colors/look";
 import type { SceneView } from "../protocol";
 import { draw } from "./draw";
 import type { Ground } from "./ground";
@@ -53,7 +53,7 @@ export function Plan({ scene, hands, ground }: PlanProps) {
         frame.current,
         live.now,
         { hovered, selected, held: held === null ? null : { ...held, refused: refused !== "" } },
-        pageLook(),
+        pageInk(),
       );
     };
     const redraw = () => {

@@ -11,8 +11,8 @@ import type { Asking } from "../dialogs/questions";
 import { base64, isTooLarge } from "../files/flows";
 import { lastPart } from "../files/paths";
 import { useFolder } from "../dialogs/useFolder";
-import { pageLook } from "../plots/colors/look";
-import { paintBytes } from "../plots/colors/paint";
+import { pageInk } from "../plots/colors/look";
+import { paintBytes } from "../draw/paint";
 import type { Answer, Kind, ListedProblem, WorldPreview, WorldSettingView } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
@@ -260,7 +260,7 @@ function Preview({ preview }: { preview: WorldPreview }) {
       Object.assign(canvas.current, { width: w * devicePixelRatio, height: h * devicePixelRatio });
       ctx.scale(devicePixelRatio, devicePixelRatio);
       const seen = { ...NOTHING_SEEN, scene };
-      draw(ctx, frameOf(scene.border, w, h), seen, { hovered: null, selected: null, held: null }, pageLook());
+      draw(ctx, frameOf(scene.border, w, h), seen, { hovered: null, selected: null, held: null }, pageInk());
     } else if (width > 0) {
       paintBytes(canvas.current, bytesOf(pixels), width, height);
     }

@@ -2,7 +2,7 @@
 
 import { useEffect, useRef } from "react";
 
-import { paintBytes } from "../plots/colors/paint";
+import { paintBytes } from "../draw/paint";
 import type { PictureView } from "../protocol";
 import { live } from "./live";
 

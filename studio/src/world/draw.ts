@@ -1,7 +1,8 @@
 // Draws a world from above: floor, axes, objects, the paths of the bodies, marks, bodies.
 
 import type { BodyView, BoxView, MarkView } from "../protocol";
-import { font, type Look } from "../plots/colors/look";
+import { font } from "../draw/ink";
+import type { Ink } from "../draw/ink";
 import type { Seen } from "./live";
 import { type PlanFrame, type PlanPoint, ticks, toPixels } from "./planFrame";
 
@@ -22,7 +23,7 @@ export function draw(
   frame: PlanFrame,
   { scene, bodies, path }: Seen,
   picked: Picked,
-  look: Look,
+  look: Ink,
 ): void {
   if (scene === null) {
     return;
@@ -53,7 +54,7 @@ export function draw(
   ctx.restore();
 }
 
-function drawAxes(ctx: CanvasRenderingContext2D, frame: PlanFrame, unit: string, look: Look): void {
+function drawAxes(ctx: CanvasRenderingContext2D, frame: PlanFrame, unit: string, look: Ink): void {
   const [x0, y0, x1, y1] = frame.border;
   const low = toPixels(frame, { x: x0, y: y0 });
   const high = toPixels(frame, { x: x1, y: y1 });

@@ -2,7 +2,7 @@
 
 import type { Point } from "../../graph/layout/layout";
 import type { Kinds } from "../../inspector/parameters/leaf";
-import { axesOver } from "../../model/axes";
+import { axesOver } from "../../model/elementAxes";
 import type { Kind, TemplateView, WorldSignals } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";

@@ -11,7 +11,7 @@ import { useHover } from "../hover";
 import { LiveBox } from "./LiveBox";
 import { useFocus } from "../focus";
 import { Mark } from "./Mark";
-import { Parts } from "./Parts";
+import { Parts } from "./ContractedParts";
 import type { BoxNode } from "../scene";
 import { useProblem, useWarning } from "../problem";
 import { useDetail } from "./useDetail";

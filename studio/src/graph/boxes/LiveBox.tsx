@@ -1,7 +1,7 @@
 // The live picture of an element, drawn past React and shown by the live layer. It asks for data only while
 // it is mounted, which is while it is visible.
 
-import { canvasSettings } from "../../canvases";
+import { canvasSettings } from "../../draw/canvases";
 import { useComputedColorScheme } from "@mantine/core";
 import { useContext, useEffect, useRef } from "react";
 import { isRecord } from "../../replay/replay";

@@ -1,15 +1,8 @@
 // One live picture inside a box; its form follows from the shape of the data alone.
 
-import {
-  activationScale,
-  FIELD_COLORS,
-  portColor,
-  scale,
-  type Scale,
-  shade,
-  type Shade,
-} from "../../plots/colors/colors";
-import { paintCurve, paintHeat, paintPicture } from "../../plots/colors/paint";
+import type { Shade } from "../../draw/ink";
+import { type ColorTable, paintCurve, paintHeat, paintPicture } from "../../draw/paint";
+import { activationScale, FIELD_COLORS, portColor, scale, shade } from "../../plots/colors/colors";
 import type { Live } from "../../streams";
 import { follow, open, type Span } from "../wires/span";
 import { LIVE } from "./boxes";
@@ -51,10 +44,10 @@ export function drawLive(canvas: Canvas, { form, frame }: Live): void {
   }
 }
 
-const tables = new WeakMap<Span, Scale>();
+const tables = new WeakMap<Span, ColorTable>();
 
 // The colours of a span around 0; they are computed once for as long as it stays.
-function activationOf(span: Span): Scale {
+function activationOf(span: Span): ColorTable {
   let table = tables.get(span);
   if (table === undefined) {
     const { lower, upper } = open(span);

@@ -2,7 +2,7 @@
 // and hundreds of small ones cost more than one large one. Each box draws its picture on a canvas of its own
 // that is not on the page; here they are copied to the positions of the boxes.
 
-import { canvasSettings } from "../../canvases";
+import { canvasSettings } from "../../draw/canvases";
 import type { Viewport } from "@xyflow/react";
 
 // Without a further move for this time the view is at rest, with or without a message of its end.

@@ -3,7 +3,7 @@
 import { Button, Switch } from "@mantine/core";
 import { useState } from "react";
 
-import type { AxisProperties } from "../../model/axes";
+import type { AxisProperties } from "../../model/elementAxes";
 import type { AxisView, ListedProblem } from "../../protocol";
 import { socket } from "../../socket";
 import { useStudio } from "../../store";

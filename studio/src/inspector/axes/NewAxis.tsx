@@ -3,7 +3,7 @@
 import { Button, Checkbox, TextInput } from "@mantine/core";
 import { useState, type FormEvent } from "react";
 
-import { type AxisProperties, newAxis } from "../../model/axes";
+import { type AxisProperties, newAxis } from "../../model/elementAxes";
 import type { AxisView, ListedProblem } from "../../protocol";
 import { socket } from "../../socket";
 import { useLateFocus } from "../../widgets/lateFocus";

@@ -1,10 +1,10 @@
 // Colours of plots. Every scale is monotone in lightness or has its turning point at 0, so that it reads
 // without hues too.
 
-export type ScaleName = "cividis" | "viridis" | "diverging" | "gray";
+import type { Shade } from "../../draw/ink";
+import type { ColorTable } from "../../draw/paint";
 
-// 256 colours of 4 bytes (red, green, blue, opaque).
-export type Scale = Uint8ClampedArray;
+export type ScaleName = "cividis" | "viridis" | "diverging" | "gray";
 
 const ANCHORS: Record<ScaleName, string[]> = {
   cividis: [
@@ -57,9 +57,9 @@ export const SCALES: { name: ScaleName; label: string }[] = [
   { name: "gray", label: "Black to white" },
 ];
 
-const made = new Map<ScaleName, Scale>();
+const made = new Map<ScaleName, ColorTable>();
 
-export function scale(name: ScaleName): Scale {
+export function scale(name: ScaleName): ColorTable {
   let table = made.get(name);
   if (table === undefined) {
     table = interpolated(ANCHORS[name].map(parts));
@@ -73,8 +73,6 @@ const CURVES = {
   light: ["#0b6cb3", "#d55e00", "#00795a", "#a3487f", "#96620a", "#2a8fc4", "#1a1a1a"],
   dark: ["#62b5f0", "#f0793a", "#35c795", "#e29ac4", "#e3ad3c", "#8fd0f5", "#f0e442"],
 };
-
-export type Shade = keyof typeof CURVES;
 
 // The n-th colour of a set of curves.
 export function curveColor(n: number, shade: Shade): string {
@@ -130,7 +128,7 @@ const LEAST_REACH = 3;
 
 // The colours of activation from `lower` to `upper`, as `dd.figures` has them: each side of the threshold has a
 // reach of its own, over which it takes all of its colours. The colour nearest to the threshold is white.
-export function activationScale(lower: number, upper: number, threshold: number): Scale {
+export function activationScale(lower: number, upper: number, threshold: number): ColorTable {
   const below = Math.max(threshold - lower, (upper - threshold) / LEAST_REACH) || 1;
   const above = Math.max(upper - threshold, (threshold - lower) / LEAST_REACH) || 1;
   const nearest = Math.round((255 * (threshold - lower)) / (upper - lower));
@@ -141,7 +139,7 @@ export function activationScale(lower: number, upper: number, threshold: number)
   return colored(ANCHORS.diverging.map(parts), places);
 }
 
-function interpolated(anchors: number[][]): Scale {
+function interpolated(anchors: number[][]): ColorTable {
   return colored(
     anchors,
     Array.from({ length: 256 }, (_, i) => i / 255),
@@ -149,7 +147,7 @@ function interpolated(anchors: number[][]): Scale {
 }
 
 // The colours at 256 places from 0 to 1 between anchors at equal distances.
-function colored(anchors: number[][], places: number[]): Scale {
+function colored(anchors: number[][], places: number[]): ColorTable {
   const table = new Uint8ClampedArray(4 * 256);
   for (const [i, wanted] of places.entries()) {
     const place = Math.min(1, Math.max(0, wanted)) * (anchors.length - 1);

@@ -1,13 +1,14 @@
 // The colours of a plot whose values are colours: a scale, and the range that it covers.
 
-import { activationScale, type Scale, scale, type ScaleName } from "./colors";
+import { activationScale, scale, type ScaleName } from "./colors";
+import type { MapColors } from "../../draw/content";
 import { hasLevels } from "../../model/ports";
-import { type Level, thresholdOf } from "../chart/levels";
-import { extent, type Range } from "./paint";
+import { type Level, thresholdOf } from "../levels";
+import { extent, type Range } from "../../draw/scale";
 import type { Kind } from "../../protocol";
-import { CalmRange } from "../range";
+import { CalmRange } from "../../draw/scale";
 
-export type MapColors = { name: ScaleName; range: Range; middle: number | null; table: Scale };
+type NamedColors = MapColors & { name: ScaleName };
 
 // How a port is coloured: by a scale with two sides, whose middle is the threshold, if it has levels.
 export function scaleOf(
@@ -25,7 +26,7 @@ export function middleOf(twoSided: boolean, levels: Level[]): number | null {
 
 // Colours that follow the values calmly, or have a fixed range.
 export class FollowingColors {
-  now: MapColors;
+  now: NamedColors;
   private calm = new CalmRange();
 
   constructor(name: ScaleName) {

@@ -1,7 +1,7 @@
 // Settings of values that are shown as colours: the scale of colours, and the range.
 
 import { ColorControl } from "./ColorControl";
-import type { Range } from "../colors/paint";
+import type { Range } from "../../draw/scale";
 import { RangeControl } from "./RangeControl";
 import type { PlotSettings } from "../settings";
 

@@ -1,7 +1,7 @@
 // The range of values of a plot: it follows the data or is fixed.
 
 import { NumberInput, Switch } from "@mantine/core";
-import type { Range } from "../colors/paint";
+import type { Range } from "../../draw/scale";
 
 export function RangeControl({
   range,

@@ -3,8 +3,8 @@
 import { Slider } from "@mantine/core";
 import { useOffline } from "../../connection/NeedsServer";
 import type { AxisView } from "../../protocol";
-import { stepOf } from "../../model/axes";
-import { reading } from "../range";
+import { stepOf } from "../../draw/axis";
+import { reading } from "../../draw/text";
 import { ends, middle, moved, sampleAt } from "../section";
 
 type Strip = {

@@ -3,9 +3,10 @@
 import { NumberInput, SegmentedControl, Select } from "@mantine/core";
 import type { AxisView, ElementView } from "../../protocol";
 import { useStudio } from "../../store";
-import { axisLabel } from "../../model/axes";
+import { axisLabel } from "../../draw/axis";
 import { mainPort, portAxes, portsOf } from "../../model/ports";
 import type { TraceSetting } from "../settings";
+import { traceOf } from "../traces";
 
 // `label` says what it is the choice of.
 type TraceChoice = { trace: TraceSetting; label: string; set: (trace: TraceSetting) => void };
@@ -80,18 +81,4 @@ export function TraceControl({ trace, label, set }: TraceChoice) {
       )}
     </>
   );
-}
-
-// A time course of a port over these axes; a position is the middle at first.
-export function traceOf(
-  element: string,
-  port: string,
-  axes: AxisView[],
-  reduce: TraceSetting["reduce"],
-): TraceSetting {
-  if (axes.length === 0) {
-    return { element, port, reduce: "at", at: [] };
-  }
-  const at = reduce === "at" ? axes.map(({ lower, upper }) => (lower + upper) / 2) : [];
-  return { element, port, reduce, at };
 }

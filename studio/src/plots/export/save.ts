@@ -1,6 +1,10 @@
 // Files that the page writes to the folder of downloads.
 
-export type TableColumn = ArrayLike<number | null | undefined>;
+import { csv, type Table } from "../../draw/table";
+
+export function saveTable(title: string, table: Table): void {
+  saveFile(new Blob([csv(table)], { type: "text/csv" }), title, "csv");
+}
 
 export function saveFile(blob: Blob, title: string, suffix: string): void {
   const link = document.createElement("a");

@@ -1,33 +1,30 @@
 // Injection into a field with the right button of the mouse, a finger or the key i. An outline shows the
 // Gaussian.
 
-import type uPlot from "uplot";
 import { socket } from "../../socket";
 import { useStudio } from "../../store";
-import { paintGhost } from "../chart/ghost";
+import { portColor, shade } from "../colors/colors";
+import type { Drawing } from "../Drawing";
+import { paintGhost } from "./ghost";
 import { Pusher } from "./pusher";
 import { type Injection, spot } from "../spot";
 
-// Listens on a chart; `given` returns the input to inject, or null if the element takes none. Returns a
+// Listens on a drawing; `given` returns the input to inject, or null if the element takes none. Returns a
 // function that ends it.
-export function attachInjection(
-  chart: uPlot,
-  host: HTMLElement,
-  given: () => Injection | null,
-  color: string,
-): () => void {
+export function attachInjection(drawing: Drawing, given: () => Injection | null): () => void {
+  const { host, over } = drawing;
   const ask = () => (useStudio.getState().connection === "open" ? given() : null);
   const pusher = new Pusher((message) => socket.post(message));
   const ghost = document.createElement("canvas");
   ghost.className = "plot-ghost";
-  chart.over.append(ghost);
+  over.append(ghost);
   let boost = false;
 
   const push = (place: number[]) => {
     const injection = ask();
     if (injection !== null) {
       pusher.push(injection.element.id, spot(injection, boost ? null : place));
-      paintGhost(ghost, chart, injection, boost ? null : place, color);
+      paintGhost(ghost, drawing, injection, boost ? null : place, portColor("input", [], shade()));
     }
   };
   const stop = () => {
@@ -35,13 +32,12 @@ export function attachInjection(
     ghost.toggleAttribute("data-on", false);
   };
   const placeOf = (event: PointerEvent) => {
-    const box = chart.over.getBoundingClientRect();
-    return placeAt(chart, event.clientX - box.left, event.clientY - box.top);
+    const box = over.getBoundingClientRect();
+    return drawing.valuesAt([event.clientX - box.left, event.clientY - box.top]);
   };
 
   const listening = new AbortController();
   const { signal } = listening;
-  const { over } = chart;
   over.style.touchAction = "none"; // the browser would move the page under the finger
   over.addEventListener("contextmenu", (event) => ask() !== null && event.preventDefault(), { signal });
   over.addEventListener(
@@ -56,18 +52,7 @@ export function attachInjection(
     },
     { signal },
   );
-  over.addEventListener(
-    "pointermove",
-    (event) => {
-      if (pusher.pushing) {
-        push(placeOf(event));
-        // uPlot follows the mouse only while no button is down.
-        const box = over.getBoundingClientRect();
-        chart.setCursor({ left: event.clientX - box.left, top: event.clientY - box.top });
-      }
-    },
-    { signal },
-  );
+  over.addEventListener("pointermove", (event) => pusher.pushing && push(placeOf(event)), { signal });
   for (const end of ["pointerup", "pointercancel", "pointerleave"] as const) {
     over.addEventListener(end, stop, { signal });
   }
@@ -85,7 +70,7 @@ export function attachInjection(
         ask() !== null
       ) {
         boost = event.shiftKey;
-        push(cursorOrCentre(chart));
+        push(drawing.pointed());
       }
     },
     { signal },
@@ -98,15 +83,4 @@ export function attachInjection(
     stop();
     ghost.remove();
   };
-}
-
-function placeAt(chart: uPlot, left: number, top: number): number[] {
-  return [chart.posToVal(left, "x"), chart.posToVal(top, "y")];
-}
-
-function cursorOrCentre(chart: uPlot): number[] {
-  const { left = -1, top = -1 } = chart.cursor;
-  return left >= 0
-    ? placeAt(chart, left, top)
-    : placeAt(chart, chart.over.clientWidth / 2, chart.over.clientHeight / 2);
 }

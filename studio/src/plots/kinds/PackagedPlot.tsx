@@ -4,10 +4,12 @@ import { useComputedColorScheme } from "@mantine/core";
 import { useEffect, useMemo, useRef, useState } from "react";
 import type { ListedProblem, PlotView } from "../../protocol";
 import type { Live, Wish } from "../../streams";
-import { arrayTable } from "../export/exportCsv";
+import { arrayTable } from "../../draw/table";
 import { exportPicture } from "../export/exportDrawing";
 import { fits } from "../../model/ports";
-import { type Look, pageLook, paperLook } from "../colors/look";
+import { paperInk } from "../../draw/ink";
+import { pageInk } from "../colors/look";
+import type { Ink } from "../../draw/ink";
 import { attempt, load, packagedFrame, type PlotModule, problemOf } from "./packaged";
 import { PlotFrame, type PlotProps } from "../PlotFrame";
 import { useLatest } from "../useLatest";
@@ -30,7 +32,7 @@ export function PackagedPlot(props: PlotProps & { plot: PlotView }) {
 
   const tell = (next: ListedProblem | null) =>
     setProblem((known) => (known?.what === next?.what ? known : next));
-  const drawOn = (target: HTMLCanvasElement, look: Look, ratio: number): boolean => {
+  const drawOn = (target: HTMLCanvasElement, look: Ink, ratio: number): boolean => {
     const { form = null, frame = null } = newest.current ?? {};
     const { clientWidth: width, clientHeight: height } = host.current ?? { clientWidth: 0, clientHeight: 0 };
     if (module === null || form === null || frame === null || width === 0 || height === 0) {
@@ -45,7 +47,7 @@ export function PackagedPlot(props: PlotProps & { plot: PlotView }) {
     return attempt(plot, () => module.draw(target, packagedFrame(form, frame, look, size)), tell);
   };
   const paint = () => {
-    if (canvas.current !== null && drawOn(canvas.current, pageLook(), devicePixelRatio)) {
+    if (canvas.current !== null && drawOn(canvas.current, pageInk(), devicePixelRatio)) {
       tell(null);
     }
   };
@@ -113,7 +115,7 @@ export function PackagedPlot(props: PlotProps & { plot: PlotView }) {
       }}
       exportAs={(format) => {
         const sheet = document.createElement("canvas");
-        if (drawOn(sheet, paperLook(1), EXPORT_RATIO)) {
+        if (drawOn(sheet, paperInk(1), EXPORT_RATIO)) {
           exportPicture(`${element.path} ${port}`, sheet, format);
           attempt(plot, () => module?.dispose?.(sheet), tell);
         }

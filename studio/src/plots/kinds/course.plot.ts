@@ -1,9 +1,56 @@
-import type { PlotDeclaration } from "./plots";
+// Values over time: of nodes, and of arrays their maximum, mean, or value at a place. Several in one plot.
+
+import type { TraceSetting } from "../settings";
+import { timeWindows } from "../timeWindows";
+import { traceLabel, traceOf } from "../traces";
+import type { PlotDeclaration, Shown } from "./kind";
+import {
+  axesOf,
+  courseLines,
+  curvePaint,
+  endsOf,
+  extentOf,
+  momentMarks,
+  pathOf,
+  spanOf,
+  timeSide,
+} from "./parts";
 
 export const plot: PlotDeclaration = {
   title: "Time course",
   rank: () => 10,
   tab: (name) => `${name} over time`,
   figure: Number.POSITIVE_INFINITY,
-  component: "TimeCourse",
+  settings: () => ["window", "range", "traces"],
+  label: (shown) => `${labels(shown).join(", ")} over time`,
+  file: ({ element }) => `${element.path} over time`,
+  legend: (shown) => {
+    const [traces, names] = [tracesOf(shown), labels(shown)];
+    return names.map((label, i) => ({
+      label,
+      color: curvePaint(i),
+      on: true,
+      ...(names.length > 1 ? { remove: { traces: traces.filter((_, other) => other !== i) } } : {}),
+    }));
+  },
+  wishes: (shown) => tracesOf(shown).map((trace) => ({ type: "trace", ...trace })),
+  content: (shown, lives, memory) => {
+    const names = labels(shown);
+    const span = spanOf(shown, endsOf(lives.map(({ history }) => history.times)));
+    const lines = courseLines(lives, span, (i) => [names[i] ?? "", curvePaint(i)]);
+    return {
+      x: { ...timeSide(shown, span), down: false },
+      y: { along: null, range: memory.around(extentOf(lines), { fixed: shown.settings.range }) },
+      marks: [{ type: "windows", spans: timeWindows(shown.element.values) }, ...lines, ...momentMarks(shown)],
+    };
+  },
 };
+
+function tracesOf(shown: Shown): TraceSetting[] {
+  const { element, port, settings } = shown;
+  return settings.traces.length > 0 ? settings.traces : [traceOf(element.id, port, axesOf(shown), "max")];
+}
+
+function labels(shown: Shown): string[] {
+  return tracesOf(shown).map((trace) => traceLabel(trace, pathOf(shown, trace.element)));
+}

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Announced, AxisView, ListedProblem, PlotView } from "../../protocol";
-import { paperLook } from "../colors/look";
+import { paperInk } from "../../draw/ink";
 import { attempt, axesOf, load, packagedFrame } from "./packaged";
 
 const PLOT: PlotView = {
@@ -70,7 +70,7 @@ describe("the values that it draws", () => {
 
   it("are a copy, because other plots draw the same values", () => {
     const frame = { stream: 1, frame: 1, time: 20, values: new Float32Array([1, 2]) };
-    const given = packagedFrame(formOf([2], HEADING), frame, paperLook(1), {
+    const given = packagedFrame(formOf([2], HEADING), frame, paperInk(1), {
       width: 300,
       height: 200,
       ratio: 2,

@@ -4,8 +4,8 @@
 import type { Announced, ListedProblem, PlotView } from "../../protocol";
 import type { Frame } from "../../frames";
 import { curveColor } from "../colors/colors";
-import { points } from "../../model/axes";
-import type { Look } from "../colors/look";
+import { points } from "../../draw/axis";
+import type { Ink } from "../../draw/ink";
 
 // What a module receives for each drawing.
 export type PackagedFrame = {
@@ -103,7 +103,7 @@ export function axesOf(form: Announced): PackagedAxis[] {
 export function packagedFrame(
   form: Announced,
   frame: Frame,
-  look: Look,
+  look: Ink,
   size: { width: number; height: number; ratio: number },
 ): PackagedFrame {
   const { text, dim, grid, ground, shade } = look;

@@ -2,7 +2,7 @@ import { existsSync } from "node:fs";
 
 import { describe, expect, it } from "vitest";
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../../protocol";
-import { axisLabel, cell, commonScale, edges, points, stepOf } from "../../model/axes";
+import { axisLabel, cell, commonScale, edges, points, stepOf } from "../../draw/axis";
 import {
   elementsAlike,
   firstToPlot,
@@ -134,13 +134,12 @@ describe("kinds of plots", () => {
     expect(weightsOf(documentOf(row), row, type)).toEqual([]);
   });
 
-  it("have a component in one file, beside the declarations or among the scenes", () => {
-    for (const [kind, { component }] of PLOTS) {
-      const files = ["../kinds", "../scenes"].map((folder) =>
-        existsSync(new URL(`${folder}/${component}.tsx`, import.meta.url)),
-      );
-      expect(files.filter(Boolean), kind).toHaveLength(1);
+  it("in three dimensions have a component among the scenes", () => {
+    const scenes = [...PLOTS.values()].flatMap((plot) => ("component" in plot ? [plot.component] : []));
+    for (const component of scenes) {
+      expect(existsSync(new URL(`../scenes/${component}.tsx`, import.meta.url)), component).toBe(true);
     }
+    expect(scenes).toHaveLength(2);
   });
 
   it("have the titles of the page or of the package", () => {

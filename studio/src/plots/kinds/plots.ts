@@ -2,23 +2,7 @@
 
 import type { AxisView, PlotView } from "../../protocol";
 import { fits, type PlotKind } from "../../model/ports";
-
-// What an element has to plot besides its port: an interaction kernel, weights that do not learn, and other
-// elements that have the port over the same axes.
-export type Further = { kernel?: boolean; weights?: boolean; several?: boolean };
-
-export type PlotDeclaration = {
-  // In the menu of plots.
-  title: string;
-  // Its place among the plots of an array over these axes, the smallest first; null if it cannot show it.
-  rank: (axes: AxisView[], further: Further) => number | null;
-  // The title of its tab, from the name of the element; by default the name alone.
-  tab?: (name: string) => string;
-  // The most axes of an array in the figure that `deodar plot` draws of it; without it there is none.
-  figure?: number;
-  // What draws it: the export of this name of `NAME.tsx`, here or in `scenes` if it uses three.js.
-  component: string;
-};
+import type { Further, PlotDeclaration } from "./kind";
 
 const FILES = import.meta.glob<PlotDeclaration>("./*.plot.ts", { eager: true, import: "plot" });
 

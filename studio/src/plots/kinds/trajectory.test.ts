@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import { History } from "../../history";
-import { nearestPlace, nearestTime, trajectory } from "./trajectory";
+import { trajectory } from "./trajectory";
 
 function history(times: number[], values: number[]): History {
   const made = new History();
@@ -29,11 +29,4 @@ it("the rate of a relaxation falls in a line to 0 at the fixed point", () => {
   );
   expect(across).toHaveLength(396);
   across.forEach((u, i) => expect(up[i]).toBeCloseTo(-(u - 3) / 10, 4));
-});
-
-it("the nearest sample is found by time and by position", () => {
-  const found = { times: [0, 1, 2], across: [0, 10, 0], up: [0, 0.5, 1] };
-  expect(nearestTime(found, 1.4)).toBe(1);
-  expect(nearestPlace(found, [1, 0.9], [10, 1])).toBe(2);
-  expect(nearestTime({ times: [], across: [], up: [] }, 1)).toBe(-1);
 });

@@ -1,11 +1,9 @@
 // A trajectory in a plane: two time courses against each other, or one with its rate of change.
 
 import type { History } from "../../history";
-import { sideBySide } from "../traces";
+import { sideBySide } from "../../draw/series";
 
 export type Trajectory = { times: number[]; across: number[]; up: number[] };
-
-export const NO_TRAJECTORY: Trajectory = { times: [], across: [], up: [] };
 
 // The samples within a range of time. Without a second time course the rate of change of the first: the
 // difference of two samples over that of their times, at the middle between them.
@@ -32,31 +30,5 @@ export function trajectory(
       add((before + time) / 2, (from + x) / 2, (x - from) / (time - before));
     }
   }
-  return found;
-}
-
-// The number of the sample that is nearest to a time; -1 if there is none.
-export function nearestTime({ times }: Trajectory, time: number): number {
-  return least(times, (other) => Math.abs(other - time));
-}
-
-// The number of the sample that is nearest to a position, both axes as shares of their extents.
-export function nearestPlace(
-  { across, up }: Trajectory,
-  [x, y]: readonly [number, number],
-  [wide, high]: readonly [number, number],
-): number {
-  return least(across, (other, i) => Math.hypot((other - x) / wide, ((up[i] as number) - y) / high));
-}
-
-function least(values: number[], distance: (value: number, i: number) => number): number {
-  let found = -1;
-  let shortest = Infinity;
-  values.forEach((value, i) => {
-    const now = distance(value, i);
-    if (now < shortest) {
-      [found, shortest] = [i, now];
-    }
-  });
   return found;
 }

@@ -1,5 +1,5 @@
 import { isPicture } from "../../model/ports";
-import type { PlotDeclaration } from "./plots";
+import type { PlotDeclaration } from "./kind";
 
 export const plot: PlotDeclaration = {
   title: "Volume slices",

@@ -4,7 +4,7 @@ import type { RefObject } from "react";
 import type { AxisView } from "../../protocol";
 import { AxisControl } from "../controls/AxisControl";
 import { ColorsControl } from "../controls/ColorsControl";
-import type { Table } from "../export/exportCsv";
+import type { Table } from "../../draw/table";
 import type { FollowingColors } from "../colors/mapColors";
 import { PlotFrame, type PlotProps } from "../PlotFrame";
 import { SectionStrip } from "../controls/SectionStrip";

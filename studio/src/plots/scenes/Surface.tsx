@@ -4,18 +4,19 @@
 import { useMemo, useRef } from "react";
 import { useStudio } from "../../store";
 import type { Live, Wish } from "../../streams";
-import { arrayTable } from "../export/exportCsv";
-import { axisLabel, edges } from "../../model/axes";
+import { readContent } from "../../draw/cursorText";
+import { tableOf } from "../../draw/table";
+import { planeContent } from "../kinds/parts";
+import { axisLabel, edges } from "../../draw/axis";
 import { isPicture } from "../../model/ports";
 import { FollowingColors, middleOf, scaleOf } from "../colors/mapColors";
 import type { PlotProps } from "../PlotFrame";
-import { readPlane } from "../readPlane";
 import { ScenePlot } from "./ScenePlot";
 import type { SceneFrame } from "./sceneFrame";
 import { allAxes } from "../section";
 import { surfaceSize } from "./sceneSize";
 import type { SceneStage } from "./sceneStage";
-import { useLevels } from "../chart/useLevels";
+import { useLevels } from "../useLevels";
 import { usePorts } from "../usePorts";
 import { useScene } from "./useScene";
 import { useStreams } from "../useStreams";
@@ -36,6 +37,7 @@ export function Surface(props: PlotProps) {
     [element.id, port, drawn, at],
   );
 
+  const content = () => planeContent(null, newest.current ?? undefined, port, () => colors.current.now);
   const show = (stage: SceneStage): SceneFrame | null => {
     const { form, frame } = newest.current ?? {};
     const [nx, ny] = form?.shape ?? [];
@@ -67,9 +69,9 @@ export function Surface(props: PlotProps) {
     label: `${port} of ${element.path} as a surface over ${names.join(" and ")}`,
     view: settings.view,
     keep: (view) => set({ view }),
-    read: ([across = null, up = null]) => {
-      const [x, y] = newest.current?.form?.axes ?? [];
-      return x === undefined || y === undefined ? "" : readPlane(newest.current, x, y, { x: across, y: up });
+    read: ([x = null, y = null]) => {
+      const shown = content();
+      return shown === null ? "" : readContent(shown, { x, y });
     },
     show,
   });
@@ -88,8 +90,8 @@ export function Surface(props: PlotProps) {
       cut={form?.rest ?? []}
       label={`Surface of ${element.path}; the arrow keys turn it`}
       table={() => {
-        const { frame, form: shown } = newest.current ?? {};
-        return frame == null || shown == null ? null : arrayTable(shown, frame.values, port);
+        const shown = content();
+        return shown === null ? null : tableOf([shown]);
       }}
     />
   );

@@ -5,26 +5,30 @@ import { useMemo, useRef } from "react";
 import type { AxisView } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Live, Wish } from "../../streams";
-import { axisHeader, plane, type Table } from "../export/exportCsv";
-import { axisLabel, edges, points } from "../../model/axes";
+import { axisHeader, plane, type Table } from "../../draw/table";
+import { axisLabel, edges, points } from "../../draw/axis";
 import { isPicture, portAxes } from "../../model/ports";
 import { FollowingColors, middleOf, scaleOf } from "../colors/mapColors";
-import { extent, paintHeat } from "../colors/paint";
+import { paintHeat } from "../../draw/paint";
+import { extent } from "../../draw/scale";
 import type { PlotProps } from "../PlotFrame";
-import { reading } from "../range";
-import { readPlane } from "../readPlane";
+import type { MapColors } from "../../draw/content";
+import { readContent } from "../../draw/cursorText";
+import { reading } from "../../draw/text";
+import { planeContent } from "../kinds/parts";
 import { ScenePlot } from "./ScenePlot";
 import type { SceneFrame } from "./sceneFrame";
 import { volumeSize } from "./sceneSize";
 import { cameraAt, type Viewpoint } from "./sceneView";
 import type { SceneStage } from "./sceneStage";
-import { useLevels } from "../chart/useLevels";
+import { useLevels } from "../useLevels";
 import { usePorts } from "../usePorts";
 import { type ScenePosition, useScene } from "./useScene";
 import { useStreams } from "../useStreams";
 
 const MOST = 128;
 const CUTS = [0, 1, 2] as const;
+const NO_COLORS: MapColors = { range: [0, 1], middle: null, table: new Uint8ClampedArray() };
 
 export function Volume(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
@@ -166,12 +170,12 @@ function tableOf(axes: AxisView[], lives: Live[], at: Record<string, number>, po
 function readSlices(axes: AxisView[], lives: Live[], at: ScenePosition, slice: number | null): string {
   const known = (cut: number) => at.filter((value, d) => d !== cut && value !== null).length;
   const cut = slice ?? CUTS.reduce<number>((best, other) => (known(other) > known(best) ? other : best), 0);
-  const [x, y] = lives[cut]?.form?.axes ?? [];
-  if (x === undefined || y === undefined) {
+  const plane = planeContent(null, lives[cut], "", () => NO_COLORS);
+  if (plane === null) {
     return "";
   }
   const [across = null, up = null] = at.filter((_, d) => d !== cut);
   const [axis, position] = [axes[cut], at[cut] ?? null];
   const word = axis === undefined || position === null ? "" : `${axis.name} ${reading(position)}   `;
-  return word + readPlane(lives[cut] ?? null, x, y, { x: across, y: up });
+  return word + readContent(plane, { x: across, y: up });
 }

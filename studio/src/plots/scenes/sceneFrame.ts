@@ -2,10 +2,12 @@
 // scene, so the edges in front of it are left out.
 
 import type { AxisView } from "../../protocol";
-import { drawColorBar } from "../colors/colorBar";
-import { font, type Look } from "../colors/look";
-import type { MapColors } from "../colors/mapColors";
-import { tick, ticks } from "../range";
+import { drawColorBar } from "../../draw/bar";
+import { font } from "../../draw/ink";
+import type { Ink } from "../../draw/ink";
+import type { MapColors } from "../../draw/content";
+import { ticks } from "../../draw/scale";
+import { tick } from "../../draw/text";
 import { cameraAt, type Point3, projection, type Viewpoint } from "./sceneView";
 
 export type SceneAxis = {
@@ -35,7 +37,7 @@ export function drawSceneFrame(
   ctx: CanvasRenderingContext2D,
   { size, axes, bar }: SceneFrame,
   view: Viewpoint,
-  look: Look,
+  look: Ink,
   width: number,
   height: number,
 ): void {
@@ -67,7 +69,7 @@ export function drawSceneFrame(
   if (bar !== null) {
     const bbox = { left: 0, top: BAR_TOP * unit, width: (width - BAR_RIGHT) * unit, height: height * unit };
     bbox.height = Math.max(20, bbox.height - 2 * bbox.top);
-    drawColorBar({ ctx, bbox }, { ...look, unit: unit / devicePixelRatio }, bar);
+    drawColorBar(ctx, bbox, look, bar);
   }
 }
 
@@ -78,7 +80,7 @@ function drawAxis(
   { label, range }: SceneAxis,
   [from, to]: readonly [Pixel, Pixel],
   middle: Pixel,
-  { unit }: Look,
+  { unit }: Ink,
 ): void {
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
   // At a right angle to the axis, away from the middle of the box.

@@ -1,7 +1,7 @@
 // The lengths of the box of a scene: the longest side is 1, and axes that share a unit have the same scale.
 
 import type { AxisView } from "../../protocol";
-import { commonScale } from "../../model/axes";
+import { commonScale } from "../../draw/axis";
 import type { Point3 } from "./sceneView";
 
 const HEIGHT = 0.5;

@@ -25,7 +25,7 @@ import {
   Vector3,
   WebGLRenderer,
 } from "three";
-import type { MapColors } from "../colors/mapColors";
+import type { MapColors } from "../../draw/content";
 import { ANGLE, cameraAt, DISTANCE, magnification, type Point3, type Viewpoint } from "./sceneView";
 
 // A plane through the box at right angles to an axis, from its lower end (0) to its upper end (1). The canvas

@@ -7,7 +7,7 @@ import { type RefObject, useEffect, useRef, useState } from "react";
 import type { ListedProblem } from "../../protocol";
 import { type DrawingFormat, exportScene } from "../export/exportDrawing";
 import { type Coordinate, linkedCursor, valueOn } from "../linked";
-import { pageLook } from "../colors/look";
+import { pageInk } from "../colors/look";
 import { drawSceneFrame, type SceneFrame } from "./sceneFrame";
 import { FIRST_VIEW, turned, type Viewpoint, zoomed } from "./sceneView";
 import type { Hit, SceneStage } from "./sceneStage";
@@ -176,7 +176,7 @@ class LiveScene {
     this.below.height = Math.round(height * devicePixelRatio);
     const ctx = this.below.getContext("2d");
     if (ctx !== null) {
-      drawSceneFrame(ctx, frame, this.view, { ...pageLook(), unit: devicePixelRatio }, width, height);
+      drawSceneFrame(ctx, frame, this.view, { ...pageInk(), unit: devicePixelRatio }, width, height);
     }
     this.frame = frame;
     this.showCursor(frame);
@@ -190,7 +190,7 @@ class LiveScene {
       return value === null ? null : (value - lower) / (upper - lower);
     });
     const some = at.some((value) => value !== null);
-    this.stage.showCursor(shares, pageLook().text);
+    this.stage.showCursor(shares, pageInk().text);
     this.words.textContent = some ? this.content().read(at, this.pointed?.slice ?? null) : "";
     if (some && this.pointed === null) {
       this.host.dataset["linked"] = ["x", "y", "z"].filter((_, d) => at[d] != null).join("");

@@ -1,0 +1,225 @@
+// A plot of the page: the streams that its kind asks for, and the drawings of what the kind makes of them.
+
+import { CloseButton, useComputedColorScheme } from "@mantine/core";
+import { useEffect, useMemo, useRef } from "react";
+import type { Axis } from "../draw/axis";
+import type { Content } from "../draw/content";
+import type { Shade } from "../draw/ink";
+import { tableOf } from "../draw/table";
+import type { PlotKind } from "../model/ports";
+import { openPlot } from "../panels/openPlot";
+import { useStudio } from "../store";
+import type { Live } from "../streams";
+import { Chip } from "./controls/Chip";
+import { PlotSettingsControls } from "./controls/PlotSettingsControls";
+import { SectionStrip } from "./controls/SectionStrip";
+import { Drawing } from "./Drawing";
+import { type DrawingFormat, exportDrawing, exportMultiples } from "./export/exportDrawing";
+import type { FlatPlot, LegendEntry, Shown } from "./kinds/kind";
+import { levelsAt } from "./kinds/parts";
+import { pushAmplitude } from "./levels";
+import { Memory } from "./memory";
+import { PlotFrame, type PlotProps } from "./PlotFrame";
+import { curveLevel } from "./shownPorts";
+import type { Injection } from "./spot";
+import { useLatest } from "./useLatest";
+import { usePorts } from "./usePorts";
+import { useStreams } from "./useStreams";
+
+type TileProps = PlotProps & { kind: PlotKind; plot: FlatPlot };
+
+export function Tile(props: TileProps) {
+  const { element, port, settings } = props;
+  const document = useStudio((state) => state.document);
+  const elements = useStudio((state) => state.elements);
+  const type = useStudio((state) => state.kinds.get(element.kind));
+  const moment = useStudio((state) => state.clock?.timeline?.time ?? null);
+  return document === null ? null : (
+    <ShownTile {...props} shown={{ document, elements, type, element, port, settings, moment }} />
+  );
+}
+
+function ShownTile(props: TileProps & { shown: Shown }) {
+  const { element, port, settings, visible, set, plot, shown } = props;
+  const { at, drawn, traces, across, up } = settings;
+  const scheme = useComputedColorScheme("light", { getInitialValueInEffect: false });
+  const ports = usePorts(element, port, plot.ports ?? (() => false));
+  const calm = JSON.stringify([element.id, port, drawn, traces, across, up]);
+  const memory = useMemo(() => new Memory(), [calm]);
+  const lives = useRef<Live[]>([]);
+  const drawings = useRef<(Drawing | null)[]>([]);
+  const cells = "cells" in plot ? plot.cells(shown) : null;
+  const contents = (): (Content | null)[] =>
+    "contents" in plot
+      ? plot.contents(shown, lives.current, memory)
+      : [plot.content(shown, lives.current, memory)];
+  const draw = () => {
+    if (visible) {
+      contents().forEach((content, i) => drawings.current[i]?.show(content));
+    }
+  };
+  const wishes = plot.wishes(shown);
+  // Samples over time are gathered while the plot is hidden; only the drawing waits.
+  const gathers = wishes.some(({ type }) => type === "trace" || type === "rows");
+  const streaming = useStreams(wishes, visible || gathers, (newest) => {
+    lives.current = newest;
+    draw();
+  });
+  useEffect(draw);
+
+  const form = streaming.forms.find((other) => other !== null) ?? null;
+  const controls = plot.settings(shown);
+  const pushes = controls.includes("push") && element.pushable;
+  const amplitude =
+    settings.amplitude ?? pushAmplitude(levelsAt(shown, curveLevel(element, shown.type, port)));
+  const injection = ({ x, y }: Content): Injection => ({
+    element,
+    document: shown.document,
+    shown: [x.along, y.along].filter((along): along is Axis => along !== null && along !== "time"),
+    amplitude,
+    width: settings.width,
+    at,
+  });
+  const legend = plot.legend?.(shown) ?? [];
+  const table = () => {
+    const drawn = drawings.current.flatMap((drawing, i) =>
+      drawing?.content == null ? [] : [{ content: drawing.content, name: cells?.[i]?.path ?? "" }],
+    );
+    const names = cells === null ? undefined : drawn.map(({ name }) => name);
+    return tableOf(
+      drawn.map(({ content }) => content),
+      names,
+    );
+  };
+  const exportAs = (format: DrawingFormat) => {
+    const [drawing] = drawings.current;
+    if (cells !== null) {
+      const drawn = cells.flatMap(({ path }, i) => {
+        const { host, content = null } = drawings.current[i] ?? {};
+        return host === undefined ? [] : [{ name: path, box: host.getBoundingClientRect(), content }];
+      });
+      exportMultiples(plot.file(shown), drawn, format);
+    } else if (drawing?.content != null) {
+      const { clientWidth: width, clientHeight: height } = drawing.host;
+      const entries = legend.filter(({ on, dashed }) => on && dashed !== true);
+      exportDrawing(plot.file(shown), { width, height, content: drawing.content }, entries, format);
+    }
+  };
+  const keep = (i: number) => (drawing: Drawing | null) => {
+    drawings.current[i] = drawing;
+  };
+  return (
+    <PlotFrame
+      {...props}
+      {...(plot.ports === undefined ? {} : { ports })}
+      streaming={streaming}
+      note={plot.note?.(shown) ?? ""}
+      legend={legend.map((entry) => (
+        <LegendChip key={entry.label} entry={entry} shade={scheme} set={set} />
+      ))}
+      strip={<SectionStrip rest={form?.rest ?? []} at={at} set={set} />}
+      {...(controls.length === 0
+        ? {}
+        : {
+            controls: (
+              <PlotSettingsControls
+                names={controls}
+                sides={plot.sides ?? []}
+                shown={shown}
+                form={form}
+                range={() => memory.range}
+                amplitude={amplitude}
+                set={set}
+              />
+            ),
+          })}
+      table={table}
+      exportAs={exportAs}
+    >
+      {cells === null ? (
+        <Place
+          label={plot.label(shown)}
+          name={`Drawing of ${element.path}${pushes ? "; hold I to inject" : ""}`}
+          injection={pushes ? injection : null}
+          keep={keep(0)}
+        />
+      ) : (
+        <div className="plot-multiples" role="group" aria-label={plot.label(shown)}>
+          {cells.map((other, i) => (
+            <div key={other.id} className="plot-cell">
+              <button
+                type="button"
+                className="plot-cell-name one-line"
+                title={`Plot ${other.path}`}
+                onClick={() => openPlot({ element: other.id, port })}
+              >
+                {other.path}
+              </button>
+              <div className="plot-cell-body">
+                <Place label={`${port} of ${other.path}`} injection={null} keep={keep(i)} />
+              </div>
+            </div>
+          ))}
+        </div>
+      )}
+    </PlotFrame>
+  );
+}
+
+type PlaceProps = {
+  label: string;
+  // Of a place that takes keys.
+  name?: string;
+  injection: ((content: Content) => Injection) | null;
+  keep: (drawing: Drawing | null) => void;
+};
+
+// The place of a drawing.
+function Place({ label, name, injection, keep }: PlaceProps) {
+  const host = useRef<HTMLDivElement>(null);
+  const latest = useLatest({ label, injection, keep });
+  const pushes = injection !== null;
+  useEffect(() => {
+    if (host.current === null) {
+      return;
+    }
+    const drawing = new Drawing(host.current, {
+      label: () => latest.current.label,
+      injection: pushes ? (content) => latest.current.injection?.(content) ?? null : null,
+    });
+    const { keep: keeping } = latest.current;
+    keeping(drawing);
+    return () => {
+      keeping(null);
+      drawing.end();
+    };
+  }, [latest, pushes]);
+  const group = name === undefined ? {} : { tabIndex: 0, role: "group", "aria-label": name };
+  return <div ref={host} className="plot-host" {...group} />;
+}
+
+type LegendChipProps = { entry: LegendEntry; shade: Shade; set: PlotProps["set"] };
+
+function LegendChip({
+  entry: { label, color, dashed = false, on, press, remove },
+  shade,
+  set,
+}: LegendChipProps) {
+  if (press !== undefined) {
+    return <Chip label={label} color={color[shade]} dashed={dashed} on={on} toggle={() => set(press)} />;
+  }
+  return (
+    <span className="plot-chip plot-still" title={label}>
+      <span className="plot-swatch" style={{ borderColor: color[shade] }} />
+      <span className="plot-label one-line">{label}</span>
+      {remove !== undefined && (
+        <CloseButton
+          size={16}
+          iconSize={12}
+          aria-label={`Remove ${label} from this plot`}
+          onClick={() => set(remove)}
+        />
+      )}
+    </span>
+  );
+}
