@@ -178,32 +178,6 @@ test("a field over four axes is cut by sliders on the axes that are not drawn", 
   await shot(studio.page, "plot-four-axes");
 });
 
-test("two axes that share a unit have the same scale in pictures, kernels and multiples", async () => {
-  await arrange("aspect.json", [
-    [
-      ["picture", "picture"],
-      ["plane", "kernel"],
-    ],
-    [
-      ["plane", "multiples"],
-      ["plane", "heat"],
-    ],
-  ]);
-  const shares: Record<string, number> = {
-    "Picture of picture": 21 / 11,
-    "Interaction kernel of plane": 41 / 21,
-    "Small multiples of plane": 21 / 11,
-    "Heat map of plane": 21 / 11,
-  };
-  for (const [name, share] of Object.entries(shares)) {
-    for (const over of await plot(name).locator(".plot-over").all()) {
-      const room = await settled(studio.page, () => over.boundingBox());
-      expect((room?.width ?? 0) / (room?.height ?? 1) / share, name).toBeGreaterThan(0.97);
-      expect((room?.width ?? 0) / (room?.height ?? 1) / share, name).toBeLessThan(1.03);
-    }
-  }
-});
-
 test("plots without a scene ask the server for no further part of the page", async () => {
   const page = await studio.another();
   const asked: string[] = [];

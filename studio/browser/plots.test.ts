@@ -332,25 +332,6 @@ test("small multiples show the fields over the same axes side by side, on the sa
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 
-test("a plot shows the interaction kernel while a slider moves", async () => {
-  const { page } = studio;
-  await choose(page, "Menu of this plot", "Interaction kernel");
-  const drawing = chart("Interaction kernel of u", "Interaction kernel of u");
-  const readout = plot("Interaction kernel of u").locator(".plot-readout");
-  await plot("Interaction kernel of u").getByText("Press play").waitFor({ state: "detached" });
-  const over = plot("Interaction kernel of u").locator(".plot-over");
-  const room = await over.boundingBox();
-  await over.hover({ position: { x: (room?.width ?? 0) / 2, y: 20 } });
-  const before = await drawn(drawing);
-  // near 12 / (sqrt(2 pi) 5): the amplitude is the integral
-  await expect.poll(() => readout.textContent()).toMatch(/^lag in x .*\s0\.9\d\d$/);
-  const u = observer.element("u").id;
-  await observer.ask({ type: "set", element: u, parameter: "kernel.0.amplitude", value: 24 });
-  await expect.poll(() => readout.textContent()).toMatch(/\s1\.[89]\d\d$/);
-  expect(await drawn(drawing)).not.toBe(before);
-  await shot(page, "plot-kernel");
-});
-
 test("axis, interaction kernel and time windows are edited in the plot that shows them", async () => {
   const { page } = studio;
   await reopen(page, observer, "edited.json");
@@ -605,20 +586,6 @@ test("a plot is exported as a picture file", async () => {
     lines.filter((points) => points > 60),
     "two curves",
   ).toHaveLength(2);
-});
-
-test("a plot is exported as a table", async () => {
-  const { page } = studio;
-  await step(300);
-  await plot("Curves of u").getByText("Press play").waitFor({ state: "detached" });
-  const download = await downloaded(page, () => choose(page, "Menu of this plot", "Export CSV"));
-  expect(download.suggestedFilename()).toBe("u_Curves.csv");
-  const lines = readFileSync(await download.path(), "utf8")
-    .trimEnd()
-    .split("\n");
-  expect(lines[0]).toBe("x (deg),activation,output");
-  expect(lines).toHaveLength(102);
-  expect(lines[101]).toMatch(/^100,-?\d+\.\d+,\d/);
 });
 
 test("the right button, a finger and the key I make a peak while they are held", async () => {

@@ -13,7 +13,7 @@ const SCRIPT = asScript(install);
 const CONTEXTS = 5;
 const SECONDS = 8;
 /** Of each plot the canvas with its values: that of a map lies above the one with its axes. */
-const PLOTS = ".plot-heat, .plot-host:has(> .plot-heat[hidden]) > .plot-canvas";
+const PLOTS = ".plot-heat, .plot-host:not(:has(.plot-heat)) > .plot-canvas";
 
 /** From the address to the first picture, each time with a new browser profile. */
 export async function firstPaint(name: string, document: object | null, stands: string): Promise<void> {

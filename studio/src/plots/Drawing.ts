@@ -8,6 +8,7 @@ import { type Ink, isSmall } from "../draw/ink";
 import { paintRaster } from "../draw/marks";
 import { drawPlot } from "../draw/plot";
 import { type At, nearestIndex, nearestPlace, nearestTime, readContent } from "../draw/cursorText";
+import { shade } from "./colors/colors";
 import { pageInk } from "./colors/look";
 import { attachInjection } from "./injection/injection";
 import { type Coordinate, linkedCursor, valueOn } from "./linked";
@@ -31,22 +32,31 @@ export class Drawing {
   private strips = [made("div", "plot-axis"), made("div", "plot-axis")] as const;
   private dots: HTMLElement[] = [];
   private layout: Layout | null = null;
+  // The size of the place and the colours of the page, which cost a layout to read: not for each picture.
+  private size = { width: 0, height: 0 };
+  private ink: Ink | null = null;
   private drawn = "";
   // The pointer inside, in pixels of the page; null: it is elsewhere.
   private pointer: readonly [number, number] | null = null;
   private linked: At | null = null;
   private listening = new AbortController();
-  private observer = new ResizeObserver(() => this.draw());
+  private observer = new ResizeObserver(() => {
+    this.measure();
+    this.draw();
+  });
   private ends: (() => void)[];
 
   constructor(
     readonly host: HTMLElement,
     private asked: Asked,
   ) {
-    host.append(this.image, this.canvas, ...this.strips, this.over);
+    host.append(this.canvas, ...this.strips, this.over);
     this.over.append(this.cross.x, this.cross.y, this.words);
     const { signal } = this.listening;
-    const move = (event: PointerEvent) => this.point([event.offsetX, event.offsetY], event);
+    const move = ({ clientX, clientY }: PointerEvent) => {
+      const { left, top } = this.over.getBoundingClientRect();
+      this.point([clientX - left, clientY - top]);
+    };
     this.over.addEventListener("pointerenter", move, { signal });
     this.over.addEventListener("pointermove", move, { signal });
     this.over.addEventListener("pointerleave", () => this.point(null), { signal });
@@ -58,6 +68,7 @@ export class Drawing {
         ? []
         : [attachInjection(this, () => (this.content === null ? null : injection(this.content)))]),
     ];
+    this.measure();
     this.name();
   }
 
@@ -65,6 +76,9 @@ export class Drawing {
   show(content: Content | null): void {
     this.content = content ?? this.content;
     this.draw();
+    if (this.pointer !== null) {
+      linkedCursor.point(this, this.coordinates());
+    }
   }
 
   end(): void {
@@ -97,25 +111,41 @@ export class Drawing {
 
   private draw(): void {
     this.name();
-    const { content, host } = this;
-    const { clientWidth, clientHeight } = host;
-    if (content === null || clientWidth === 0 || clientHeight === 0) {
+    const { content, host, size } = this;
+    if (content === null || size.width === 0 || size.height === 0) {
       return;
     }
-    const ink: Ink = { ...pageInk(isSmall(clientWidth, clientHeight)), unit: devicePixelRatio };
-    const [width, height] = [clientWidth, clientHeight].map((size) => Math.round(size * devicePixelRatio));
-    const still = stillOf(content, ink, width ?? 0, height ?? 0);
+    const ink = this.inkNow();
+    const [width, height] = [Math.round(size.width * ink.unit), Math.round(size.height * ink.unit)];
+    const still = stillOf(content, ink, width, height);
     if (still === null || still !== this.drawn) {
       this.drawn = still ?? "";
-      this.redraw(content, ink, width ?? 0, height ?? 0);
+      this.redraw(content, ink, width, height);
     }
     const raster = rasterOf(content);
-    this.image.hidden = raster === null;
-    if (raster !== null) {
-      const { clientWidth: across, clientHeight: down } = this.over;
-      paintRaster(this.image, raster, content, { width: across, height: down });
+    if (raster === null) {
+      this.image.remove();
+    } else {
+      if (!this.image.isConnected) {
+        host.prepend(this.image);
+      }
+      const { width: across, height: down } = (this.layout ?? NOTHING).box;
+      paintRaster(this.image, raster, content, { width: across / ink.unit, height: down / ink.unit });
     }
     this.cursor();
+  }
+
+  private measure(): void {
+    this.size = { width: this.host.clientWidth, height: this.host.clientHeight };
+  }
+
+  private inkNow(): Ink {
+    const small = isSmall(this.size.width, this.size.height);
+    const unit = devicePixelRatio;
+    if (this.ink?.shade !== shade() || this.ink.small !== small || this.ink.unit !== unit) {
+      this.ink = { ...pageInk(small), unit };
+    }
+    return this.ink;
   }
 
   private redraw(content: Content, ink: Ink, width: number, height: number): void {
@@ -139,10 +169,11 @@ export class Drawing {
   private name(): void {
     const raster = this.content === null ? null : rasterOf(this.content);
     const [named, other] = raster?.type === "picture" ? [this.image, this.canvas] : [this.canvas, this.image];
-    named.setAttribute("role", "img");
-    named.setAttribute("aria-label", this.asked.label());
-    other.removeAttribute("role");
-    other.removeAttribute("aria-label");
+    const label = this.asked.label();
+    if (named.ariaLabel !== label || other.role !== null) {
+      [named.role, named.ariaLabel] = ["img", label];
+      [other.role, other.ariaLabel] = [null, null];
+    }
   }
 
   // The values at the cursor; null: there is none.
@@ -154,13 +185,7 @@ export class Drawing {
     return { x, y };
   }
 
-  point(place: readonly [number, number] | null, event?: PointerEvent): void {
-    // Above the cursor's own elements an offset is theirs.
-    const box = event === undefined ? null : this.over.getBoundingClientRect();
-    const now =
-      event === undefined || box === null
-        ? place
-        : ([event.clientX - box.left, event.clientY - box.top] as const);
+  private point(now: readonly [number, number] | null): void {
     const before = this.pointer;
     this.pointer = now;
     if (now !== null) {
@@ -214,23 +239,34 @@ export class Drawing {
 
   // Draw the cursor, and say what lies there.
   private cursor(): void {
-    const { content, layout } = this;
-    const at = content === null || layout === null ? null : this.at();
-    const { dataset } = this.host;
-    const linked = this.pointer === null && at !== null;
-    if (linked) {
-      dataset["linked"] = `${at.x === null ? "" : "x"}${at.y === null ? "" : "y"}`;
-    } else {
-      delete dataset["linked"];
+    const { content, host, cross } = this;
+    const at = content === null || this.layout === null ? null : this.at();
+    if (at === null || content === null) {
+      delete host.dataset["linked"];
+      [cross.x.hidden, cross.y.hidden] = [true, true];
+      this.say("");
+      this.mark([], 0);
+      return;
     }
-    const upright = content !== null && (content.y.along !== null || marksOf(content, "tail").length > 0);
-    const [left, top] = at === null ? [0, 0] : this.placeOf([at.x ?? 0, at.y ?? 0]);
-    this.cross.x.hidden = at?.x == null;
-    this.cross.y.hidden = at?.y == null || !upright;
-    this.cross.x.style.transform = `translateX(${left}px)`;
-    this.cross.y.style.transform = `translateY(${top}px)`;
-    this.words.textContent = at === null || content === null ? "" : readContent(content, at);
-    this.mark(content === null || at?.x == null ? [] : marksOf(content, "line"), at?.x ?? 0);
+    if (this.pointer === null) {
+      host.dataset["linked"] = `${at.x === null ? "" : "x"}${at.y === null ? "" : "y"}`;
+    } else {
+      delete host.dataset["linked"];
+    }
+    // The height in a plot of curves means nothing.
+    const upright = content.y.along !== null || marksOf(content, "tail").length > 0;
+    const [left, top] = this.placeOf([at.x ?? 0, at.y ?? 0]);
+    [cross.x.hidden, cross.y.hidden] = [at.x === null, at.y === null || !upright];
+    cross.x.style.transform = `translateX(${left}px)`;
+    cross.y.style.transform = `translateY(${top}px)`;
+    this.say(readContent(content, at));
+    this.mark(at.x === null ? [] : marksOf(content, "line"), at.x ?? 0);
+  }
+
+  private say(words: string): void {
+    if (this.words.textContent !== words) {
+      this.words.textContent = words;
+    }
   }
 
   // A dot on each curve at the cursor.
@@ -244,7 +280,7 @@ export class Drawing {
       }
       const up = right === true && layout.right !== null ? layout.right : layout.y;
       const top = (up.place(y) - layout.box.top) / devicePixelRatio;
-      return [{ left: this.placeOf([x, 0])[0], top, color: color[pageInk().shade] }];
+      return [{ left: this.placeOf([x, 0])[0], top, color: color[shade()] }];
     });
     while (this.dots.length < places.length) {
       const dot = made("div", "plot-dot");

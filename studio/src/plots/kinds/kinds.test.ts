@@ -201,6 +201,15 @@ describe("maps", () => {
     expect(content("kernel", shown(["x", "y"]), [live([X, Y], values)]).marks[0]?.type).toBe("map");
   });
 
+  it("over two axes with a unit in common have the same scale on both sides", () => {
+    const lives = [live([X, Y], values)];
+    for (const kind of ["heat", "weights", "kernel"]) {
+      expect(content(kind, shown(["x", "y"]), lives).equal, kind).toBe(true);
+    }
+    const turn = { ...Y, unit: "deg" };
+    expect(content("heat", shown(["x", "y"]), [live([X, turn], values)]).equal).toBe(false);
+  });
+
   it("of pictures read the three channels", () => {
     const of = shown(["x", "y", "channel"]);
     const made = content("picture", of, [
@@ -209,7 +218,7 @@ describe("maps", () => {
         Array.from({ length: 18 }, (_, i) => i / 100),
       ),
     ]);
-    expect(made.y.down).toBe(true);
+    expect([made.y.down, made.equal]).toEqual([true, true]);
     expect(words(made, { x: 1, y: 0 })).toBe("x 1.000   y 0.000   r 0.060   g 0.070   b 0.080");
     expect(words(made, { x: 1, y: null })).toBe("x 1.000");
     expect(head(made).split("\n")[0]).toBe("x (cm),y (cm),activation red,activation green,activation blue");
