@@ -7,11 +7,10 @@ import { useContext, useEffect, useRef } from "react";
 import { isRecord } from "../../replay/replay";
 import { socket } from "../../socket";
 import type { Live } from "../../streams";
+import { useStudio } from "../../store";
+import { mostSamples } from "./boxes";
 import { clear, drawLive, drawWords, type Canvas } from "./drawLive";
 import { PainterContext } from "./PainterContext";
-
-// Samples along an axis: more than the box has room for would be sent in vain.
-const MOST = 64;
 
 type Props = { element: string; port: string; label: string; width: number; height: number };
 
@@ -31,7 +30,9 @@ export function LiveBox({ element, port, label, width, height }: Props) {
     let form: Live["form"] = null;
     picture.getContext("2d", canvasSettings());
     clear(canvas);
-    const leave = socket.streams.subscribe({ type: "watch", element, port, most: MOST }, (live) => {
+    const axes = useStudio.getState().elements.get(element)?.axes[port]?.length ?? 0;
+    const most = mostSamples(axes, width);
+    const leave = socket.streams.subscribe({ type: "watch", element, port, most }, (live) => {
       if (live.form !== form) {
         form = live.form;
         canvas.span = null;

@@ -4,6 +4,8 @@ import type { ElementView } from "../../protocol";
 import type { Point, Size } from "../layout/layout";
 
 export const BOX = { width: 156, title: 40, port: 24, pad: 8 };
+// Samples along each axis of a map.
+const MOST_CELLS = 64;
 // `small` is the width of a live picture in a box that shows its name and little else.
 export const LIVE = { width: BOX.width - 2 * BOX.pad, curve: 56, number: 20, small: 84 };
 
@@ -38,6 +40,12 @@ export function dimensionsText(n: number): string {
 export function liveHeight(element: ElementView): number {
   const port = livePort(element);
   return port === null ? 0 : dimensions(element) === 0 ? LIVE.number : LIVE.curve;
+}
+
+// The samples along an axis for which a live picture has room: a curve has two for each of its pixels, which
+// a view that is magnified shows.
+export function mostSamples(axes: number, width: number): number {
+  return axes === 1 ? 2 * width : MOST_CELLS;
 }
 
 export function boxSize(element: ElementView): Size {
