@@ -13,8 +13,9 @@ import type { Live } from "../streams";
 import { Chip } from "./controls/Chip";
 import { PlotSettingsControls } from "./controls/PlotSettingsControls";
 import { SectionStrip } from "./controls/SectionStrip";
-import { Drawing } from "./Drawing";
+import type { Drawing } from "./Drawing";
 import { type DrawingFormat, exportDrawing, exportMultiples } from "./export/exportDrawing";
+import { DrawingPlace } from "./DrawingPlace";
 import type { FlatPlot, LegendEntry, Shown } from "./kinds/kind";
 import { levelsAt } from "./kinds/parts";
 import { pushAmplitude } from "./levels";
@@ -22,7 +23,6 @@ import { Memory } from "./memory";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { curveLevel } from "./shownPorts";
 import type { Injection } from "./spot";
-import { useLatest } from "./useLatest";
 import { usePorts } from "./usePorts";
 import { useStreams } from "./useStreams";
 
@@ -45,8 +45,11 @@ function ShownTile(props: TileProps & { shown: Shown }) {
   const scheme = useComputedColorScheme("light", { getInitialValueInEffect: false });
   const ports = usePorts(element, port, plot.ports ?? (() => false));
   const calm = JSON.stringify([element.id, port, drawn, traces, across, up]);
-  const memory = useMemo(() => new Memory(), [calm]);
-  const lives = useRef<Live[]>([]);
+  // The values of another port have no part in the ranges of this one.
+  const [memory, lives] = useMemo(
+    (): [Memory, { current: Live[] }] => [new Memory(), { current: [] }],
+    [calm],
+  );
   const drawings = useRef<(Drawing | null)[]>([]);
   const cells = "cells" in plot ? plot.cells(shown) : null;
   const contents = (): (Content | null)[] =>
@@ -137,7 +140,7 @@ function ShownTile(props: TileProps & { shown: Shown }) {
       exportAs={exportAs}
     >
       {cells === null ? (
-        <Place
+        <DrawingPlace
           label={plot.label(shown)}
           name={`Drawing of ${element.path}${pushes ? "; hold I to inject" : ""}`}
           injection={pushes ? injection : null}
@@ -156,7 +159,7 @@ function ShownTile(props: TileProps & { shown: Shown }) {
                 {other.path}
               </button>
               <div className="plot-cell-body">
-                <Place label={`${port} of ${other.path}`} injection={null} keep={keep(i)} />
+                <DrawingPlace label={`${port} of ${other.path}`} injection={null} keep={keep(i)} />
               </div>
             </div>
           ))}
@@ -164,38 +167,6 @@ function ShownTile(props: TileProps & { shown: Shown }) {
       )}
     </PlotFrame>
   );
-}
-
-type PlaceProps = {
-  label: string;
-  // Of a place that takes keys.
-  name?: string;
-  injection: ((content: Content) => Injection) | null;
-  keep: (drawing: Drawing | null) => void;
-};
-
-// The place of a drawing.
-function Place({ label, name, injection, keep }: PlaceProps) {
-  const host = useRef<HTMLDivElement>(null);
-  const latest = useLatest({ label, injection, keep });
-  const pushes = injection !== null;
-  useEffect(() => {
-    if (host.current === null) {
-      return;
-    }
-    const drawing = new Drawing(host.current, {
-      label: () => latest.current.label,
-      injection: pushes ? (content) => latest.current.injection?.(content) ?? null : null,
-    });
-    const { keep: keeping } = latest.current;
-    keeping(drawing);
-    return () => {
-      keeping(null);
-      drawing.end();
-    };
-  }, [latest, pushes]);
-  const group = name === undefined ? {} : { tabIndex: 0, role: "group", "aria-label": name };
-  return <div ref={host} className="plot-host" {...group} />;
 }
 
 type LegendChipProps = { entry: LegendEntry; shade: Shade; set: PlotProps["set"] };
