@@ -29,8 +29,7 @@ export type Line = Readonly<{
   ys: Series;
   // Whether its values are on the right side.
   right?: boolean;
-  // Whether missing values leave no gap.
-  joined?: boolean;
+  dashed?: boolean;
 }>;
 
 export type MapColors = Readonly<{ range: Range; middle: number | null; table: ColorTable }>;

@@ -54,12 +54,12 @@ function drawMark(place: Place, mark: PlotMark, labels: number[]): void {
 
 // Points on whole pixels and bevelled joins: without a graphics card others cost a fifth more. Of many
 // samples in one column of pixels the first, the least, the greatest and the last.
-function drawLine({ ctx, layout, ink }: Place, { xs, ys, color, width, right, joined }: Line): void {
+function drawLine({ ctx, layout, ink }: Place, { xs, ys, color, width, right, dashed = false }: Line): void {
   const up: Scale = right === true && layout.right !== null ? layout.right : layout.y;
   ctx.strokeStyle = color[ink.shade];
   ctx.lineWidth = width * ink.unit;
   ctx.lineJoin = "bevel";
-  ctx.setLineDash([]);
+  ctx.setLineDash(dashed ? DASH.map((length) => length * ink.unit) : []);
   ctx.beginPath();
   let column = NaN;
   let [low, high, last] = [0, 0, 0];
@@ -75,10 +75,8 @@ function drawLine({ ctx, layout, ink }: Place, { xs, ys, color, width, right, jo
   for (let i = 0; i < xs.length; i++) {
     const value = ys[i];
     if (value == null || !Number.isFinite(value)) {
-      if (joined !== true) {
-        leave();
-        column = NaN;
-      }
+      leave();
+      column = NaN;
       continue;
     }
     const x = Math.round(layout.x.place(xs[i] as number));
@@ -107,7 +105,7 @@ function drawLevel({ ctx, layout, ink }: Place, { label, value, color }: LevelLi
   const y = Math.round(layout.y.place(value));
   ctx.strokeStyle = color[ink.shade];
   ctx.fillStyle = color[ink.shade];
-  dashed(ctx, ink, [left, y, left + width, y]);
+  dashedLine(ctx, ink, [left, y, left + width, y]);
   if (ink.small || label === "") {
     return;
   }
@@ -135,10 +133,10 @@ function drawMoment({ ctx, content, layout, ink }: Place, { time }: Moment): voi
   const at = Math.round((down ? layout.y : layout.x).place(time));
   ctx.strokeStyle = ink.text;
   const ends = down ? [left, at, left + width, at] : [at, top, at, top + height];
-  dashed(ctx, ink, ends as [number, number, number, number], true);
+  dashedLine(ctx, ink, ends as [number, number, number, number], true);
 }
 
-function dashed(
+function dashedLine(
   ctx: CanvasRenderingContext2D,
   ink: Ink,
   [x1, y1, x2, y2]: readonly [number, number, number, number],

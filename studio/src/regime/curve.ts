@@ -1,52 +1,26 @@
-// The picture of a measured regime: settled activation over the strength of an input, as paths of an SVG.
+// A measured regime as the content of a plot: settled activation over the strength of an input.
 
+import type { Content } from "../draw/content";
+import { extent, round } from "../draw/scale";
+import { LEVEL, line, portPaint } from "../plots/kinds/parts";
 import type { RegimeCurve } from "../protocol";
 
-export const SIZE = { width: 340, height: 170 };
-const MARGIN = { left: 38, right: 8, top: 8, bottom: 34 };
-
-export type CurvePaths = {
-  up: string;
-  down: string;
-  // The threshold of a peak, as a height.
-  threshold: number;
-  // The ends of both ranges, and their places in the picture.
-  x: { at: number; value: number }[];
-  y: { at: number; value: number }[];
-};
-
-/** Both branches as paths; they part where the field is bistable. */
-export function curvePaths(curve: RegimeCurve): CurvePaths {
-  const values = [...curve.up, ...curve.down].filter((value) => value !== null);
-  const low = Math.min(curve.threshold, ...values);
-  const high = Math.max(curve.threshold, ...values);
-  const first = curve.input[0] ?? 0;
-  const last = curve.input.at(-1) ?? 1;
-  const x = (value: number) =>
-    MARGIN.left + ((value - first) / (last - first || 1)) * (SIZE.width - MARGIN.left - MARGIN.right);
-  const y = (value: number) =>
-    SIZE.height -
-    MARGIN.bottom -
-    ((value - low) / (high - low || 1)) * (SIZE.height - MARGIN.top - MARGIN.bottom);
-  const path = (heights: (number | null)[]) => {
-    let pen = "M";
-    return heights
-      .map((value, i) => {
-        if (value === null) {
-          pen = "M";
-          return "";
-        }
-        const part = `${pen}${x(curve.input[i] ?? 0).toFixed(1)} ${y(value).toFixed(1)}`;
-        pen = "L";
-        return part;
-      })
-      .join("");
-  };
+// Both branches, which part where the field is bistable; a value that is missing leaves a gap.
+export function curveContent({ input, up, down, threshold }: RegimeCurve): Content {
+  const known = (values: readonly (number | null)[]) => values.map((value) => value ?? Number.NaN);
+  const range = round(extent([...known(up), ...known(down), threshold]) ?? [0, 1]);
+  const [first = 0, last = 1] = [input[0], input.at(-1)];
   return {
-    up: path(curve.up),
-    down: path(curve.down),
-    threshold: y(curve.threshold),
-    x: [first, last].map((value) => ({ at: x(value), value })),
-    y: [low, high].map((value) => ({ at: y(value), value })),
+    x: {
+      along: null,
+      label: "strength of a localised input",
+      range: [first, last > first ? last : first + 1],
+    },
+    y: { along: null, range },
+    marks: [
+      { type: "level", label: "threshold", value: threshold, color: LEVEL },
+      { ...line("input falls", portPaint("input", []), input, known(down)), width: 2, dashed: true },
+      { ...line("input grows", portPaint("activation", []), input, known(up)), width: 2 },
+    ],
   };
 }
