@@ -102,10 +102,10 @@ def test_a_branch_keeps_what_any_plot_showed_before_the_moment(
     shortened = branched.engine.traces[request].since(0)
     assert shortened[-1, 0] == 21 and np.array_equal(shortened, course[course[:, 0] <= 21])
     branched.step(14)
-    again = branched.engine.traces[request].since(0)
-    times, first, second = np.intersect1d(course[:, 0], again[:, 0], return_indices=True)
+    repeated = branched.engine.traces[request].since(0)
+    times, first, second = np.intersect1d(course[:, 0], repeated[:, 0], return_indices=True)
     assert times[-1] == 35, "single samples may be missing, while a reader is compiled"
-    assert np.array_equal(course[first], again[second])
+    assert np.array_equal(course[first], repeated[second])
 
 
 def test_a_branch_that_fails_leaves_the_run_as_it_was(
