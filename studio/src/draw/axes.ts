@@ -14,7 +14,7 @@ type Tick = { place: number; text: string };
 // From values to lengths and back.
 export type Scale = Readonly<{ place: (value: number) => number; value: (place: number) => number }>;
 
-export type Layout = Readonly<{
+export type PlotLayout = Readonly<{
   box: Area;
   x: Scale;
   y: Scale;
@@ -40,7 +40,7 @@ export function nameOf({ along, label = "", unit = "" }: PlotSide): string {
   return written === "" ? "time" : `time (${written})`;
 }
 
-export function layout(content: Content, ink: Ink, width: number, height: number): Layout {
+export function layout(content: Content, ink: Ink, width: number, height: number): PlotLayout {
   const { unit, small } = ink;
   const { low, edge, font: size, apart } = sizesOf(ink);
   const bar = colorsOf(content) !== null;
@@ -125,7 +125,7 @@ function areApart(found: readonly Tick[], size: number): boolean {
 export function drawAxes(
   ctx: CanvasRenderingContext2D,
   content: Content,
-  { box, right }: Layout,
+  { box, right }: PlotLayout,
   ink: Ink,
   width: number,
 ): void {

@@ -20,7 +20,7 @@ export type PlotSide = Readonly<{
 
 type Series = ArrayLike<number | null>;
 
-export type Line = Readonly<{
+export type CurveLine = Readonly<{
   type: "line";
   label: string;
   color: Paint;
@@ -84,7 +84,7 @@ export type Tail = Readonly<{
 }>;
 
 export type Raster = ColorMap | Picture | RowMap;
-export type PlotMark = Line | Raster | LevelLine | Moment | Windows | Tail;
+export type PlotMark = CurveLine | Raster | LevelLine | Moment | Windows | Tail;
 
 export type Content = Readonly<{
   x: PlotSide;

@@ -4,7 +4,7 @@ import { cell } from "./axis";
 import {
   type ColorMap,
   type Content,
-  type Line,
+  type CurveLine,
   marksOf,
   type Picture,
   rasterOf,
@@ -45,7 +45,7 @@ function position({ along, unit = "" }: PlotSide, value: number | null): string[
   return [along === "time" ? `t ${timeText(value, unit)}` : `${along.name} ${reading(value)}`];
 }
 
-function readLines({ x }: Content, lines: readonly Line[], at: At): string[] {
+function readLines({ x }: Content, lines: readonly CurveLine[], at: At): string[] {
   const [first] = lines;
   if (at.x === null || first === undefined) {
     return [];

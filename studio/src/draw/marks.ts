@@ -1,12 +1,12 @@
 // The marks inside the sides of a drawing.
 
-import type { Layout, Scale } from "./axes";
-import type { Content, LevelLine, Line, PlotMark, Moment, Raster, Tail, Windows } from "./content";
+import type { PlotLayout, Scale } from "./axes";
+import type { Content, LevelLine, CurveLine, PlotMark, Moment, Raster, Tail, Windows } from "./content";
 import { fitting, font, type Ink } from "./ink";
 import { paintHeat, paintPicture } from "./paint";
 import { short } from "./text";
 
-type Place = Readonly<{ ctx: CanvasRenderingContext2D; content: Content; layout: Layout; ink: Ink }>;
+type MarkPlace = Readonly<{ ctx: CanvasRenderingContext2D; content: Content; layout: PlotLayout; ink: Ink }>;
 
 const SHADE = 0.12;
 const DASH = [5, 4];
@@ -15,7 +15,7 @@ const LABEL = { size: 10.5, height: 13, left: 6 };
 const TAIL = { parts: 32, faintest: 0.08, width: 1.75, dot: 4 };
 const MOST_COLUMNS = 800;
 
-export function drawMarks(place: Place): void {
+export function drawMarks(place: MarkPlace): void {
   const { ctx, content, layout } = place;
   const { left, top, width, height } = layout.box;
   ctx.save();
@@ -29,7 +29,7 @@ export function drawMarks(place: Place): void {
   ctx.restore();
 }
 
-function drawMark(place: Place, mark: PlotMark, labels: number[]): void {
+function drawMark(place: MarkPlace, mark: PlotMark, labels: number[]): void {
   switch (mark.type) {
     case "line":
       drawLine(place, mark);
@@ -54,7 +54,10 @@ function drawMark(place: Place, mark: PlotMark, labels: number[]): void {
 
 // Points on whole pixels and bevelled joins: without a graphics card others cost a fifth more. Of many
 // samples in one column of pixels the first, the least, the greatest and the last.
-function drawLine({ ctx, layout, ink }: Place, { xs, ys, color, width, right, dashed = false }: Line): void {
+function drawLine(
+  { ctx, layout, ink }: MarkPlace,
+  { xs, ys, color, width, right, dashed = false }: CurveLine,
+): void {
   const up: Scale = right === true && layout.right !== null ? layout.right : layout.y;
   ctx.strokeStyle = color[ink.shade];
   ctx.lineWidth = width * ink.unit;
@@ -99,7 +102,11 @@ function drawLine({ ctx, layout, ink }: Place, { xs, ys, color, width, right, da
 }
 
 // A line across; its name is above it, or below, where neither another name nor the edge is.
-function drawLevel({ ctx, layout, ink }: Place, { label, value, color }: LevelLine, labels: number[]): void {
+function drawLevel(
+  { ctx, layout, ink }: MarkPlace,
+  { label, value, color }: LevelLine,
+  labels: number[],
+): void {
   const { left, top, width, height } = layout.box;
   const { unit } = ink;
   const y = Math.round(layout.y.place(value));
@@ -127,7 +134,7 @@ function drawLevel({ ctx, layout, ink }: Place, { label, value, color }: LevelLi
 }
 
 // On a halo, so that it is seen on every colour of a map.
-function drawMoment({ ctx, content, layout, ink }: Place, { time }: Moment): void {
+function drawMoment({ ctx, content, layout, ink }: MarkPlace, { time }: Moment): void {
   const { left, top, width, height } = layout.box;
   const down = content.y.along === "time";
   const at = Math.round((down ? layout.y : layout.x).place(time));
@@ -162,7 +169,7 @@ function dashedLine(
   ctx.setLineDash([]);
 }
 
-function drawWindows({ ctx, layout, ink }: Place, { spans }: Windows): void {
+function drawWindows({ ctx, layout, ink }: MarkPlace, { spans }: Windows): void {
   const { left, top, width, height } = layout.box;
   ctx.fillStyle = ink.text;
   ctx.globalAlpha = SHADE;
@@ -176,7 +183,7 @@ function drawWindows({ ctx, layout, ink }: Place, { spans }: Windows): void {
   ctx.globalAlpha = 1;
 }
 
-function drawTail({ ctx, layout, ink }: Place, { xs, ys, color }: Tail): void {
+function drawTail({ ctx, layout, ink }: MarkPlace, { xs, ys, color }: Tail): void {
   const x = (i: number) => layout.x.place(xs[i] as number);
   const y = (i: number) => layout.y.place(ys[i] as number);
   const last = xs.length - 1;

@@ -1,12 +1,12 @@
 // A whole plot onto a context: sides, marks, colour bar.
 
-import { drawAxes, layout, type Layout } from "./axes";
+import { drawAxes, layout, type PlotLayout } from "./axes";
 import { drawColorBar } from "./bar";
 import { colorsOf, type Content } from "./content";
 import type { Ink } from "./ink";
 import { drawMarks } from "./marks";
 
-type Sheet = Readonly<{
+type PlotSheet = Readonly<{
   ctx: CanvasRenderingContext2D;
   ink: Ink;
   width: number;
@@ -15,7 +15,7 @@ type Sheet = Readonly<{
   image?: HTMLCanvasElement | null;
 }>;
 
-export function drawPlot({ ctx, ink, width, height, image = null }: Sheet, content: Content): Layout {
+export function drawPlot({ ctx, ink, width, height, image = null }: PlotSheet, content: Content): PlotLayout {
   const placed = layout(content, ink, width, height);
   if (image !== null) {
     const { left, top, width: across, height: down } = placed.box;

@@ -19,7 +19,7 @@ type PenState = {
   clipped: string;
 };
 
-type Picture = { toDataURL: (type: string) => string };
+type ImageSource = { toDataURL: (type: string) => string };
 
 const START: PenState = {
   fillStyle: "#000000",
@@ -218,7 +218,7 @@ export class SvgContext {
     this.add(`<text ${place} ${style}>${escaped(text)}</text>`);
   }
 
-  drawImage(image: Picture, x: number, y: number, width: number, height: number): void {
+  drawImage(image: ImageSource, x: number, y: number, width: number, height: number): void {
     const place = `x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}"`;
     const sharp = this.imageSmoothingEnabled ? "" : ' style="image-rendering: pixelated"';
     const content = `href="${image.toDataURL("image/png")}" preserveAspectRatio="none"`;

@@ -1,7 +1,7 @@
 // The values of a plot as a table: one row for each position, or moment, with the names and units of axes.
 
 import { type Axis, axisLabel, points } from "./axis";
-import { type Content, type Line, marksOf, type Raster, rasterOf, type PlotSide } from "./content";
+import { type Content, type CurveLine, marksOf, type Raster, rasterOf, type PlotSide } from "./content";
 import { sideBySide } from "./series";
 
 export type TableColumn = ArrayLike<number | null | undefined>;
@@ -39,8 +39,8 @@ export function tableOf(contents: readonly Content[], names?: readonly string[])
   return lines.length === 0 ? null : linesTable(first.x, lines, names ?? lines.map(({ label }) => label));
 }
 
-function linesTable(x: PlotSide, lines: readonly Line[], names: readonly string[]): Table {
-  const [first] = lines as [Line];
+function linesTable(x: PlotSide, lines: readonly CurveLine[], names: readonly string[]): Table {
+  const [first] = lines as [CurveLine];
   if (x.along !== "time") {
     const place = x.along === null ? (x.label ?? "") : axisHeader(x.along, first.xs.length);
     return { header: [place, ...names], columns: [first.xs, ...lines.map(({ ys }) => ys)] };

@@ -1,9 +1,9 @@
 // A plot on the page: canvases that fill a place, and above them the cursor, its own or that of another plot,
 // with what lies there in words.
 
-import type { Area, Layout } from "../draw/axes";
+import type { Area, PlotLayout } from "../draw/axes";
 import { canvasSettings } from "../draw/canvases";
-import { colorsOf, type Content, type Line, marksOf, rasterOf } from "../draw/content";
+import { colorsOf, type Content, type CurveLine, marksOf, rasterOf } from "../draw/content";
 import { type Ink, isSmall } from "../draw/ink";
 import { paintRaster } from "../draw/marks";
 import { drawPlot } from "../draw/plot";
@@ -14,7 +14,7 @@ import { attachInjection } from "./injection/injection";
 import { type Coordinate, linkedCursor, valueOn } from "./linked";
 import type { Injection } from "./spot";
 
-type Asked = Readonly<{
+type DrawingAsk = Readonly<{
   // What it shows, in words.
   label: () => string;
   // The input that a hand injects; null: the element takes none.
@@ -31,7 +31,7 @@ export class Drawing {
   private cross = { x: made("div", "plot-cursor-x"), y: made("div", "plot-cursor-y") };
   private strips = [made("div", "plot-axis"), made("div", "plot-axis")] as const;
   private dots: HTMLElement[] = [];
-  private layout: Layout | null = null;
+  private layout: PlotLayout | null = null;
   // The size of the place and the colours of the page, which cost a layout to read: not for each picture.
   private size = { width: 0, height: 0 };
   private ink: Ink | null = null;
@@ -48,7 +48,7 @@ export class Drawing {
 
   constructor(
     readonly host: HTMLElement,
-    private asked: Asked,
+    private asked: DrawingAsk,
   ) {
     host.append(this.canvas, ...this.strips, this.over);
     this.over.append(this.cross.x, this.cross.y, this.words);
@@ -270,7 +270,7 @@ export class Drawing {
   }
 
   // A dot on each curve at the cursor.
-  private mark(lines: readonly Line[], across: number): void {
+  private mark(lines: readonly CurveLine[], across: number): void {
     const { layout } = this;
     const places = lines.flatMap(({ xs, ys, right, color }) => {
       const i = nearestIndex(xs, across);
@@ -300,7 +300,7 @@ export class Drawing {
 
 const SAME = { place: () => 0, value: () => 0 };
 const EMPTY: Area = { left: 0, top: 0, width: 0, height: 0 };
-const NOTHING: Layout = { box: EMPTY, x: SAME, y: SAME, right: null, strips: [EMPTY, EMPTY] };
+const NOTHING: PlotLayout = { box: EMPTY, x: SAME, y: SAME, right: null, strips: [EMPTY, EMPTY] };
 
 function made<K extends keyof HTMLElementTagNameMap>(tag: K, className: string): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);

@@ -25,7 +25,7 @@ export const Sketch = memo(function Sketch({ kind }: { kind: Kind }) {
   );
 });
 
-type Drawing = { line?: string; faint?: string; sign?: string };
+type SketchDrawing = { line?: string; faint?: string; sign?: string };
 
 // A curve over -1 to 1; the values 0 to 1 fill the height.
 function curve(value: (x: number) => number): string {
@@ -43,7 +43,7 @@ const MIDDLE = "M2,14H36";
 const RANDOM = [9, 15, 6, 18, 11, 4, 14, 19, 8, 13, 5, 16, 10, 18, 7, 12];
 const zigzag = RANDOM.map((y, i) => `${2 + (34 * i) / (RANDOM.length - 1)},${y}`).join("L");
 
-const DRAWN: Record<Shape, Drawing> = {
+const DRAWN: Record<Shape, SketchDrawing> = {
   bell: { line: curve((x) => bell(x)), faint: GROUND },
   hat: { line: curve((x) => 0.35 + bell(x, 0.2) * 0.95 - bell(x, 0.5) * 0.45), faint: MIDDLE },
   box: { line: "M2,21H12V4H26V21H36", faint: GROUND },

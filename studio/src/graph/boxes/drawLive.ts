@@ -152,12 +152,12 @@ function squares({ element }: Canvas, on: boolean): void {
   element.style.imageRendering = on ? "pixelated" : "auto";
 }
 
-type Ink = { dim: string; line: string; ground: string; text: string; font: string };
+type BoxInk = { dim: string; line: string; ground: string; text: string; font: string };
 
-const inks = new Map<Shade, Ink>();
+const inks = new Map<Shade, BoxInk>();
 
 // The colours of the page, read once for light and once for dark.
-function ink(): Ink {
+function ink(): BoxInk {
   const now = shade();
   let found = inks.get(now);
   if (found === undefined) {

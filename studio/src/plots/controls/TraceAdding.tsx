@@ -5,14 +5,14 @@ import { useState } from "react";
 import type { PlotSettings, TraceSetting } from "../settings";
 import { TraceControl } from "./TraceControl";
 
-type Adding = {
+type TraceAddingProps = {
   // The time course that is chosen first, which is the one of a plot without others.
   first: TraceSetting;
   traces: TraceSetting[];
   set: (settings: Partial<PlotSettings>) => void;
 };
 
-export function TraceAdding({ first, traces, set }: Adding) {
+export function TraceAdding({ first, traces, set }: TraceAddingProps) {
   const [trace, setTrace] = useState(first);
   const shown = traces.length > 0 ? traces : [first];
   const there = shown.some((other) => JSON.stringify(other) === JSON.stringify(trace));

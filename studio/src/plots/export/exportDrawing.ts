@@ -153,10 +153,10 @@ function asCanvasContext(context: SvgContext): CanvasRenderingContext2D {
   return context as unknown as CanvasRenderingContext2D;
 }
 
-type Entry = Readonly<{ entry: LegendLine; x: number; line: number }>;
+type PlacedEntry = Readonly<{ entry: LegendLine; x: number; line: number }>;
 
 // The positions of the entries of a legend, in lines no longer than the sheet.
-function placed(entries: readonly LegendLine[], width: number): Entry[] {
+function placed(entries: readonly LegendLine[], width: number): PlacedEntry[] {
   const ctx = document.createElement("canvas").getContext("2d");
   if (ctx === null) {
     return [];
@@ -176,7 +176,7 @@ function placed(entries: readonly LegendLine[], width: number): Entry[] {
   });
 }
 
-function drawLegend({ ctx, factor }: Sheet, places: readonly Entry[]): void {
+function drawLegend({ ctx, factor }: Sheet, places: readonly PlacedEntry[]): void {
   const look = paperInk(factor);
   ctx.font = font(look);
   ctx.textBaseline = "middle";

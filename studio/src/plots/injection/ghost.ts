@@ -10,7 +10,7 @@ const ON_MAP = [
   [1.5, "#ffffff"],
 ] as const;
 
-type Sheet = { ctx: CanvasRenderingContext2D; drawing: Drawing; width: number; height: number };
+type GhostSheet = { ctx: CanvasRenderingContext2D; drawing: Drawing; width: number; height: number };
 
 export function paintGhost(
   canvas: HTMLCanvasElement,
@@ -46,7 +46,7 @@ export function paintGhost(
 
 // The shape only, half as high as the plot: its amplitude rarely fits the scale. Downwards where it inhibits.
 function hill(
-  { ctx, drawing, width, height }: Sheet,
+  { ctx, drawing, width, height }: GhostSheet,
   { shown, width: share, amplitude }: Injection,
   center: number,
 ): void {
@@ -70,7 +70,11 @@ function hill(
   ctx.fill();
 }
 
-function rings({ ctx, drawing, width, height }: Sheet, { width: share }: Injection, place: number[]): void {
+function rings(
+  { ctx, drawing, width, height }: GhostSheet,
+  { width: share }: Injection,
+  place: number[],
+): void {
   const [x, y] = drawing.placeOf([place[0] ?? 0, place[1] ?? 0]);
   for (const times of [1, 2]) {
     ctx.globalAlpha = times === 1 ? 0.9 : 0.45;

@@ -1,7 +1,15 @@
 // What several kinds of plots have in common.
 
 import { type Axis, commonScale, edges } from "../../draw/axis";
-import type { ColorMap, Content, LevelLine, Line, MapColors, PlotMark, PlotSide } from "../../draw/content";
+import type {
+  ColorMap,
+  Content,
+  LevelLine,
+  CurveLine,
+  MapColors,
+  PlotMark,
+  PlotSide,
+} from "../../draw/content";
 import type { Paint, Shade } from "../../draw/ink";
 import { extent, type Range, union } from "../../draw/scale";
 import { firstAt } from "../../draw/series";
@@ -28,7 +36,7 @@ export function levelMarks(levels: readonly Level[]): LevelLine[] {
   return levels.map(({ label, value }) => ({ type: "level", label, value, color: LEVEL }));
 }
 
-export function line(label: string, color: Paint, xs: ArrayLike<number>, ys: ArrayLike<number>): Line {
+export function line(label: string, color: Paint, xs: ArrayLike<number>, ys: ArrayLike<number>): CurveLine {
   return { type: "line", label, color, width: 1.5, xs, ys };
 }
 
@@ -70,14 +78,14 @@ export function courseLines(
   lives: readonly Live[],
   [from]: Range,
   how: (i: number) => [string, Paint],
-): Line[] {
+): CurveLine[] {
   return lives.map(({ history: { times, values } }, i) => {
     const start = firstAt(times, from);
     return line(...how(i), times.slice(start), values.slice(start));
   });
 }
 
-export function extentOf(lines: readonly Line[]): Range | null {
+export function extentOf(lines: readonly CurveLine[]): Range | null {
   return lines.reduce<Range | null>((all, { ys }) => {
     const own = extent(ys as ArrayLike<number>);
     return all === null || own === null ? (all ?? own) : union(all, own);
