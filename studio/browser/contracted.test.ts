@@ -72,7 +72,7 @@ test("a contracted element is found by its name, selected and revealed", async (
   await expect.poll(() => button(page, "i3 for vis_f1").getAttribute("aria-pressed")).toBe("true");
 });
 
-test("the wires of a selected box are in front, boxes without one are faint, and a chip selects", async () => {
+test("the wires of a selected box are in front, others are faint, and a chip selects", async () => {
   const { page } = studio;
   await search(page, "wm_s");
   await inspected("wm_s").waitFor();

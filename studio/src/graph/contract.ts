@@ -9,10 +9,10 @@ import type { Structure } from "./scene";
 import { by, type Chain, isWeight, later } from "./wires/chains";
 import { product, together, type Sign } from "./wires/sign";
 
-type Ends = Pick<ConnectionView, "source" | "source_port" | "target" | "target_port">;
+type WireEnding = Pick<ConnectionView, "source" | "source_port" | "target" | "target_port">;
 
 // What only this wire has: it is removed with it. Couplings of other wires are none of it.
-export type WireContent = { elements: string[]; connections: Ends[] };
+export type WireContent = { elements: string[]; connections: WireEnding[] };
 
 // `isChain`: its couplings follow each other, and belong to no other wire.
 export type BoxLink = Chain & { content: WireContent; isChain: boolean };
@@ -226,7 +226,7 @@ function weight(
 
 // A coupling or a connection that several wires share, or a wire and a stimulus, belongs to none of them.
 function withContent(links: Bare[], streams: ConnectionView[][], net: Net): BoxLink[] {
-  const keyOf = (c: Ends) => [c.source, c.source_port, c.target, c.target_port].join(" ");
+  const keyOf = (c: WireEnding) => [c.source, c.source_port, c.target, c.target_port].join(" ");
   const uses = new Map<string, number>();
   for (const ways of [...links.map((one) => waysOf(net, one)), ...streams]) {
     for (const key of new Set(ways.map(keyOf))) {

@@ -1,4 +1,4 @@
-// A contracted architecture on the canvas: its grid, what its boxes and wires show, and what belongs together.
+// A contracted architecture on the canvas: its grid, what boxes and wires show, what belongs together.
 
 import { dimensions } from "./boxes/boxes";
 import type { Contraction } from "./contract";
@@ -10,7 +10,7 @@ import type { SceneNode, Wire } from "./scene";
 // The width of a chip on a wire.
 export const CHIP = 22;
 
-type Parts = {
+type ContractedParts = {
   contraction: Contraction;
   names: Map<string, ElementView>;
   kinds: Map<string, Kind>;
@@ -20,7 +20,7 @@ type Parts = {
 // The positions of boxes in the grid. Where a document places most of its boxes there is none: the others
 // are placed beside these.
 export function inGrid(
-  { contraction, names, kinds, sizes }: Parts,
+  { contraction, names, kinds, sizes }: ContractedParts,
   stored: Map<string, Point>,
   panel: Size = PANEL,
 ): Map<string, Point> {

@@ -17,9 +17,9 @@ const GAP = { x: 48, y: 40, frame: 44, most: 160 };
 // In px. `up`: a wire better leads down; `fed`: of a row that receives stimuli, for each row above it.
 const COST = { up: 60, fed: 5000 };
 
-type Parts = { prefix: string; suffix: string };
+type NameParts = { prefix: string; suffix: string };
 
-export function partsOf(name: string): Parts {
+export function partsOf(name: string): NameParts {
   const at = name.indexOf("_");
   return at < 0 ? { prefix: name, suffix: "" } : { prefix: name.slice(0, at), suffix: name.slice(at + 1) };
 }
@@ -29,13 +29,13 @@ const digitOf = (suffix: string): string => /\d+$/.exec(suffix)?.[0] ?? "";
 // Whether names form a grid.
 export function isGrid(names: string[]): boolean {
   const parts = names.map(partsOf).filter(({ suffix }) => suffix !== "");
-  const isShared = (one: Parts) =>
+  const isShared = (one: NameParts) =>
     parts.some((other) => other !== one && other.prefix === one.prefix) &&
     parts.some((other) => other !== one && other.suffix === one.suffix);
   return names.length >= LEAST.boxes && parts.filter(isShared).length >= LEAST.shared * names.length;
 }
 
-type Cell = { id: string; row: number; column: number };
+type GridCell = { id: string; row: number; column: number };
 // Columns of a frame in their order.
 type Order = { rows: number[]; frames: number[][] };
 
@@ -59,8 +59,8 @@ function framesOf(columns: string[][]): number[][] {
   );
 }
 
-// Sparse rows and columns share their places. Rows that receive stimuli stay alone, or the stimuli would enter
-// in the middle.
+// Sparse rows and columns share their places. Rows that receive stimuli stay alone, or the stimuli would
+// enter in the middle.
 function cellsOf(boxes: GridBox[]) {
   const named = boxes.map(({ id, name, fed }) => ({ id, fed, ...partsOf(name) }));
   const fedPrefixes = new Set(named.filter(({ fed }) => fed).map(({ prefix }) => prefix));
@@ -75,7 +75,7 @@ function cellsOf(boxes: GridBox[]) {
     (one, other) => digitOf(one) === digitOf(other),
     rows.length,
   );
-  const cells: Cell[] = named.map(({ id, prefix, suffix }) => ({
+  const cells: GridCell[] = named.map(({ id, prefix, suffix }) => ({
     id,
     row: rowOf(prefix),
     column: columns.findIndex((column) => column.includes(suffix)),
@@ -91,7 +91,7 @@ function packed(
   mayJoin: (one: string, other: string) => boolean,
   most: number,
 ): string[][] {
-  let lines: Line[] = [...new Set(pairs.map(([key]) => key))].map((key) => ({
+  let lines: GridLine[] = [...new Set(pairs.map(([key]) => key))].map((key) => ({
     keys: [key],
     places: new Set(pairs.flatMap(([other, place]) => (other === key ? [place] : []))),
   }));
@@ -110,13 +110,13 @@ function packed(
   }
 }
 
-type Line = { keys: string[]; places: Set<string> };
+type GridLine = { keys: string[]; places: Set<string> };
 
 function joinable(
-  lines: Line[],
+  lines: GridLine[],
   mayJoin: (one: string, other: string) => boolean,
   most: number,
-): [Line, Line] | null {
+): [GridLine, GridLine] | null {
   for (const one of lines) {
     const other = lines.find(
       (line) =>
@@ -139,7 +139,7 @@ const LEAST_GAPS: Gaps = { x: GAP.x, y: GAP.y, frame: GAP.frame };
 const NOMINAL: Size = { width: 156, height: 104 };
 
 // The order with the shortest wires: rows, frames and columns move one by one while this shortens them.
-function shortest(cells: Cell[], wires: GridWire[], fed: Set<number>, start: Order): Order {
+function shortest(cells: GridCell[], wires: GridWire[], fed: Set<number>, start: Order): Order {
   const at = new Map(cells.map((cell) => [cell.id, cell]));
   const joined = wires.flatMap(({ source, target }) => {
     const [from, to] = [at.get(source), at.get(target)];

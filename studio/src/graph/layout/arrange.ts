@@ -29,7 +29,7 @@ function keep(folded: string[]): void {
   void request({ type: "arrange", layout: { folded }, undoable: false });
 }
 
-// Without stored positions, so that a contracted architecture takes the shape of its canvas; as one step of undo.
+// Without stored positions, a contracted architecture takes the shape of its canvas; one step of undo.
 export function toGrid(): Promise<Answer> {
   return request({ type: "arrange", layout: { boxes: null } });
 }

@@ -66,7 +66,7 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   );
 });
 
-// The number of couplings on a wire of a contracted architecture. A click shows them; a single one is selected.
+// The number of couplings on a wire of a contracted document. A click shows them, or selects a single one.
 function Chip({ wire, pills }: { wire: string; pills: string[] }) {
   const names = useStudio(({ elements }) => pills.map((id) => elements.get(id)?.path ?? "").join(", "));
   const [only, ...others] = pills;
