@@ -144,8 +144,8 @@ class DocumentHistory:
         Raises:
             ModelError: the document has no such problem, or its fix needs a decision.
         """
-        found = await asyncio.to_thread(self._conversions.check, self.require_edited().document)
-        edits = next((p.edits for p in found if (p.where, p.what) == (where, what)), ())
+        problems = await asyncio.to_thread(self._conversions.check, self.require_edited().document)
+        edits = next((p.edits for p in problems if (p.where, p.what) == (where, what)), ())
         if not edits:
             raise ModelError("this problem has no repair any more; the document has changed", where=where)
         return await self.change(lambda doc: proposed.apply(doc, edits))

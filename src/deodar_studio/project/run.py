@@ -76,8 +76,8 @@ class DocumentRun:
     def failures(self) -> list[ListedProblem]:
         """Return why the document does not run; an empty list if it does."""
         doc = None if self.model is None else self.model.document
-        found, paths = self._engine.failure
-        return [*view.problems(self.failure, doc), *view.problems(found, doc, paths)]
+        problems, paths = self._engine.failure
+        return [*view.problems(self.failure, doc), *view.problems(problems, doc, paths)]
 
     def require(self) -> None:
         """Raise DocumentError if no session runs and none is being compiled."""

@@ -59,9 +59,9 @@ class Embodiment:
         wanted = signals(doc)
         if not wanted:
             return None
-        for known in (present, self.chosen):
-            if known is not None and not missing(known, doc):
-                return known
+        for world in (present, self.chosen):
+            if world is not None and not missing(world, doc):
+                return world
         for cls in _standing().values():
             if wanted <= {*cls.sensors, *cls.motors}:
                 # without the extra of a world there is no example of it
@@ -87,9 +87,9 @@ class Embodiment:
             present: the world in use.
         """
         for name, world in () if "axes" in stated else self._signals(kind, stated, doc, present):
-            found = offered.values(kind, name, world)
-            if found is not None:
-                return {**stated, **found}
+            values = offered.values(kind, name, world)
+            if values is not None:
+                return {**stated, **values}
         return dict(stated)
 
     def _signals(

@@ -63,20 +63,20 @@ def _axes(kind: str, name: str, world: World | type[World]) -> Axes | None:
     """Return axes over which a signal can be read or driven: those of an example, or plain ones of its
     shape.
     """
-    wanted = of_kind(kind, world)[name].shape
+    samples = of_kind(kind, world)[name].shape
     cls = type(world) if isinstance(world, World) else world
     example = _example_axes(name, cls) if kind == Sensor.__name__ else None
-    if wanted is None or (example is not None and shape(example) == wanted):
+    if samples is None or (example is not None and shape(example) == samples):
         return example
-    names = ["of"] if len(wanted) == 1 else [f"of{n}" for n in range(1, len(wanted) + 1)]
-    pairs = zip(names, wanted, strict=True)
+    names = ["of"] if len(samples) == 1 else [f"of{n}" for n in range(1, len(samples) + 1)]
+    pairs = zip(names, samples, strict=True)
     return tuple(Axis(a, 0, max(n - 1, 1), samples=n, periodic=n == 1) for a, n in pairs)
 
 
 def _example_axes(name: str, cls: type[World]) -> Axes | None:
     """Return the axes of an example of a class with a sensor, or of a class that stands in for it."""
     kinds: Mapping[str, type[World]] = registry.kinds("worlds")
-    for known in (cls, *kinds.values()):
-        if known.stands_in and name in known.sensors:
-            return known.example_axes(name)
+    for kind in (cls, *kinds.values()):
+        if kind.stands_in and name in kind.sensors:
+            return kind.example_axes(name)
     return None

@@ -12,6 +12,6 @@ test.each([
 
 test("an axis in a menu shows its name if its key differs", () => {
   const axis = { key: "x", name: "x", lower: 0, upper: 100, samples: 101, periodic: false, unit: "deg" };
-  expect(axisOption(axis)).toEqual({ value: "x", label: "x: 0 to 100 deg" });
-  expect(axisOption({ ...axis, key: "x_2", unit: "" }).label).toBe("x_2 (x): 0 to 100");
+  expect(axisOption(axis)).toEqual({ value: "x", label: "x: 0 to 100 deg, 101 samples" });
+  expect(axisOption({ ...axis, key: "x_2", unit: "" }).label).toBe("x_2 (x): 0 to 100, 101 samples");
 });
