@@ -8,7 +8,7 @@ const UNUSED = /@font-face\{[^}]*KaTeX_(?:Fraktur|SansSerif|Script|Typewriter)[^
 
 /** Scripts of which the page writes no word; letters of one in a document have a font of the system. */
 const OTHER_SCRIPTS =
-  /(?:\/\* inter-[\w-]+ \*\/\s*)?@font-face\s*\{[^}]*inter-(?:cyrillic|cyrillic-ext|greek-ext|latin-ext|vietnamese)-wght[^}]*\}\s*/g;
+  /@font-face\s*\{[^}]*inter-(?:cyrillic|cyrillic-ext|greek-ext|latin-ext|vietnamese)-wght[^}]*\}/g;
 
 /** The stylesheet without the sources in woff and ttf that stand behind one in woff2. */
 export function onlyWoff2(css: string): string {

@@ -80,7 +80,7 @@ test("an axis is made, changed and removed in the document's section, each as on
   expect(undo()).toBe(before + 4);
 });
 
-test("fields over one, two and three dimensions bring their axes, and take those that are there", async () => {
+test("fields over one, two and three dimensions bring axes, or take those of the document", async () => {
   const { page } = studio;
   await add("Field, 2-D", 0.2, 0.2);
   await box(page, "field").waitFor();
@@ -100,7 +100,7 @@ test("fields over one, two and three dimensions bring their axes, and take those
   expect(problems()).toBe(0);
 });
 
-test("a field gets a new axis in its own menu; of two axes of one name the lists show what differs", async () => {
+test("a field gets a new axis in its menu; of two axes of one name the lists show what differs", async () => {
   const { page } = studio;
   await add("Field, 1-D", 0.3, 0.3);
   await box(page, "field").waitFor();

@@ -132,8 +132,8 @@ test("of a hundred elements every port that fits lights up without a search for 
   }
   const listed = (times: number[]) => times.map((one) => one.toFixed(0)).join(", ");
   console.log(`${COUNT} ports lit up after ${listed(took)} ms, processor time ${listed(spent)} ms`);
-  // 20 to 60 ms of processor time, by what else the machine does; a search of the document for each port would
-  // take seconds. The fastest round shows that nothing else delays the ports
+  // 20 to 60 ms of processor time, by what else the machine does; a search of the document for each port
+  // would take seconds. The fastest round shows that nothing else delays the ports
   expect(median(spent)).toBeLessThan(250);
   expect(Math.min(...took)).toBeLessThan(2000);
 });

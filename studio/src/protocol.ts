@@ -841,7 +841,7 @@ export type OfferView = {
 };
 
 // The sensors and motors that the document can use: those of its world, or, where it has none yet, those of
-// every world whose example stands in and that has all that the document reads and drives.
+// every world of which there is an example and that has all that the document reads and drives.
 export type OfferedSignals = {
   type: "offered_signals";
   worlds: WorldSignals[];

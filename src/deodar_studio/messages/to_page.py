@@ -758,7 +758,7 @@ class WorldSignals(Data, frozen=True):
 @MESSAGES.register
 class OfferedSignals(Message, frozen=True, tag="offered_signals"):
     """The sensors and motors that the document can use: those of its world, or, where it has none yet, those
-    of every world whose example stands in and that has all that the document reads and drives.
+    of every world of which there is an example and that has all that the document reads and drives.
     """
 
     worlds: list[WorldSignals]

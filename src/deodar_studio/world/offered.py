@@ -74,7 +74,7 @@ def _axes(kind: str, name: str, world: World | type[World]) -> Axes | None:
 
 
 def _example_axes(name: str, cls: type[World]) -> Axes | None:
-    """Return the axes of an example of a class with a sensor, or of a class that stands in for it."""
+    """Return the axes of an example of a class with a sensor, or of another class with that sensor."""
     kinds: Mapping[str, type[World]] = registry.kinds("worlds")
     for kind in (cls, *kinds.values()):
         if kind.stands_in and name in kind.sensors:

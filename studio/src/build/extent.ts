@@ -8,7 +8,7 @@ import { sizeOfKind } from "./placing";
 // `pad` is how far the frames of its groups reach beyond the first box.
 export type Extent = { size: Size; pad: Point };
 
-// Null: the text has no positions for all of its boxes, or is no document.
+// Null: the text has no positions for all of its boxes, or has another format.
 export function extentOf(text: string, kinds: Map<string, Kind>): Extent | null {
   const read = parsed(text);
   const boxes = readBoxes(read?.layout ?? {});

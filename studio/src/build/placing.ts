@@ -86,18 +86,18 @@ export function afterAll(scene: Scene): Placing | null {
   return { at: { x: snapped(right + GAP.side + FRAME.side), y: snapped(top + FRAME.top) }, group: "" };
 }
 
-// A rectangle of boxes with its corner at a point, or in the nearest free place: in the group, or outside of it
-// where other boxes leave its frame no room to grow.
+// A rectangle of boxes with its corner at a point, or in the nearest free place: in the group, or outside of
+// it where other boxes leave its frame no room to grow.
 export function free(wish: Point, size: Size, group: string, scene: Scene): Placing {
-  const levels = levelsOf(group, scene);
-  const at = freePlace(wish, size, (rect) => fitsIn(rect, levels));
+  const frames = enclosures(group, scene);
+  const at = freePlace(wish, size, (rect) => fitsIn(rect, frames));
   if (at !== null) {
     return { at, group };
   }
   return group === "" ? { at: wish, group } : free(wish, size, scene.tree.outer.get(group) ?? "", scene);
 }
 
-// The place of the grid that is nearest to the wish; null: none near it is free.
+// The place of the grid that is nearest to a point; null: none near it is free.
 export function freePlace(wish: Point, size: Size, isFree: (rect: Rect) => boolean): Point | null {
   const start = { x: snapped(wish.x), y: snapped(wish.y) };
   let best: { at: Point; cost: number } | null = null;
@@ -115,23 +115,23 @@ export function freePlace(wish: Point, size: Size, isFree: (rect: Rect) => boole
 
 // What lies in a group, and around it: for each frame from the inner one outwards, its present rectangle and
 // what it may not come near when it grows.
-type Level = { frame: Rect | null; taken: readonly Rect[] };
+type Enclosure = { frame: Rect | null; taken: readonly Rect[] };
 
-function levelsOf(group: string, scene: Scene): Level[] {
+function enclosures(group: string, scene: Scene): Enclosure[] {
   const frame = scene.places.groups.get(group);
   const inside = takenIn(group, scene);
   const outer = scene.tree.outer.get(group);
   if (group === "" || frame === undefined || outer === undefined) {
     return [{ frame: null, taken: inside }];
   }
-  const [above, ...further] = levelsOf(outer, scene);
+  const [above, ...further] = enclosures(outer, scene);
   const beside = (above?.taken ?? []).filter((rect) => !areNear(rect, frame));
   return [{ frame, taken: inside }, { frame: above?.frame ?? null, taken: beside }, ...further];
 }
 
-function fitsIn(rect: Rect, levels: readonly Level[]): boolean {
+function fitsIn(rect: Rect, frames: readonly Enclosure[]): boolean {
   let grown = rect;
-  for (const { frame, taken } of levels) {
+  for (const { frame, taken } of frames) {
     if (taken.some((other) => areNear(grown, other))) {
       return false;
     }

@@ -8,7 +8,7 @@ const NAMES = ["x", "y", "z", "w"];
 // Of axes of elements over one, two, three dimensions: a step of them costs about the same.
 const SAMPLES = [101, 51, 21];
 
-// An axis with a name that no other one has, for an element over so many axes.
+// An axis with a name that no other one has, for an element over a number of axes.
 export function newAxis(axes: readonly { name: string }[], dimensions = 1): AxisProperties {
   const taken = new Set(axes.map(({ name }) => name));
   const samples = SAMPLES[Math.min(dimensions, SAMPLES.length) - 1] ?? 101;
@@ -19,8 +19,8 @@ export function newAxis(axes: readonly { name: string }[], dimensions = 1): Axis
   return { name, lower: 0, upper: 100, samples, periodic: false, unit: "" };
 }
 
-// The axes of a new element over so many dimensions, by their keys or properties: those of an element over as
-// many, else those that the document has, and new ones.
+// The axes of a new element over a number of dimensions, by their keys or properties: those of an element
+// over as many, else those that the document has, and new ones.
 export function axesOver(
   dimensions: number,
   { axes, elements }: Pick<DocumentView, "axes" | "elements">,

@@ -42,7 +42,7 @@ export function EntryList({
   const active = found.find((entry) => entry.id === wished && entry.why === undefined) ?? best;
   const list = useId();
   useEffect(() => onLook?.(active), [active, onLook]);
-  // the same entry does not scroll again when the list is made anew
+  // the same entry does not scroll again when the list is made again
   const shown = active === null ? "" : optionId(list, active);
   useEffect(() => {
     document.getElementById(shown)?.scrollIntoView({ block: "nearest" });

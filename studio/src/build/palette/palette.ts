@@ -170,8 +170,8 @@ function commentEntry(at: Point | null): ListEntry {
 // A kind with an input, of which a connection can pass through the elements.
 export const passes = (kind: Kind): boolean => !isPart(kind) && !isSource(kind);
 
-// At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle. A template
-// (no kind) comes right of everything.
+// At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle. A
+// template (no kind) comes right of everything.
 export function spotFor(kind: Kind | null, at: Point | null): Placing {
   const stage = getStage();
   if (stage === null) {

@@ -126,8 +126,8 @@ export function shade(): Shade {
 // The shorter reach of activation is at least the longer one divided by this.
 const LEAST_REACH = 3;
 
-// The colours of activation from `lower` to `upper`, as `dd.figures` has them: each side of the threshold has a
-// reach of its own, over which it takes all of its colours. The colour nearest to the threshold is white.
+// The colours of activation from `lower` to `upper`, as `dd.figures` has them: each side of the threshold has
+// a reach of its own, over which it takes all of its colours. The colour nearest to the threshold is white.
 export function activationScale(lower: number, upper: number, threshold: number): ColorTable {
   const below = Math.max(threshold - lower, (upper - threshold) / LEAST_REACH) || 1;
   const above = Math.max(upper - threshold, (threshold - lower) / LEAST_REACH) || 1;
