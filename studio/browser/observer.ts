@@ -39,6 +39,8 @@ export class Observer {
   clock: RunClock | undefined;
   /** The world from above, with its bodies after `watch_world`. */
   readonly world = new LiveWorld();
+  /** Waits until the page beside this observer has drawn. */
+  drawn: () => Promise<void> = async () => {};
   private session = 0;
   private last = 0;
   /** Whether the clock is older than the newest answer: a clock ends each group of messages. */
@@ -72,8 +74,16 @@ export class Observer {
     this.socket.close();
   }
 
-  /** Wait until a condition holds. It is evaluated after each message, and fails after some minutes. */
-  until(condition: () => unknown, minutes = 3): Promise<void> {
+  /**
+   * Wait until a condition holds, and until the page has drawn what it received by then. The condition is
+   * evaluated after each message; the wait fails after some minutes.
+   */
+  async until(condition: () => unknown, minutes = 3): Promise<void> {
+    await this.holds(condition, minutes);
+    await this.drawn();
+  }
+
+  private holds(condition: () => unknown, minutes: number): Promise<void> {
     return new Promise((resolve, reject) => {
       const done = (how: () => void) => {
         clearTimeout(timer);

@@ -106,6 +106,7 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
     };
     const observe = async () => {
       const observer = await Observer.connect(server.url);
+      observer.drawn = () => drawn(page);
       closing.push(async () => observer.close());
       return observer;
     };
@@ -139,4 +140,13 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
 export async function shot(page: Page, name: string): Promise<void> {
   const folder = process.env["DEODAR_SHOTS"];
   if (folder) await page.screenshot({ path: join(folder, `${name}.png`) });
+}
+
+/** Wait for two pictures of a page, at most two seconds: it may be closed, or its server gone. */
+async function drawn(page: Page): Promise<void> {
+  const pictures = page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
+  const late = new Promise((done) => setTimeout(done, 2000).unref());
+  await Promise.race([pictures, late]).catch(() => undefined);
 }

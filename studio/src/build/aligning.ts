@@ -53,17 +53,23 @@ export async function align({ moved, least: enough }: Alignment): Promise<void> 
     useStudio.getState().notify({ what: `Select at least ${enough} boxes first.` }, "info");
     return;
   }
-  const positions = [...moved(boxes)].map(([id, { x, y }]) => [id, [Math.round(x), Math.round(y)]]);
+  // of all boxes, as a drag does: others are arranged again around those that have a place
+  const all = [...placedBoxes(), ...moved(boxes)];
+  const positions = all.map(([id, { x, y }]) => [id, [Math.round(x), Math.round(y)]]);
   await request({ type: "place", positions: Object.fromEntries(positions) });
 }
 
 function selectedBoxes(): Boxes {
-  const scene = getStage()?.scene();
   const selected = new Set(useStudio.getState().selected);
+  return new Map([...placedBoxes()].filter(([id]) => selected.has(id)));
+}
+
+function placedBoxes(): Boxes {
+  const scene = getStage()?.scene();
   const boxes: Boxes = new Map();
   for (const { id, type, width = 0, height = 0 } of scene?.nodes ?? []) {
     const at = scene?.places.elements.get(id);
-    if (type === "box" && selected.has(id) && at !== undefined) {
+    if (type === "box" && at !== undefined) {
       boxes.set(id, { ...at, width, height });
     }
   }

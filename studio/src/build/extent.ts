@@ -10,7 +10,14 @@ export type Extent = { size: Size; pad: Point };
 
 // Null: the text has no positions for all of its boxes, or has another format.
 export function extentOf(text: string, kinds: Map<string, Kind>): Extent | null {
-  const read = parsed(text);
+  try {
+    return measured(parsed(text), kinds);
+  } catch {
+    return null; // parts of another type: the server says why
+  }
+}
+
+function measured(read: Pasted | null, kinds: Map<string, Kind>): Extent | null {
   const boxes = readBoxes(read?.layout ?? {});
   const rects = Object.values(read?.elements ?? {}).flatMap(({ id = "", kind = "" }) => {
     const at = boxes.get(id);

@@ -51,6 +51,13 @@ export function pickWire(id: string, several: boolean): void {
   );
 }
 
+// The element alone, or added to the selection and taken from it.
+export function pickElement(id: string, several: boolean): void {
+  const { selected } = useStudio.getState();
+  const rest = selected.filter((other) => other !== id);
+  useStudio.getState().select(!several ? [id] : rest.length < selected.length ? rest : [...selected, id]);
+}
+
 // A group is selected with all its elements.
 export function pickGroup(key: string, several: boolean): void {
   const tree = getStage()?.scene().tree;

@@ -7,7 +7,7 @@ import { endsOf } from "./wiring/ends";
 import { isEditable } from "./editable";
 import { usePicked } from "./picked";
 import { chosen } from "./selection";
-import { contentOf } from "./wiring/wires";
+import { contentOf, isDrawn } from "./wiring/wires";
 
 const SHARED =
   "All couplings of this wire belong to other wires too. Show every element to remove one of them.";
@@ -17,7 +17,7 @@ export async function removeSelected(): Promise<void> {
     return;
   }
   const { elements, groups } = chosen();
-  const wires = usePicked.getState().wires.map(contentOf);
+  const wires = usePicked.getState().wires.filter(isDrawn).map(contentOf);
   const all = [...new Set([...elements, ...wires.flatMap((wire) => wire.elements)])];
   const connections = wires.flatMap((wire) => wire.connections);
   if (all.length + groups.length + connections.length === 0) {

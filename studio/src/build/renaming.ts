@@ -3,10 +3,11 @@
 import { create } from "zustand";
 
 import type { Rect } from "../graph/layout/layout";
+import { keyOf } from "../graph/layout/tree";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { isEditable } from "./editable";
-import { usePicked } from "./picked";
+import { pickGroup, usePicked } from "./picked";
 import { pathOf } from "./placing";
 import { getStage } from "./stage";
 
@@ -40,6 +41,9 @@ export async function rename({ element, group, name: before }: Renaming, name: s
   useRenaming.setState({ renaming: null });
   if (name.trim() !== "" && name !== before) {
     await request({ type: "rename", element, group, name: name.trim() });
+    if (group.length > 0) {
+      pickGroup(keyOf([...group.slice(0, -1), name.trim()]), false);
+    }
   }
 }
 

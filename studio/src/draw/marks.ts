@@ -67,6 +67,9 @@ function drawLine(
   let column = NaN;
   let [low, high, last] = [0, 0, 0];
   const leave = () => {
+    if (Number.isNaN(column)) {
+      return;
+    }
     if (low < high) {
       ctx.lineTo(column, low);
       ctx.lineTo(column, high);

@@ -205,8 +205,9 @@ function Canvas({ structure }: { structure: Structure }) {
           }}
           onNodeContextMenu={(event, { id, type }) => {
             event.preventDefault();
-            if (type === "box" && !useStudio.getState().selected.includes(id)) {
-              useStudio.getState().select([id]);
+            const element = partBelow(event.target) ?? id;
+            if (type === "box" && !useStudio.getState().selected.includes(element)) {
+              useStudio.getState().select([element]);
             } else if (type === "frame" || type === "folded") {
               pickGroup(groupKey(id), false);
             } else if (type === "comment") {
@@ -324,6 +325,10 @@ function useCenter(now: GraphScene): Record<"center" | "centerGroup", (id: strin
   };
   return { center: (element) => want(element, false), centerGroup: (group) => want(group, true) };
 }
+
+// The element that a box shows inside, at the pointer.
+const partBelow = (target: EventTarget): string | null =>
+  target instanceof Element ? (target.closest(".graph-part")?.getAttribute("data-element") ?? null) : null;
 
 const foldedOver = (found: Tree, { id, isGroup }: { id: string; isGroup: boolean }): string[] =>
   isGroup ? foldedOutside(found, id) : foldedAround(found, id);

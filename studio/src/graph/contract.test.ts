@@ -129,3 +129,16 @@ test("a wire has the sign and the delay of all its ways", () => {
   );
   expect(contractAll(document, KINDS, NONE).edges[0]?.reads).toBe("previous");
 });
+
+test("a coupling that joins many elements with many is a box, not a wire for each pair", () => {
+  const names = ["a", "b", "c", "d"];
+  const fields = names.map((name) => fakeElement(name));
+  const paths = names.map((name) => `${name} hub ${name}`);
+  const { boxes, edges } = contractAll(
+    fakeDocument([...fields, part("hub")], fakeConnections(...paths)),
+    KINDS,
+    NONE,
+  );
+  expect(boxes).toContain("hub");
+  expect(edges).toHaveLength(2 * names.length);
+});

@@ -17,6 +17,9 @@ export type WireContent = { elements: string[]; connections: WireEnding[] };
 // `isChain`: its couplings follow each other, and belong to no other wire.
 export type BoxLink = Chain & { content: WireContent; isChain: boolean };
 
+// A coupling of more pairs of elements is a box.
+const MOST_PAIRS = 8;
+
 type Bare = Omit<BoxLink, "content" | "isChain">;
 
 export type Contraction = {
@@ -73,6 +76,13 @@ export function contractAll(
       .map((e) => e.id),
   );
   const net = netOf(elements, connections);
+  // What joins many boxes with many is drawn once, not as a wire for each pair of them.
+  for (const id of parts) {
+    const [read, fed] = [net.into.get(id)?.length ?? 0, net.from.get(id)?.length ?? 0];
+    if (read > 1 && fed > 1 && read * fed > MOST_PAIRS) {
+      parts.delete(id);
+    }
+  }
   // A part without a box at any side of it, or in a ring of its own, is a box itself.
   for (const { id } of elements) {
     if (parts.has(id) && ends(net, id, parts).length === 0) {

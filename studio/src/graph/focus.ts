@@ -12,6 +12,12 @@ type Focus = { hovered: string | null; near: ReadonlySet<string> | null };
 
 export const useFocus = create<Focus>(() => ({ hovered: null, near: null }));
 
+export function unhover(id: string): void {
+  if (useFocus.getState().hovered === id) {
+    useFocus.setState({ hovered: null });
+  }
+}
+
 // The boxes that these elements and wires are joined with.
 export function nearOf(links: ReadonlyMap<string, ReadonlySet<string>>, ids: string[]): Set<string> {
   return new Set(ids.flatMap((id) => [id, ...(links.get(id) ?? [])]));

@@ -31,10 +31,11 @@ function laid(file: string, panel = PANEL) {
 }
 
 test("a name is split at its first underscore", () => {
-  expect(["wm_c1", "cos", "a_b_c"].map(partsOf)).toEqual([
+  expect(["wm_c1", "cos", "a_b_c", "k_"].map(partsOf)).toEqual([
     { prefix: "wm", suffix: "c1" },
     { prefix: "cos", suffix: "" },
     { prefix: "a", suffix: "b_c" },
+    { prefix: "k_", suffix: "" },
   ]);
 });
 
@@ -114,4 +115,14 @@ test("the layout of the scene representation takes less than 100 ms of the proce
   laid("presetSceneRepresentation.json");
   const { user, system } = process.cpuUsage(before);
   expect((user + system) / 1000).toBeLessThan(100);
+});
+
+test("the search for an order ends, however many names there are", () => {
+  const names = Array.from({ length: 100 }, (_, n) => [`u_${n}`, `v_${n}`]).flat();
+  const wires = Array.from({ length: 100 }, (_, n) => ({ source: `u_${n}`, target: `v_${(7 * n) % 100}` }));
+  const before = process.cpuUsage();
+  const places = gridPlaces(boxes(...names), wires, SIZE, PANEL);
+  const { user, system } = process.cpuUsage(before);
+  expect((user + system) / 1000).toBeLessThan(1500);
+  expect(new Set([...places.values()].map(({ x, y }) => `${x} ${y}`)).size).toBe(names.length);
 });

@@ -21,7 +21,9 @@ type NameParts = { prefix: string; suffix: string };
 
 export function partsOf(name: string): NameParts {
   const at = name.indexOf("_");
-  return at < 0 ? { prefix: name, suffix: "" } : { prefix: name.slice(0, at), suffix: name.slice(at + 1) };
+  return at < 0 || at === name.length - 1
+    ? { prefix: name, suffix: "" }
+    : { prefix: name.slice(0, at), suffix: name.slice(at + 1) };
 }
 
 const digitOf = (suffix: string): string => /\d+$/.exec(suffix)?.[0] ?? "";
@@ -137,8 +139,11 @@ type Gaps = { x: number; y: number; frame: number };
 const LEAST_GAPS: Gaps = { x: GAP.x, y: GAP.y, frame: GAP.frame };
 // Any size: only the order is sought.
 const NOMINAL: Size = { width: 156, height: 104 };
+// Lengths of wires and places of lines that a search computes at most: about 50 ms.
+const MOST_COMPUTED = 1e6;
 
-// The order with the shortest wires: rows, frames and columns move one by one while this shortens them.
+// The order with the shortest wires: rows, frames and columns move one by one while this shortens them, and
+// not too much was computed.
 function shortest(cells: GridCell[], wires: GridWire[], fed: Set<number>, start: Order): Order {
   const at = new Map(cells.map((cell) => [cell.id, cell]));
   const joined = wires.flatMap(({ source, target }) => {
@@ -155,10 +160,16 @@ function shortest(cells: GridCell[], wires: GridWire[], fed: Set<number>, start:
     }, 0);
     return order.rows.reduce((sum, row, n) => sum + (fed.has(row) ? COST.fed * n : 0), length);
   };
+  const step = joined.length + start.rows.length + start.frames.flat().length;
   let best = { order: start, cost: cost(start) };
+  let computed = step;
   for (let before = Infinity; best.cost < before;) {
     before = best.cost;
     for (const order of moves(best.order)) {
+      computed += step;
+      if (computed > MOST_COMPUTED) {
+        return best.order;
+      }
       const own = cost(order);
       if (own < best.cost) {
         best = { order, cost: own };
@@ -169,21 +180,29 @@ function shortest(cells: GridCell[], wires: GridWire[], fed: Set<number>, start:
 }
 
 // All orders in which one row, frame or column stands elsewhere.
-function moves({ rows, frames }: Order): Order[] {
-  return [
-    ...moved(rows).map((other) => ({ rows: other, frames })),
-    ...moved(frames).map((other) => ({ rows, frames: other })),
-    ...frames.flatMap((columns, n) =>
-      moved(columns).map((other) => ({ rows, frames: frames.with(n, other) })),
-    ),
-  ];
+function* moves({ rows, frames }: Order): Generator<Order> {
+  for (const other of moved(rows)) {
+    yield { rows: other, frames };
+  }
+  for (const other of moved(frames)) {
+    yield { rows, frames: other };
+  }
+  for (const [n, columns] of frames.entries()) {
+    for (const other of moved(columns)) {
+      yield { rows, frames: frames.with(n, other) };
+    }
+  }
 }
 
-function moved<T>(items: T[]): T[][] {
-  return items.flatMap((item, from) => {
+function* moved<T>(items: T[]): Generator<T[]> {
+  for (const [from, item] of items.entries()) {
     const rest = items.toSpliced(from, 1);
-    return items.flatMap((_, to) => (to === from ? [] : [rest.toSpliced(to, 0, item)]));
-  });
+    for (let to = 0; to < items.length; to++) {
+      if (to !== from) {
+        yield rest.toSpliced(to, 0, item);
+      }
+    }
+  }
 }
 
 function columnsAt(frames: number[][], width: number, { x: gap, frame }: Gaps): Map<number, number> {

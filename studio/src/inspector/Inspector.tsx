@@ -11,6 +11,7 @@ export function Inspector() {
   const selected = useStudio((state) => state.selected);
   const open = useStudio((state) => state.document !== null);
   const record = useStudio((state) => state.document?.record != null);
+  const session = useStudio((state) => state.session);
   const [only] = selected;
   if (!open) {
     return <div className="inspector inspector-empty">No document is open.</div>;
@@ -22,7 +23,7 @@ export function Inspector() {
         <p className="inspector-record">Parameters of the record; its model can be run and changed.</p>
       )}
       {only === undefined ? (
-        <DocumentInspector />
+        <DocumentInspector key={session} />
       ) : selected.length > 1 ? (
         <ManyInspector key={selected.join()} ids={selected} />
       ) : (

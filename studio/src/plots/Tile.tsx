@@ -50,15 +50,17 @@ function ShownTile(props: TileProps & { shown: Shown }) {
     (): [Memory, { current: Live[] }] => [new Memory(), { current: [] }],
     [calm],
   );
-  const drawings = useRef<(Drawing | null)[]>([]);
+  // By the element of each cell; a plot without cells has one of its own element.
+  const drawings = useRef(new Map<string, Drawing>());
   const cells = "cells" in plot ? plot.cells(shown) : null;
+  const ids = cells?.map(({ id }) => id) ?? [element.id];
   const contents = (): (Content | null)[] =>
     "contents" in plot
       ? plot.contents(shown, lives.current, memory)
       : [plot.content(shown, lives.current, memory)];
   const draw = () => {
     if (visible) {
-      contents().forEach((content, i) => drawings.current[i]?.show(content));
+      contents().forEach((content, i) => drawings.current.get(ids[i] ?? "")?.show(content));
     }
   };
   const wishes = plot.wishes(shown);
@@ -85,9 +87,10 @@ function ShownTile(props: TileProps & { shown: Shown }) {
   });
   const legend = plot.legend?.(shown) ?? [];
   const table = () => {
-    const drawn = drawings.current.flatMap((drawing, i) =>
-      drawing?.content == null ? [] : [{ content: drawing.content, name: cells?.[i]?.path ?? "" }],
-    );
+    const drawn = ids.flatMap((id, i) => {
+      const content = drawings.current.get(id)?.content ?? null;
+      return content === null ? [] : [{ content, name: cells?.[i]?.path ?? "" }];
+    });
     const names = cells === null ? undefined : drawn.map(({ name }) => name);
     return tableOf(
       drawn.map(({ content }) => content),
@@ -95,10 +98,10 @@ function ShownTile(props: TileProps & { shown: Shown }) {
     );
   };
   const exportAs = (format: DrawingFormat) => {
-    const [drawing] = drawings.current;
+    const drawing = drawings.current.get(element.id);
     if (cells !== null) {
-      const drawn = cells.flatMap(({ path }, i) => {
-        const { host, content = null } = drawings.current[i] ?? {};
+      const drawn = cells.flatMap(({ id, path }) => {
+        const { host, content = null } = drawings.current.get(id) ?? {};
         return host === undefined ? [] : [{ name: path, box: host.getBoundingClientRect(), content }];
       });
       exportMultiples(plot.file(shown), drawn, format);
@@ -108,8 +111,12 @@ function ShownTile(props: TileProps & { shown: Shown }) {
       exportDrawing(plot.file(shown), { width, height, content: drawing.content }, entries, format);
     }
   };
-  const keep = (i: number) => (drawing: Drawing | null) => {
-    drawings.current[i] = drawing;
+  const keep = (id: string) => (drawing: Drawing | null) => {
+    if (drawing === null) {
+      drawings.current.delete(id);
+    } else {
+      drawings.current.set(id, drawing);
+    }
   };
   return (
     <PlotFrame
@@ -144,11 +151,11 @@ function ShownTile(props: TileProps & { shown: Shown }) {
           label={plot.label(shown)}
           name={`Drawing of ${element.path}${pushes ? "; hold I to inject" : ""}`}
           injection={pushes ? injection : null}
-          keep={keep(0)}
+          keep={keep(element.id)}
         />
       ) : (
         <div className="plot-multiples" role="group" aria-label={plot.label(shown)}>
-          {cells.map((other, i) => (
+          {cells.map((other) => (
             <div key={other.id} className="plot-cell">
               <button
                 type="button"
@@ -159,7 +166,7 @@ function ShownTile(props: TileProps & { shown: Shown }) {
                 {other.path}
               </button>
               <div className="plot-cell-body">
-                <DrawingPlace label={`${port} of ${other.path}`} injection={null} keep={keep(i)} />
+                <DrawingPlace label={`${port} of ${other.path}`} injection={null} keep={keep(other.id)} />
               </div>
             </div>
           ))}

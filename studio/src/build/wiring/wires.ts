@@ -12,6 +12,9 @@ const dataOf = (wire: string): WireData | undefined =>
     ?.scene()
     .wires.find(({ id }) => id === wire)?.data;
 
+// Whether a connection is on the canvas: one that was picked may be gone.
+export const isDrawn = (wire: string): boolean => dataOf(wire) !== undefined;
+
 const chainsOf = (wire: string): Chain[] => dataOf(wire)?.chains ?? [];
 
 // What is removed with a connection on the canvas: the couplings on it, or else the connection.

@@ -1,7 +1,7 @@
 // An element on the canvas: its name, its kind, its live values, its ports.
 
 import { Handle, Position, type NodeProps } from "@xyflow/react";
-import { memo, useMemo, useRef } from "react";
+import { memo, useEffect, useMemo, useRef } from "react";
 import { Sketch } from "../../build/palette/Sketch";
 import { useFitMarks } from "../../build/wiring/useFitMarks";
 import { askFits, useWiring } from "../../build/wiring/wiring";
@@ -9,7 +9,7 @@ import { useStudio } from "../../store";
 import { BOX, dimensionsText, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
 import { useHover } from "../hover";
 import { LiveBox } from "./LiveBox";
-import { useFocus } from "../focus";
+import { unhover, useFocus } from "../focus";
 import { Mark } from "./Mark";
 import { Parts } from "./ContractedParts";
 import type { BoxNode } from "../scene";
@@ -33,6 +33,8 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
   const reached = useWiring((state) => state.target === id);
   const far = useFocus(({ near }) => near !== null && !near.has(id));
   const { enter, leave } = useHover.getState();
+  // a box that disappears below the pointer is not left by it
+  useEffect(() => () => unhover(id), [id]);
   const ports = (side: PortsProps["side"], names: string[]) =>
     level === "dot" ? (
       <Anchors names={names} side={side} height={height} />
@@ -57,7 +59,7 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
         }
       }}
       onPointerLeave={() => {
-        useFocus.setState({ hovered: null });
+        unhover(id);
         leave();
       }}
     >

@@ -1,6 +1,8 @@
 // The elements that a box of a contracted architecture shows inside: a dot for each stimulus that it
 // receives, a ring for each coupling with itself.
 
+import { pickElement } from "../../build/picked";
+import { openPlot } from "../../panels/openPlot";
 import { useStudio } from "../../store";
 import { useHover } from "../hover";
 import { useProblem } from "../problem";
@@ -30,6 +32,7 @@ function Part({ element: id, look }: { element: string; look: "dot" | "ring" }) 
     <button
       type="button"
       className="graph-part nodrag nopan"
+      data-element={id}
       data-look={look}
       data-sign={effect}
       data-problem={problem !== "" || undefined}
@@ -38,7 +41,11 @@ function Part({ element: id, look }: { element: string; look: "dot" | "ring" }) 
       aria-pressed={selected}
       onClick={(event) => {
         event.stopPropagation();
-        useStudio.getState().select([id]);
+        pickElement(id, event.shiftKey || event.ctrlKey || event.metaKey);
+      }}
+      onDoubleClick={(event) => {
+        event.stopPropagation();
+        openPlot({ element: id });
       }}
       onPointerEnter={(event) => {
         event.stopPropagation();

@@ -1,5 +1,6 @@
 // A coupling on an edge: its name and the number it is known by.
 
+import { pickElement } from "../../build/picked";
 import { useStudio } from "../../store";
 import { openPlot } from "../../panels/openPlot";
 import { mainNumber } from "./facts";
@@ -37,15 +38,7 @@ export function Pill({ element: id }: { element: string }) {
       aria-pressed={selected}
       onClick={(event) => {
         event.stopPropagation();
-        const { selected: before, select } = useStudio.getState();
-        const rest = before.filter((other) => other !== id);
-        select(
-          event.shiftKey || event.ctrlKey || event.metaKey
-            ? rest.length < before.length
-              ? rest
-              : [...before, id]
-            : [id],
-        );
+        pickElement(id, event.shiftKey || event.ctrlKey || event.metaKey);
       }}
       onDoubleClick={(event) => {
         event.stopPropagation();

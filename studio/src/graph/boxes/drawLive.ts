@@ -39,22 +39,32 @@ export function drawLive(canvas: Canvas, { form, frame }: Live): void {
     drawCurve(canvas, values, lower, upper);
   } else {
     squares(canvas, true);
-    const table = lower < 0 ? activationOf(canvas.span) : scale("viridis");
-    paintHeat(canvas.element, values, form.shape[0] ?? 1, form.shape[1] ?? 1, [lower, upper], table);
+    const map =
+      lower < 0 ? activationOf(canvas.element, { lower, upper }) : { lower, upper, table: scale("viridis") };
+    const [nx = 1, ny = 1] = form.shape;
+    paintHeat(canvas.element, values, nx, ny, [map.lower, map.upper], map.table);
   }
 }
 
-const tables = new WeakMap<Span, ColorTable>();
+type SpanColors = Readonly<{ lower: number; upper: number; table: ColorTable }>;
 
-// The colours of a span around 0; they are computed once for as long as it stays.
-function activationOf(span: Span): ColorTable {
-  let table = tables.get(span);
-  if (table === undefined) {
-    const { lower, upper } = open(span);
-    table = activationScale(lower, upper, 0);
-    tables.set(span, table);
+// The colours of a range around 0 change with it in small steps: a table takes a third of a millisecond.
+const STEP = 0.01;
+const colors = new WeakMap<HTMLCanvasElement, SpanColors>();
+
+function activationOf(canvas: HTMLCanvasElement, { lower, upper }: Span): SpanColors {
+  const before = colors.get(canvas);
+  const most = STEP * (upper - lower);
+  if (
+    before !== undefined &&
+    Math.abs(before.lower - lower) <= most &&
+    Math.abs(before.upper - upper) <= most
+  ) {
+    return before;
   }
-  return table;
+  const next = { lower, upper, table: activationScale(lower, upper, 0) };
+  colors.set(canvas, next);
+  return next;
 }
 
 export function clear(canvas: Canvas): void {
