@@ -54,33 +54,50 @@ afterAll(() => studio.stop());
 
 type Seen = { frames: number; blank: Record<string, number> };
 
-/** From now on look at every picture of the browser for a live box or a plot in one colour. */
+/** From now on look at every picture of the browser for a live box in view, or a plot, in one colour. */
 async function watchColours(): Promise<void> {
-  await studio.page.evaluate((first) => {
-    const seen: Seen = { frames: 0, blank: { box: 0, plot: 0 } };
-    Object.assign(window, { seen });
-    const colours = (canvas: HTMLCanvasElement | null, part: DOMRect | undefined): number => {
-      const base = canvas?.getBoundingClientRect();
-      if (canvas === null || base === undefined || part === undefined) return 0;
-      const scale = canvas.width / base.width;
-      const [x, y] = [(part.left - base.left) * scale, (part.top - base.top) * scale];
-      const data = canvas.getContext("2d")?.getImageData(x, y, part.width * scale, part.height * scale).data;
-      return new Set(new Uint32Array(data?.buffer ?? new ArrayBuffer(0))).size;
-    };
-    // a task after the picture: nothing is half drawn
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => {
-      const layer = document.querySelector<HTMLCanvasElement>(".graph-live-layer");
-      const slot = document.querySelector(`.react-flow__node[data-id="${first}"] .graph-live`);
-      const drawn = document.querySelector<HTMLCanvasElement>(".plot-host .plot-canvas");
-      seen.frames += 1;
-      if (colours(layer, slot?.getBoundingClientRect()) < 2) seen.blank["box"] = (seen.blank["box"] ?? 0) + 1;
-      if (colours(drawn, drawn?.getBoundingClientRect()) < 2)
-        seen.blank["plot"] = (seen.blank["plot"] ?? 0) + 1;
-      requestAnimationFrame(() => port2.postMessage(null));
-    };
-    port2.postMessage(null);
-  }, ident("u0"));
+  await studio.page.evaluate(
+    (ids) => {
+      const seen: Seen = { frames: 0, blank: { box: 0, plot: 0 } };
+      Object.assign(window, { seen });
+      const colours = (canvas: HTMLCanvasElement | null, part: DOMRect | undefined): number => {
+        const base = canvas?.getBoundingClientRect();
+        if (canvas === null || base === undefined || part === undefined) return 0;
+        const scale = canvas.width / base.width;
+        const [x, y] = [(part.left - base.left) * scale, (part.top - base.top) * scale];
+        const data = canvas
+          .getContext("2d")
+          ?.getImageData(x, y, part.width * scale, part.height * scale).data;
+        return new Set(new Uint32Array(data?.buffer ?? new ArrayBuffer(0))).size;
+      };
+      // a task after the picture: nothing is half drawn
+      const { port1, port2 } = new MessageChannel();
+      port1.onmessage = () => {
+        const layer = document.querySelector<HTMLCanvasElement>(".graph-live-layer");
+        const view = layer?.getBoundingClientRect();
+        const places = ids.map((id) =>
+          document.querySelector(`.react-flow__node[data-id="${id}"] .graph-live`)?.getBoundingClientRect(),
+        );
+        const slot = places.find(
+          (at) =>
+            at !== undefined &&
+            view !== undefined &&
+            at.left > view.left &&
+            at.right < view.right &&
+            at.top > view.top &&
+            at.bottom < view.bottom,
+        );
+        const drawn = document.querySelector<HTMLCanvasElement>(".plot-host .plot-canvas");
+        seen.frames += 1;
+        if (colours(layer, slot) < 2) seen.blank["box"] = (seen.blank["box"] ?? 0) + 1;
+        if (colours(drawn, drawn?.getBoundingClientRect()) < 2)
+          seen.blank["plot"] = (seen.blank["plot"] ?? 0) + 1;
+        requestAnimationFrame(() => port2.postMessage(null));
+      };
+      port2.postMessage(null);
+    },
+    Array.from({ length: FIELDS }, (_, n) => ident(`u${n}`)),
+  );
 }
 
 const seen = (): Promise<Seen> => studio.page.evaluate(() => (window as unknown as { seen: Seen }).seen);
