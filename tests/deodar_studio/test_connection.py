@@ -119,3 +119,31 @@ def test_a_request_with_a_number_is_answered_and_one_without_is_not(
     first, *rest, last = asyncio.run(main())
     assert first == expected and not rest
     assert last.request == 9 and "is not understood" in last.problems[0].what
+
+
+class Failing(PageConnection):
+    """A connection that cannot make its messages."""
+
+    async def _say(self) -> None:
+        raise NotImplementedError("no axes")
+
+    async def sending(self) -> None:
+        """Send until the page disconnects."""
+        await self._send()
+
+
+@pytest.mark.parametrize("error", [RuntimeError("closed"), OSError("reset"), None])
+def test_only_errors_of_the_socket_mean_that_the_page_has_disconnected(error: Exception | None) -> None:
+    """A page whose messages cannot be made would wait for ever if their errors were hidden."""
+
+    async def send_text(text: str) -> None:
+        if error is not None:
+            raise error
+
+    hub = SimpleNamespace(new_page=lambda: Page(1), welcome=Answer(request=1))
+    connection = Failing(cast("Any", SimpleNamespace(send_text=send_text)), cast("Any", hub))
+    if error is not None:
+        asyncio.run(connection.sending())
+        return
+    with pytest.raises(NotImplementedError, match="no axes"):
+        asyncio.run(connection.sending())

@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar import registry
 from deodar.architectures.saliency import saliency
 from deodar.elements.world_ports import Motor, Sensor
 from deodar.errors import WorldError
+from deodar.numerics.axes import Axes
+from deodar.worlds._base import Signal, World
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
 from deodar_studio.world.embodiment import Embodiment, preview, problems, warnings
@@ -114,3 +117,58 @@ def test_the_page_shows_no_login_of_a_camera() -> None:
     assert "s3cr3t" not in str(caught.value)
     embodiment.choose(camera, "Camera", address, dd.Model("blind").document)
     assert embodiment.label(camera) == "Camera: rtsp://***@127.0.0.1:1/live?token=***"
+
+
+class Lamp(World):
+    sensors = {"light": Signal("brightness", ()), "free": Signal("any shape")}
+    motors = {"power": Signal("electrical power", ())}
+
+
+class Broken(Lamp):
+    @staticmethod
+    def example_axes(sensor: str) -> Axes:
+        raise RuntimeError(sensor)
+
+
+class Empty(Lamp):
+    sensors = {"light": Signal("no samples", (0,))}
+
+
+@pytest.mark.parametrize(
+    ("cls", "names"), [(Lamp, ["light", "power"]), (Broken, ["light", "power"]), (Empty, ["power"])]
+)
+def test_a_world_without_axes_of_an_example_offers_what_has_a_shape(
+    cls: type[Lamp], names: list[str]
+) -> None:
+    (world,) = Embodiment(cls()).offered(dd.Model("new").document).worlds
+    assert [signal.name for signal in world.signals] == names
+
+
+def test_an_edit_that_leaves_the_signals_alone_asks_no_world_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[str] = []
+    axes, kinds = Arena.example_axes, registry.kinds
+
+    def example_axes(sensor: str) -> Axes:
+        calls.append(sensor)
+        return axes(sensor)
+
+    def of_room(room: str | None = None) -> dict[str, type]:
+        calls.append(f"room {room}")
+        return kinds(room)
+
+    monkeypatch.setattr(Arena, "example_axes", staticmethod(example_axes))
+    monkeypatch.setattr(registry, "kinds", of_room)
+    embodiment, model = Embodiment(), dd.Model("new")
+    model.add(dd.Field("u", [dd.Axis("x", 0, 10, 11)]))
+    first = embodiment.offered(model.document)
+    assert calls.count("room worlds") == 1 and calls.count("infrared") == 1
+    calls.clear()
+
+    model.set("u.tau", 30)
+    assert embodiment.offered(model.document) is first and calls == []
+
+    model.add(Motor("left", [], "left"))  # another offer, of the same examples
+    arena = next(w for w in embodiment.offered(model.document).worlds if w.world == "Arena")
+    assert "left" not in [s.name for s in arena.signals if s.kind == "Motor"]
+    assert set(calls) == {"room worlds"}
+    assert calls.count("room worlds") == 1

@@ -13,6 +13,7 @@ import logging
 import math
 import time
 from collections import deque
+from collections.abc import Awaitable
 from typing import Any
 
 import msgspec
@@ -152,7 +153,7 @@ class PageConnection:
                 with contextlib.suppress(TimeoutError):
                     async with asyncio.timeout(IDLE):
                         await self.page.news.wait()
-        except (WebSocketDisconnect, RuntimeError, OSError):
+        except WebSocketDisconnect:
             pass  # the page has disconnected; `_receive` ends the connection
 
     async def _say(self) -> None:
@@ -218,8 +219,8 @@ class PageConnection:
             more = sent or (trace is not None and source.present() is None)  # a record is being read
             data = stream.frame(state, trace) if more else None
             if data is not None:
-                await self._socket.send_bytes(data)
                 self._spoke = True
+                await _to_socket(self._socket.send_bytes(data))
 
     async def _shown(self, source: FrameSource) -> PublishedState:
         """Return the state that the page shows, after what it asked for, and keep its timeline."""
@@ -302,7 +303,20 @@ class PageConnection:
 
     async def _text(self, message: Message) -> None:
         self._spoke = True
-        await self._socket.send_text(msgspec.json.encode(message).decode())
+        await _to_socket(self._socket.send_text(msgspec.json.encode(message).decode()))
+
+
+async def _to_socket(sending: Awaitable[None]) -> None:
+    """Wait until something is sent.
+
+    Raises:
+        WebSocketDisconnect: the page has disconnected. The socket itself raises RuntimeError or OSError then,
+            which would hide errors of what is to be sent.
+    """
+    try:
+        await sending
+    except (RuntimeError, OSError) as error:
+        raise WebSocketDisconnect from error
 
 
 def _refused(request: int, what: str) -> Answer:

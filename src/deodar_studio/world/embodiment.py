@@ -5,8 +5,9 @@ from __future__ import annotations
 import base64
 import binascii
 import contextlib
+import dataclasses as dc
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -33,6 +34,26 @@ MOST_BYTES = 32 * 2**20
 PREVIEW = (Axis("x", 0, 159, 160), Axis("y", 0, 119, 120), Axis("channel", 0, 2, 3))
 
 
+@dc.dataclass(frozen=True)
+class _OfferedFor:
+    """What an offer of sensors and motors was made for. Only the signals of the document matter."""
+
+    document: Document
+    present: World | None
+    chosen: World | None
+    signals: Collection[str]
+    driven: Collection[str]
+
+    def holds(self, doc: Document, present: World | None, chosen: World | None) -> bool:
+        """Return whether the offer was made for this very document, in these worlds."""
+        return self.document is doc and self.present is present and self.chosen is chosen
+
+    def holds_signals(self, latest: _OfferedFor) -> bool:
+        """Return whether another document uses the same signals, in the same worlds."""
+        same = self.present is latest.present and self.chosen is latest.chosen
+        return same and self.signals == latest.signals and self.driven == latest.driven
+
+
 class Embodiment:
     """The world that the user chose, or an example.
 
@@ -42,7 +63,8 @@ class Embodiment:
 
     def __init__(self, chosen: World | None = None) -> None:
         self.chosen = chosen
-        self._offered: tuple[tuple[object, ...], OfferedSignals] | None = None
+        self._example_axes = offered.ExampleAxes()
+        self._offered: tuple[_OfferedFor, OfferedSignals] | None = None
         self._dropped: tempfile.TemporaryDirectory[str] | None = None
         self._name = (
             ""
@@ -87,7 +109,7 @@ class Embodiment:
             present: the world in use.
         """
         for name, world in () if "axes" in stated else self._signals(kind, stated, doc, present):
-            values = offered.values(kind, name, world)
+            values = offered.values(kind, name, world, self._example_axes)
             if values is not None:
                 return {**stated, **values}
         return dict(stated)
@@ -112,10 +134,19 @@ class Embodiment:
 
     def offered(self, doc: Document, present: World | None = None) -> OfferedSignals:
         """Return the sensors and motors that a document can use; `present` is the world in use."""
-        of = (doc, present, self.chosen)
-        if self._offered is None or any(a is not b for a, b in zip(of, self._offered[0], strict=True)):
-            listed = [offered.world_signals(title, world, doc) for title, world in self._usable(doc, present)]
-            self._offered = (of, OfferedSignals(worlds=[w for w in listed if w.signals]))
+        before = self._offered
+        if before is not None and before[0].holds(doc, present, self.chosen):
+            return before[1]
+        names, motors = signals(doc), offered.driven(doc)
+        latest = _OfferedFor(doc, present, self.chosen, names, motors)
+        if before is not None and before[0].holds_signals(latest):
+            self._offered = (latest, before[1])
+            return before[1]
+        listed = [
+            offered.world_signals(title, world, motors, self._example_axes)
+            for title, world in self._usable(doc, present)
+        ]
+        self._offered = (latest, OfferedSignals(worlds=[w for w in listed if w.signals]))
         return self._offered[1]
 
     def _usable(self, doc: Document, present: World | None) -> list[tuple[str, World | type[World]]]:

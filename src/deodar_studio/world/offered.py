@@ -3,23 +3,43 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from deodar import registry
 from deodar.elements.world_ports import Motor, Sensor
+from deodar.errors import AxesError
 from deodar.model.document import Document
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.worlds._base import Signal, World
 from deodar_studio.messages.to_page import SignalView, WorldSignals
 
 
-def world_signals(title: str, world: World | type[World], doc: Document) -> WorldSignals:
-    """Return what a world offers a document, without motors that the document drives already, and without
+class ExampleAxes:
+    """The axes of the sensors of examples; each example is asked once."""
+
+    def __init__(self) -> None:
+        self._axes: dict[tuple[str, type[World]], Axes | None] = {}
+
+    def of(self, sensor: str, cls: type[World]) -> Axes | None:
+        """Return the axes of an example of a class with a sensor, or of another class with that sensor.
+
+        None: no example states axes.
+        """
+        if (sensor, cls) not in self._axes:
+            self._axes[sensor, cls] = _example_axes(sensor, cls)
+        return self._axes[sensor, cls]
+
+
+def world_signals(
+    title: str, world: World | type[World], motors: Collection[str], examples: ExampleAxes
+) -> WorldSignals:
+    """Return what a world offers a document that drives some motors, without these motors, and without
     sensors whose axes nothing states.
     """
-    present = driven(doc)
-    views = [view for view in _views(world) if view.kind != Motor.__name__ or view.name not in present]
+    views = [
+        view for view in _views(world, examples) if view.kind != Motor.__name__ or view.name not in motors
+    ]
     return WorldSignals(world=title, signals=views)
 
 
@@ -33,19 +53,19 @@ def of_kind(kind: str, world: World | type[World]) -> Mapping[str, Signal]:
     return {Sensor.__name__: world.sensors, Motor.__name__: world.motors}.get(kind, {})
 
 
-def values(kind: str, name: str, world: World | type[World]) -> dict[str, Any] | None:
+def values(kind: str, name: str, world: World | type[World], examples: ExampleAxes) -> dict[str, Any] | None:
     """Return the values of an element for a signal of a world, axes by their properties; None: its axes are
     not known.
     """
-    axes = _axes(kind, name, world)
+    axes = _axes(kind, name, world, examples)
     key = "sensor" if kind == Sensor.__name__ else "motor"
     return None if axes is None else {key: name, "axes": [dc.asdict(axis) for axis in axes]}
 
 
-def _views(world: World | type[World]) -> Iterator[SignalView]:
+def _views(world: World | type[World], examples: ExampleAxes) -> Iterator[SignalView]:
     for kind in (Sensor.__name__, Motor.__name__):
         for name, signal in of_kind(kind, world).items():
-            stated = values(kind, name, world)
+            stated = values(kind, name, world, examples)
             if stated is not None:
                 title = _title(name, signal, [axis["samples"] for axis in stated["axes"]])
                 yield SignalView(kind=kind, name=name, title=title, meaning=signal.meaning, values=stated)
@@ -59,24 +79,34 @@ def _title(name: str, signal: Signal, samples: list[int]) -> str:
     return f"{title}, {' x '.join(map(str, samples))} samples" if samples else title
 
 
-def _axes(kind: str, name: str, world: World | type[World]) -> Axes | None:
+def _axes(kind: str, name: str, world: World | type[World], examples: ExampleAxes) -> Axes | None:
     """Return axes over which a signal can be read or driven: those of an example, or plain ones of its
-    shape.
+    shape; None if there are none.
     """
     samples = of_kind(kind, world)[name].shape
     cls = type(world) if isinstance(world, World) else world
-    example = _example_axes(name, cls) if kind == Sensor.__name__ else None
+    example = examples.of(name, cls) if kind == Sensor.__name__ else None
     if samples is None or (example is not None and shape(example) == samples):
         return example
     names = ["of"] if len(samples) == 1 else [f"of{n}" for n in range(1, len(samples) + 1)]
     pairs = zip(names, samples, strict=True)
-    return tuple(Axis(a, 0, max(n - 1, 1), samples=n, periodic=n == 1) for a, n in pairs)
+    try:
+        return tuple(Axis(a, 0, max(n - 1, 1), samples=n, periodic=n == 1) for a, n in pairs)
+    except AxesError:
+        return None
 
 
-def _example_axes(name: str, cls: type[World]) -> Axes | None:
-    """Return the axes of an example of a class with a sensor, or of another class with that sensor."""
-    kinds: Mapping[str, type[World]] = registry.kinds("worlds")
-    for kind in (cls, *kinds.values()):
-        if kind.stands_in and name in kind.sensors:
-            return kind.example_axes(name)
+def _example_axes(sensor: str, cls: type[World]) -> Axes | None:
+    for kind in _with_examples(cls):
+        if kind.stands_in and sensor in kind.sensors:
+            try:
+                return kind.example_axes(sensor)
+            except Exception:  # a world of a user may raise any, or define none
+                return None
     return None
+
+
+def _with_examples(cls: type[World]) -> Iterator[type[World]]:
+    """Yield a class and then all others; these are looked up only if the class does not do."""
+    yield cls
+    yield from registry.kinds("worlds").values()
