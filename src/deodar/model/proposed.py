@@ -120,11 +120,11 @@ def bound(checked: CheckedDocument, problem: Problem) -> Problem:
     return dc.replace(problem, fix=fix)
 
 
-def proven(doc: Document, structural: Sequence[Problem]) -> list[Problem]:
+def proven(doc: Document, structural: Sequence[Problem], most: int = MOST_TRIED) -> list[Problem]:
     """Return the structural problems of a document; edits that do not solve theirs, or that bring another
-    one, are left out, and those beyond MOST_TRIED become text.
+    one, are left out, and those beyond the first `most` become text.
     """
-    tried = [p for p in structural if isinstance(p.fix, EditFix)][:MOST_TRIED]
+    tried = [p for p in structural if isinstance(p.fix, EditFix)][:most]
 
     def fixed(problem: Problem) -> Problem:
         if problem in tried:

@@ -145,10 +145,12 @@ class DocumentHistory:
             ModelError: the document has no such problem, or its fix needs a decision.
         """
         problems = await asyncio.to_thread(self._conversions.check, self.require_edited().document)
-        edits = next((p.edits for p in problems if (p.where, p.what) == (where, what)), ())
-        if not edits:
+        problem = next((p for p in problems if (p.where, p.what) == (where, what)), None)
+        if problem is None:
             raise ModelError("this problem has no repair any more; the document has changed", where=where)
-        return await self.change(lambda doc: proposed.apply(doc, edits))
+        if not problem.edits:
+            raise ModelError("no edit alone solves this problem", where=where, fix=problem.fix_at("page"))
+        return await self.change(lambda doc: proposed.apply(doc, problem.edits))
 
     async def describe(self, values: dict[str, Any]) -> None:
         """Change general properties of the document."""

@@ -15,7 +15,7 @@ from deodar.declarations import Cost
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.importers import stored_report
-from deodar.model import document_files, find
+from deodar.model import document_files, find, proposed
 from deodar.model.document import Document, Entry
 from deodar.model.document_graph import graph
 from deodar.model.parts import to_json
@@ -37,6 +37,9 @@ from deodar_studio.messages.to_page import (
     PlacedConnection,
 )
 
+MOST_RESOLVED = 2000
+"""About the largest number of elements that are resolved in order to try the repairs of one document."""
+
 H = TypeVar("H", bound=Hashable)
 Ports = Mapping[str, Axes]
 
@@ -51,7 +54,7 @@ class Converted:
         arrays: its arrays by their keys.
         ports: axes of the ports of each element, by id.
         elements: its elements as sent to the page, in their order, by id.
-        problems: problems of its structure, without warnings.
+        problems: problems of its structure, without warnings; those with edits are solved by them.
         nodes: its resolved nodes, for the warnings.
         warnings: its warnings in the present world.
     """
@@ -84,7 +87,9 @@ def convert(doc: Document, before: Converted | None = None) -> Converted:
             elements[e.id] = before.elements[e.id]
         else:
             elements[e.id] = _element(e, ports[e.id], named, arrays)
-    return Converted(doc, axes, arrays, ports, elements, resolved.problems, resolved.nodes)
+    most = min(proposed.MOST_TRIED, 1 + MOST_RESOLVED // (1 + len(doc.entries)))
+    problems = proposed.proven(doc, resolved.problems, most)
+    return Converted(doc, axes, arrays, ports, elements, problems, resolved.nodes)
 
 
 def _same_model(old: Document, new: Document) -> bool:

@@ -9,12 +9,13 @@ from typing import Any
 import pytest
 
 import deodar as dd
-from deodar.errors import DocumentError, ParameterError
+from deodar.errors import DocumentError, ModelError, ParameterError
 from deodar.model.document import Document
 from deodar_studio.messages.to_page import Changed, Edited
 from deodar_studio.project.change_queue import ChangeQueue
 from deodar_studio.project.conversions import Conversions
 from deodar_studio.project.history import DocumentHistory
+from deodar_studio.views import view
 
 
 async def accepts(doc: Document) -> Any:
@@ -106,3 +107,41 @@ def test_the_document_of_a_run_keeps_name_notes_and_layout() -> None:
     assert tau(h) == 60.0 and h.document().notes == "" and h.version == 1
     h.follow(running.document)
     assert h.version == 1, "nothing changed"
+
+
+def looped() -> dd.Model:
+    """Return a loop of two gains, in which no connection can read the step before."""
+    model = dd.Model("loop")
+    a, b = model.add(dd.Gain(name="a")), model.add(dd.Gain(name="b"))
+    model.connect(a, b)
+    model.connect(b, a)
+    return model
+
+
+def mismatched() -> dd.Model:
+    """Return two fields over axes of other names."""
+    model = dd.Model("mismatched")
+    source = model.add(dd.Field("u", [dd.Axis("x", 0, 10, 11)]))
+    model.connect(source, model.add(dd.Field("v", [dd.Axis("z", 0, 10, 11)])))
+    return model
+
+
+@pytest.mark.parametrize(("make", "repaired"), [(looped, 0), (mismatched, 1)])
+def test_a_repair_is_listed_if_it_solves_its_problem(make: Callable[[], dd.Model], repaired: int) -> None:
+    async def scene() -> None:
+        h = history()
+        h.open(make())
+        conversions = Conversions(lambda doc: ((), ()))
+        listed = view.problems(conversions.of(h.document()).problems, h.document())
+        assert listed and len({p.what for p in listed if p.repair}) == repaired
+        for problem in listed[:1]:
+            if problem.repair:
+                await h.repair(problem.where, problem.what)
+                assert problem.what not in [p.what for p in conversions.problems(h.document())]
+                continue
+            with pytest.raises(ModelError, match="no edit alone solves"):
+                await h.repair(problem.where, problem.what)
+        with pytest.raises(ModelError, match="the document has changed"):
+            await h.repair("u", "is solved")
+
+    asyncio.run(scene())
