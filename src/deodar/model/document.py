@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import functools
-from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from deodar.codec import Json
@@ -74,6 +74,11 @@ class Entry(Summarised):
     def structure(self) -> tuple[Hashable, ...]:
         """All that a program depends on but the values of traced leaves; the id comes first."""
         return (self.id, self.every, structure(self.element))
+
+    @functools.cached_property
+    def axes(self) -> Axes:
+        """The axes of the element and of its parts, each once."""
+        return tuple(dict.fromkeys(axes_in(self.element)))
 
     @functools.cached_property
     def resting(self) -> Mapping[Leaf, bool]:
@@ -172,15 +177,21 @@ class Document(Summarised):
 
     def __post_init__(self) -> None:
         if self.spare_axes:
-            taken = {axis for e in self.entries for axis in axes_in(e.element)}
-            spare = tuple(axis for axis in dict.fromkeys(self.spare_axes) if axis not in taken)
-            object.__setattr__(self, "spare_axes", spare)
+            self._set_spare(self.spare_axes, self.entries)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for a pickle, without cached look-ups and without trust: it is valid only in the
         process in which it was given.
         """
         return _stated(self) | {"foreign": True}
+
+    def _set_spare(self, axes: Axes, entries: Iterable[Entry]) -> None:
+        """Set the spare axes to those that none of some entries has."""
+        spare = dict.fromkeys(axes)
+        for e in entries if spare else ():
+            for axis in e.axes:
+                spare.pop(axis, None)
+        object.__setattr__(self, "spare_axes", tuple(spare))
 
     def forget(self) -> None:
         """Drop the graph, the largest of the cached look-ups, with about 1.5 KiB for each element."""
@@ -209,7 +220,8 @@ class Document(Summarised):
         connections take O(n) time, not O(n^2).
         """
         ends = self.__dict__.pop("_ends", None)
-        out = dc.replace(self, connections=(*self.connections, new))
+        out = dc.replace(self, connections=(*self.connections, new), spare_axes=())
+        out._set_spare(self.spare_axes, ())
         out.__dict__.update(
             {key: self.__dict__[key] for key in ("_by_id", "_by_names", "_index") if key in self.__dict__}
         )
@@ -225,7 +237,8 @@ class Document(Summarised):
         the new document takes over the set of ends.
         """
         ends = self.__dict__.pop("_ends", None)
-        out = dc.replace(self, entries=(*self.entries, *new), groups=groups)
+        out = dc.replace(self, entries=(*self.entries, *new), groups=groups, spare_axes=())
+        out._set_spare(self.spare_axes, new)
         out.__dict__["_by_id"] = self._by_id | {e.id: e for e in new}
         out.__dict__["_by_names"] = self._by_names | {e.names: e for e in new}
         if ends is not None:

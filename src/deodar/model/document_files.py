@@ -25,7 +25,7 @@ from deodar.errors import DocumentError, did_you_mean, reading
 from deodar.leaves import parameter_values
 from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
-from deodar.model.parts import axes_in, kinds_in, to_json
+from deodar.model.parts import kinds_in, to_json
 from deodar.model.paths import display
 from deodar.model.reader import from_data, require_document
 from deodar.numerics.axes import Axis
@@ -55,7 +55,7 @@ ARRAY_SHARE = 0.5
 
 def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     """Return the document as plain data with keys in a stable order, and its arrays by key."""
-    table: dict[str, Axis] = {}
+    axis_keys = _axis_keys(doc)
     arrays: dict[str, FrozenArray] = {}
 
     def array_key(array: FrozenArray) -> str:
@@ -64,15 +64,13 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     by = doc.by_id()
     elements: dict[str, Any] = {}
     for e in doc.entries:
-        body = to_json(e.element, lambda axis: axis_key(table, axis), array_key)
+        body = to_json(e.element, axis_keys.__getitem__, array_key)
         elements[e.path] = {
             "kind": body.pop("kind"),
             "id": e.id,
             **({"every": e.every} if e.every != 1 else {}),
             **body,
         }
-    for axis in doc.spare_axes:
-        axis_key(table, axis)
     connections = [
         {"source": f"{by[c.source].path}.{c.source_port}", "target": f"{by[c.target].path}.{c.target_port}"}
         | ({"reads": c.reads} if c.reads else {})
@@ -85,7 +83,7 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     data: dict[str, Any] = {"deodar": VERSION, "name": doc.name, "time_unit": doc.time_unit}
     data |= {} if doc.dt is None else {"dt": doc.dt}
     data |= {} if doc.t0 == 0 else {"t0": doc.t0}
-    data["axes"] = {key: part_data.to_data(axis, kind=False, without=()) for key, axis in table.items()}
+    data["axes"] = {key: part_data.to_data(axis, kind=False, without=()) for axis, key in axis_keys.items()}
     data |= {
         "parameters": shared,
         "elements": elements,
@@ -106,13 +104,24 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
 
 def axes(doc: Document) -> dict[str, Axis]:
     """Return the axes of a document by their keys, as `to_data` does."""
-    table: dict[str, Axis] = {}
-    for e in doc.entries:
-        for axis in axes_in(e.element):
-            axis_key(table, axis)
-    for axis in doc.spare_axes:
-        axis_key(table, axis)
-    return table
+    return {key: axis for axis, key in _axis_keys(doc).items()}
+
+
+def _axis_keys(doc: Document) -> dict[Axis, str]:
+    """Return the keys of the axes of a document: their names, numbered where several axes have one name."""
+    keys: dict[Axis, str] = {}
+    taken: set[str] = set()
+    numbers: dict[str, int] = {}
+    for axis in [*(axis for e in doc.entries for axis in e.axes), *doc.spare_axes]:
+        if axis in keys:
+            continue
+        key, number = axis.name, numbers.get(axis.name, 1)
+        while key in taken:
+            number += 1
+            key = f"{axis.name}_{number}"
+        keys[axis], numbers[axis.name] = key, number
+        taken.add(key)
+    return keys
 
 
 def arrays(doc: Document) -> dict[str, FrozenArray]:

@@ -19,7 +19,6 @@ from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, 
 from deodar.leaves import replace
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, DocumentParameter, Entry, Use
-from deodar.model.parts import axes_in
 from deodar.model.paths import PathNames, as_taken, display, stored_id
 from deodar.numerics.axes import Axis
 from deodar.parameters import Parameter, Reference, is_text, parameters, real, show
@@ -415,7 +414,7 @@ def remove_axis(doc: Document, axis: Axis) -> Document:
 
 def has_axis(doc: Document, axis: Axis) -> bool:
     """Return whether an axis is one of a document's, also one that no element has yet."""
-    return axis in doc.spare_axes or any(axis in axes_in(e.element) for e in doc.entries)
+    return axis in doc.spare_axes or any(axis in e.axes for e in doc.entries)
 
 
 def replace_axis(doc: Document, old: Axis, new: Axis) -> Document:

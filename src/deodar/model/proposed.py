@@ -10,7 +10,6 @@ from deodar.errors import DeodarError, EditFix, Fix, Problem, UnknownName, did_y
 from deodar.model import building, document_files, edit, find
 from deodar.model.document import Document, Leaf
 from deodar.model.document_graph import graph
-from deodar.model.parts import axes_in
 from deodar.model.resolve import reach
 from deodar.numerics.axes import Axis
 from deodar.proposed_edit import (
@@ -65,7 +64,7 @@ class CheckedDocument:
     def _by_axis_name(self) -> dict[str, set[str]]:
         having: dict[str, set[str]] = {}
         for e in self.doc.entries:
-            for axis in axes_in(e.element):
+            for axis in e.axes:
                 having.setdefault(axis.name, set()).add(e.id)
         return having
 

@@ -93,8 +93,7 @@ class _Reader:
             self.problem("elements", "is missing", 'A document without elements holds "elements": {}')
         doc = self.general(Document(self.text("name", "model"), foreign=True))
         axes = self.axes()
-        doc = dc.replace(self.elements(doc, axes), spare_axes=tuple(axes.values()))
-        doc = self.groups(doc)
+        doc = self.groups(self.elements(doc, axes))
         # connections and links of elements that failed would only repeat their problems
         if not self.problems:
             doc = self.uses(self.parameters(self.connections(doc)))
@@ -102,7 +101,7 @@ class _Reader:
         if self.problems:
             packages = [p.name for p in registry.packaged()]
             raise DocumentError([*plugins.unfit(needed, _package, packages), *self.problems])
-        return doc
+        return dc.replace(doc, spare_axes=tuple(axes.values()))
 
     def problem(self, where: str, fault: str, fix: str = "") -> None:
         self.add([Problem(where, fault, fix)])

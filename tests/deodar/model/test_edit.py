@@ -348,3 +348,20 @@ def test_an_axis_that_an_element_needs_is_not_removed() -> None:
     with pytest.raises(ParameterError, match=r"past\.slots: needs the axis x") as error:
         model.remove_axis("x")
     assert "Choose another axis there" in str(error.value) and model.document is before
+
+
+def test_many_axes_of_one_name_are_numbered_in_their_order() -> None:
+    model = dd.Model("m")
+    axes = [dd.Axis("a", 0, k + 1, samples=3) for k in range(3)] + [dd.Axis("a_2", 0, 9, samples=3)]
+    for axis in (axes[1], axes[3]):
+        model.add_axis(axis)
+    model.add(dd.Field("u", [axes[0], axes[1]]))
+    model.add_axis(axes[2])
+    assert document_files.axes(model.document) == {
+        "a": axes[0],
+        "a_2": axes[1],
+        "a_2_2": axes[3],
+        "a_3": axes[2],
+    }
+    stored = document_files.loads(model.to_json().encode(), lambda name: None)
+    assert stored.spare_axes == model.document.spare_axes == (axes[3], axes[2])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 
 import pytest
@@ -108,3 +109,31 @@ def test_an_element_has_no_more_axes_than_an_array() -> None:
     document["elements"]["u"]["axes"] *= 65
     with pytest.raises(DocumentError, match=r"u\.axes: 65 axes, more than 64"):
         from_data(document, {})
+
+
+@pytest.mark.parametrize("size", [20, 40])
+def test_a_spare_axis_is_compared_once_with_each_element(size: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An edit of a part of a document must not walk all of its elements: this would be quadratic."""
+    counts: list[int] = []
+    axis_hash = dd.Axis.__hash__
+
+    def counted_hash(axis: dd.Axis) -> int:
+        counts[-1] += 1
+        return axis_hash(axis)
+
+    def build(spare: bool) -> dd.Model:
+        model = dd.Model("m")
+        if spare:
+            model.add_axis(dd.Axis("y", 0, 1, samples=3))
+        fields = [model.add(dd.Field(f"u{k}", [dd.Axis("x", 0, 1, samples=2)])) for k in range(size)]
+        for before, after in itertools.pairwise(fields):
+            model.connect(before, after)
+            model.connect(after, before)
+        return model
+
+    monkeypatch.setattr(dd.Axis, "__hash__", counted_hash)
+    for spare in (False, True):
+        counts.append(0)
+        text = build(spare).to_json()
+        assert len(document_files.loads(text.encode(), lambda name: None).spare_axes) == spare
+    assert counts[1] - counts[0] < 12 * size
