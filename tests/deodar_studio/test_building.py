@@ -439,6 +439,34 @@ def test_a_document_without_a_title_gets_the_name_of_its_file(root: Path) -> Non
         play(address, scene)
 
 
+def test_the_first_save_keeps_redo_and_the_snapshots_of_the_document(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("new")
+        await p.do("add_element", kind="Field", name="u")
+        await p.do("add_element", kind="Field", name="v")
+        await p.do("undo")
+        await p.runs()
+        await p.do("step", n=2)
+        await p.until(lambda: p.clock["tick"] == 2)
+        await p.do("save_snapshot", name="first")
+        await p.do("save_preset", name="values")
+        before = p.document["undo"], p.document["redo"]
+        assert before == (1, 1)
+        await p.do("save", path="maze")
+        assert (p.document["undo"], p.document["redo"]) == before
+        await p.until(lambda: [s["name"] for s in p.said["saved_files"]["snapshots"]] == ["first"])
+        assert [s["path"] for s in p.said["saved_files"]["presets"]] == ["presets/maze/values.json"]
+        await p.do("return_to", name="first")
+        await p.do("undo")
+        assert p.document["title"] == "maze" and p.document["elements"] == []
+        await p.do("redo")
+        await p.do("redo")
+        assert p.document["title"] == "maze" and [e["path"] for e in p.document["elements"]] == ["u", "v"]
+
+    with studio(root) as address:
+        play(address, scene)
+
+
 def test_every_template_is_added_as_a_group(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.open("new")

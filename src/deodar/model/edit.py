@@ -568,6 +568,12 @@ def arrange_everywhere(history: UndoHistory[Document], layout: Mapping[str, Json
     history.change_all(with_layout)
 
 
+def rename_everywhere(history: UndoHistory[Document], name: str) -> None:
+    """Change the name of the document in all documents of a history that have the present one."""
+    present = history.document.name
+    history.change_all(lambda doc: describe(doc, name=name) if doc.name == present else doc)
+
+
 class UndoHistory(Generic[T]):
     """A sequence of documents, or of the plain data of an experiment, with undo and redo."""
 

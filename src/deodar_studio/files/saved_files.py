@@ -76,17 +76,31 @@ class SavedFolder:
 
     def remove(self, sort: Sort, name: str) -> None:
         """Delete a snapshot or preset; a preset that cannot be read without its arrays."""
-        path, content = self._existing(sort, name), b""
-        if sort == "preset":
-            with contextlib.suppress(OSError):
-                content = regular_file.read_bytes(path)
-        arrays = own_array_file(content, path.stem)
+        path = self._existing(sort, name)
+        arrays = _array_file(sort, path)
         try:
             path.unlink()
             if arrays:
                 path.with_name(arrays).unlink(missing_ok=True)
         except OSError as error:
             raise output.failed(path, error) from None
+
+    def move(self, title: str) -> None:
+        """Move all files to the folders of another title; one whose name is taken there stays.
+
+        Raises:
+            OSError: a file cannot be moved; the others may have been.
+        """
+        new = SavedFolder(self._workspace, title)
+        for sort in ENDINGS:
+            for path, _, _ in self._files(sort):
+                new._folder(sort).mkdir(parents=True, exist_ok=True)
+                place = new._folder(sort) / path.name
+                if place.exists() or place.is_symlink():
+                    continue
+                if arrays := _array_file(sort, path):
+                    path.with_name(arrays).rename(place.with_name(arrays))
+                path.rename(place)
 
     def _folder(self, sort: Sort) -> Path:
         return self._workspace.inside(f"{sort}s/{self._title}")
@@ -128,6 +142,15 @@ class SavedFolder:
         if _plain(name) != name or path.is_symlink() or not path.is_file():
             raise UnknownName(f"no {sort} is called {name!r}")
         return path
+
+
+def _array_file(sort: Sort, path: Path) -> str:
+    """Return the name of the array file of a preset; empty: it has none, or cannot be read."""
+    content = b""
+    if sort == "preset":
+        with contextlib.suppress(OSError):
+            content = regular_file.read_bytes(path)
+    return own_array_file(content, path.stem)
 
 
 def _plain(name: str) -> str:

@@ -171,6 +171,11 @@ class DocumentFile:
         """
         return await in_file_thread(lambda: self._folder(title).snapshot(name, trust), name)
 
+    async def move_saved(self, title: str, new_title: str) -> None:
+        """Move the snapshots and presets of a document to those of its new title, where this is possible."""
+        await try_in_file_thread(lambda: self._folder(title).move(new_title))
+        await self.list_saved(new_title)
+
     async def remove_saved(self, title: str, sort: Sort, name: str) -> None:
         """Delete a snapshot or a preset."""
         await in_file_thread(lambda: self._folder(title).remove(sort, name), name)

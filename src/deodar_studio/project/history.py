@@ -156,6 +156,15 @@ class DocumentHistory:
         """Change general properties of the document."""
         await self.change(lambda doc: edit.describe(doc, **values))
 
+    async def rename(self, name: str) -> None:
+        """Change the name in all documents of the history, without a step of undo; redo remains.
+
+        The next version is left to the caller.
+        """
+        history = self.require_edited().history
+        edit.rename_everywhere(history, name)
+        await self._adopt(history.document)
+
     async def arrange(self, layout: dict[str, Any], undoable: bool) -> None:
         """Change parts of the layout; without `undoable`, in all documents of the history."""
         model = self._require()

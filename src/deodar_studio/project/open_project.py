@@ -321,15 +321,18 @@ class OpenProject:
     async def save(self, path: str, replace: bool) -> Path:
         """Write the document as `DocumentFile.save` does; that of a record remains without a file.
 
-        A document without a title gets the name of its file.
+        A document without a title gets the name of its file, and so do its snapshots and presets.
         """
         doc = self.history.document()
         if self.record.reader is not None:
             return await self.file.write(doc, path, replace)
-        if path and doc.name == UNTITLED:
+        untitled = bool(path) and doc.name == UNTITLED
+        if untitled:
             doc = edit.describe(doc, name=self._workspace.target(path).stem)
         place = await self.file.save(doc, path, replace)
-        await self.history.describe({"name": doc.name})
+        if untitled:
+            await self.history.rename(doc.name)
+            await self.file.move_saved(UNTITLED, doc.name)
         self.history.touch()
         return place
 
