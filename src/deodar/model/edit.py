@@ -9,8 +9,8 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import Any, Generic, TypeVar, cast
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Generic, TypeVar
 
 from deodar import codec
 from deodar.codec import Json
@@ -18,10 +18,11 @@ from deodar.element import Element
 from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, did_you_mean
 from deodar.leaves import replace
 from deodar.model import find
-from deodar.model.document import READS, Connection, Document, DocumentParameter, Entry, Use
+from deodar.model.axis_removal import AxisRemoval
+from deodar.model.document import READS, Connection, Document, DocumentParameter, Entry, Leaf, Use
 from deodar.model.paths import PathNames, as_taken, display, stored_id
 from deodar.numerics.axes import Axis
-from deodar.parameters import Parameter, Reference, is_text, parameters, real, show
+from deodar.parameters import Reference, is_text, parameters, real, show
 
 T = TypeVar("T")
 
@@ -399,17 +400,32 @@ def add_axis(doc: Document, axis: Axis) -> Document:
 
 def remove_axis(doc: Document, axis: Axis) -> Document:
     """Return a document without an axis: elements over several axes lose this one, with what they state for
-    it alone, such as one of two widths.
+    it alone, such as one of two widths. A document parameter no longer drives such a value.
 
     Raises:
-        ParameterError: an element needs the axis, such as one whose array has a dimension for it.
+        ParameterError: an element states the axis in a parameter of its own.
     """
+    names = [a.name for a in {*doc.spare_axes, *(a for e in doc.entries for a in e.axes)}]
+    removal = AxisRemoval(axis, axis.name if names.count(axis.name) == 1 else "")
     entries = tuple(
         e if after is e.element else dc.replace(e, element=after)
         for e in doc.entries
-        for after in [_without_axis(e.element, axis, (), e.path)]
+        for after in [removal.without(e.element, e.path)]
     )
-    return dc.replace(doc, entries=entries, spare_axes=tuple(a for a in doc.spare_axes if a != axis))
+    by = doc.by_id()
+
+    def moved(links: Iterable[Leaf]) -> Iterator[Leaf]:
+        for ident, leaf in links:
+            path = removal.leaf(by[ident].element, leaf.split("."))
+            if path is not None:
+                yield ident, ".".join(path)
+
+    return dc.replace(
+        doc,
+        entries=entries,
+        parameters=tuple(dc.replace(k, links=tuple(moved(k.links))) for k in doc.parameters),
+        spare_axes=tuple(a for a in doc.spare_axes if a != axis),
+    )
 
 
 def has_axis(doc: Document, axis: Axis) -> bool:
@@ -671,40 +687,6 @@ def _with_axes(part: Any, new: Mapping[Axis, Axis]) -> Any:
         )
         moved |= {} if same else {p.name: after}
     return dc.replace(part, **moved) if moved else part
-
-
-def _without_axis(part: Any, axis: Axis, outer: Sequence[Axis], where: str) -> Any:
-    """Return a part without an axis, and without its values for it alone; the same object if it has neither.
-
-    `outer` are the axes of what the part belongs to, which it describes if it has no axes itself.
-    """
-    axes: Sequence[Axis] = getattr(part, "axes", outer)
-    moved: dict[str, Any] = {}
-    for p in parameters(type(part)):
-        value: Any = getattr(part, p.name)
-        if value is not None:
-            after = _value_without_axis(p, value, axis, axes, f"{where}.{p.name}")
-            moved |= {} if after is value or after == value else {p.name: after}
-    return dc.replace(part, **moved) if moved else part
-
-
-def _value_without_axis(p: Parameter, value: Any, axis: Axis, axes: Sequence[Axis], where: str) -> Any:
-    match p.form:
-        case "axes":
-            return tuple(a for a in value if a != axis)
-        case "axis" if value == axis:
-            if not p.optional:
-                fix = "Choose another axis there, or remove the element"
-                raise ParameterError(f"needs the axis {axis.name}", where=where, fix=fix)
-            return None
-        case "per_axis" if isinstance(value, tuple) and len(cast("tuple[Any, ...]", value)) == len(axes):
-            return tuple(v for v, a in zip(value, axes, strict=True) if a != axis)
-        case "part":
-            return _without_axis(value, axis, axes, where)
-        case "parts":
-            return tuple(_without_axis(v, axis, axes, f"{where}.{i}") for i, v in enumerate(value))
-        case _:
-            return value
 
 
 def _put(doc: Document, ident: str, path: str, value: Any) -> Document:

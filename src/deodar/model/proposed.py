@@ -6,7 +6,16 @@ import dataclasses as dc
 import functools
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
-from deodar.errors import DeodarError, EditFix, Fix, Problem, UnknownName, did_you_mean, joined
+from deodar.errors import (
+    DeodarError,
+    EditFix,
+    Fix,
+    ParameterError,
+    Problem,
+    UnknownName,
+    did_you_mean,
+    joined,
+)
 from deodar.model import building, document_files, edit, find
 from deodar.model.document import Document, Leaf
 from deodar.model.document_graph import graph
@@ -270,9 +279,17 @@ def remove_axis(doc: Document, key: str) -> Document:
 
     Raises:
         UnknownName: the document has no axis of this key.
-        ParameterError: an element needs the axis.
+        ParameterError: an element needs the axis, such as one whose array has a dimension for it.
     """
-    return edit.remove_axis(doc, _axis(doc, key))
+    axis = _axis(doc, key)
+    new = edit.remove_axis(doc, axis)
+    places = {p.where for p in graph(doc).problems}
+    if needing := [p for p in graph(new).problems if p.where not in places]:
+        fix = "Change this first, or remove the element"
+        raise ParameterError(
+            [Problem(p.where, f"needs the axis {axis.name}; without it: {p.what}", fix) for p in needing]
+        )
+    return new
 
 
 def _axis(doc: Document, key: str) -> Axis:

@@ -16,6 +16,8 @@ from deodar.model import document_files, edit
 from deodar.model.document import Document
 from deodar.model.script import script
 
+X, Y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 20, samples=21)
+
 X = dd.Axis("x", 0, 10, samples=11)
 
 
@@ -348,6 +350,59 @@ def test_an_axis_that_an_element_needs_is_not_removed() -> None:
     with pytest.raises(ParameterError, match=r"past\.slots: needs the axis x") as error:
         model.remove_axis("x")
     assert "Choose another axis there" in str(error.value) and model.document is before
+
+
+def test_links_to_values_of_a_removed_axis_end_and_later_ones_move() -> None:
+    x, y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 20, samples=21)
+    for removed, driven in (("x", {"second": "u.kernel.0.sigma.0"}), ("y", {"first": "u.kernel.0.sigma.0"})):
+        model = dd.Model("axes")
+        model.add(dd.Field("u", [x, y], kernel=[dd.Gaussian(amplitude=1, sigma=(1, 2))]))
+        for name, leaf in (("first", "sigma.0"), ("second", "sigma.1"), ("third", "amplitude")):
+            model.parameter(name, 3)
+            model.link(f"u.kernel.0.{leaf}", name)
+        model.remove_axis(removed)
+        model.set({"first": 4, "second": 5, "third": 6})
+        values = {"first": 4, "second": 5}
+        assert {name: model.get(path) for name, path in driven.items()} == {n: values[n] for n in driven}
+        assert model.get("u.kernel.0.amplitude") == 6
+        assert document_files.loads(model.to_json().encode(), lambda name: None) == model.document
+
+
+def _at_u(model: dd.Model, element: Any) -> None:
+    model.connect(model["u"], model.add(element))
+
+
+@pytest.mark.parametrize(
+    ("add", "where"),
+    [
+        (lambda m: m.add(dd.Pattern("p", [X, Y], values=np.zeros((11, 21)))), "p"),
+        (lambda m: _at_u(m, dd.PeakPosition(axis=Y, name="p")), "p.axis"),
+        (lambda m: m.add(dd.SpaceCode([Y], name="p")), "p.axes"),
+        (lambda m: _at_u(m, dd.Weights(np.zeros((21, 11, 21)), axes=[Y], name="p")), "p"),
+    ],
+)
+def test_an_element_that_does_not_work_without_an_axis_keeps_it(
+    add: Callable[[dd.Model], Any], where: str
+) -> None:
+    model = dd.Model("axes")
+    model.add(dd.Field("u", [X, Y]))
+    add(model)
+    before = model.document
+    with pytest.raises(ParameterError) as caught:
+        model.remove_axis("y")
+    assert caught.value.problems[0].where == where and model.document is before
+
+
+def test_words_for_an_axis_and_its_name_go_with_it() -> None:
+    model = dd.Model("axes")
+    kernel = dd.Gaussian(amplitude=1, sigma=(1, 2), boundary=("periodic", "zero"))
+    u = model.add(dd.Field("u", [X, Y], kernel=[kernel]))
+    _at_u(model, dd.Project([X], rename={"x": "x", "y": "z"}, name="p"))
+    _at_u(model, dd.SteeredShift(along=("x", "y"), name="s"))
+    assert edit.remove_axis(model.document, Y).by_id()[u.id].element.axes == (X,)
+    after = dd.Model(document=edit.remove_axis(model.document, Y))
+    assert after.get("u.kernel.0.boundary") == ("periodic",)
+    assert after.get("p.rename") == (("x", "x"),) and after.get("s.along") == ("x",)
 
 
 def test_many_axes_of_one_name_are_numbered_in_their_order() -> None:
