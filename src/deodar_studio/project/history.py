@@ -190,11 +190,13 @@ class DocumentHistory:
     def follow(self, running: Document) -> None:
         """Take over elements, connections and parameters of the running document, as one step of undo.
 
-        Notes, name and layout stay.
+        Notes, name and layout stay, and so do spare axes; one that an element of the present document has
+        becomes spare again.
         """
         model = self.require_edited()
         now = model.document
-        doc = dc.replace(running, name=now.name, notes=now.notes, layout=now.layout)
+        spare = (*now.spare_axes, *(a for a in running.spare_axes if edit.has_axis(now, a)))
+        doc = dc.replace(running, name=now.name, notes=now.notes, layout=now.layout, spare_axes=spare)
         if doc != now:
             model.history.commit(doc)
             self._gesture = None

@@ -10,6 +10,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError, ModelError, ParameterError
+from deodar.model import edit
 from deodar.model.document import Document
 from deodar_studio.messages.to_page import Changed, Edited
 from deodar_studio.project.change_queue import ChangeQueue
@@ -107,6 +108,24 @@ def test_the_document_of_a_run_keeps_name_notes_and_layout() -> None:
     assert tau(h) == 60.0 and h.document().notes == "" and h.version == 1
     h.follow(running.document)
     assert h.version == 1, "nothing changed"
+
+
+def test_axes_that_were_added_since_stay_when_the_run_returns_to_a_moment() -> None:
+    async def scene() -> None:
+        h = history()
+        x, y, z = (dd.Axis(name, 0, 10, samples=11) for name in "xyz")
+        await h.change(lambda doc: edit.add_axis(doc, x))
+        await h.change(lambda doc: edit.add_axis(doc, z))
+        then = h.document()
+        await h.change(lambda doc: edit.add_axis(doc, y))
+        await h.change(lambda doc: edit.add(doc, dd.Field("v", [x]))[0])
+        await h.change(lambda doc: edit.remove_axis(doc, z))
+        h.follow(then)
+        assert h.document().spare_axes == (y, x) and len(h.document().entries) == 1
+        await h.undo()
+        assert h.document().spare_axes == (y,)
+
+    asyncio.run(scene())
 
 
 def looped() -> dd.Model:
