@@ -392,7 +392,13 @@ def add_axis(doc: Document, axis: Axis) -> Document:
 
     Raises:
         ModelError: the document has the axis already.
+        ParameterError: it is no axis.
     """
+    if not isinstance(axis, Axis):
+        raise ParameterError(
+            f"expected an Axis, got {show(axis)}",
+            fix="Write: model.add_axis(dd.Axis('x', 0, 100, 101))",
+        )
     if has_axis(doc, axis):
         raise ModelError(f"the document already has the axis {axis}", fix="Choose it at an element")
     return dc.replace(doc, spare_axes=(*doc.spare_axes, axis))

@@ -215,14 +215,15 @@ class Model(Summarised):
 
         Raises:
             ModelError: the document has the axis already.
+            ParameterError: it is no `Axis`, such as a name.
         """
         self.commit(edit.add_axis(self.document, axis))
 
-    def remove_axis(self, axis: str) -> None:
+    def remove_axis(self, axis: Axis | str) -> None:
         """Remove an axis: elements over several axes lose this one, with what they state for it alone.
 
         Args:
-            axis: its key in the document, which is its name unless several axes have this name.
+            axis: the axis, or its key in the document, which is its name unless several axes have this name.
 
         Raises:
             UnknownName: the document has no such axis.

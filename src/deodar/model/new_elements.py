@@ -34,7 +34,7 @@ def element(
         kind: name of the kind.
         name: name of the element.
         values: parameters in the format of documents, axes by their keys; others have starting values.
-        axes: its axes; None: those of the first element with a state and axes, or a new axis.
+        axes: its axes; None: those of the first element with a state and axes, a spare one, or a new axis.
         arriving: axes of its input; None: unknown.
 
     Raises:
@@ -66,12 +66,12 @@ def element(
 def usual_axes(doc: Document) -> Axes:
     """Return the axes of the first element that has a state and axes, else of the first with axes.
 
-    A document without axes gets a new one.
+    Without such an element it is the first spare axis; a document without axes gets a new one.
     """
     with_axes = [(e.element.stateful, axes) for e in doc.entries if (axes := _axes(e.element))]
     return next(
         (axes for state, axes in with_axes if state),
-        with_axes[0][1] if with_axes else (FIRST,),
+        with_axes[0][1] if with_axes else doc.spare_axes[:1] or (FIRST,),
     )
 
 

@@ -21,6 +21,7 @@ from deodar.model.document import Document, Leaf
 from deodar.model.document_graph import graph
 from deodar.model.resolve import reach
 from deodar.numerics.axes import Axis
+from deodar.parameters import show
 from deodar.proposed_edit import (
     Disconnect,
     InsertCoupling,
@@ -274,8 +275,8 @@ def change_axis(doc: Document, key: str, values: dict[str, object]) -> Document:
     return edit.replace_axis(doc, *_new_axis(doc, key, values))
 
 
-def remove_axis(doc: Document, key: str) -> Document:
-    """Return a document without an axis, given by its key.
+def remove_axis(doc: Document, key: Axis | str) -> Document:
+    """Return a document without an axis, given by its key or itself.
 
     Raises:
         UnknownName: the document has no axis of this key.
@@ -292,8 +293,14 @@ def remove_axis(doc: Document, key: str) -> Document:
     return new
 
 
-def _axis(doc: Document, key: str) -> Axis:
+def _axis(doc: Document, key: Axis | str) -> Axis:
     axes = document_files.axes(doc)
+    if isinstance(key, Axis):
+        if key in axes.values():
+            return key
+        raise UnknownName(f"the document has no axis {key}", fix=f"Its axes: {', '.join(axes) or 'none'}")
+    if not isinstance(key, str):
+        raise ParameterError(f"expected an Axis or its name, got {show(key)}")
     if key not in axes:
         raise UnknownName(f"the document has no axis {key!r}", fix=did_you_mean(key, axes))
     return axes[key]

@@ -284,3 +284,12 @@ def test_paste_into_a_document_where_a_name_cannot_be_used_changes_nothing() -> 
     with pytest.raises(DeodarError):
         building.paste(model.document, document)
     assert model.document.entries == ()
+
+
+def test_a_new_element_is_over_the_axis_that_was_made_for_it() -> None:
+    angle = dd.Axis("angle", -180, 180, samples=72, periodic=True, unit="deg")
+    doc = edit.add_axis(edit.add_axis(Document("new"), angle), dd.Axis("y", 0, 1, samples=3))
+    for kind in ("Field", "GaussianStimulus"):
+        added, _ = building.add(doc, kind, {}, "u")
+        (entry,) = added.entries
+        assert entry.axes == (angle,) and "x" not in document_files.axes(added)

@@ -324,6 +324,21 @@ def test_an_axis_stays_in_the_document_without_an_element(tmp_path: Path) -> Non
         model.remove_axis("y")
 
 
+def test_what_is_no_axis_is_neither_added_nor_removed() -> None:
+    model = dd.Model("axes")
+    unchecked: Any = model
+    for wrong in ("x", 3, None):
+        with pytest.raises(ParameterError, match="expected an Axis, got"):
+            unchecked.add_axis(wrong)
+    model.add_axis(X)
+    with pytest.raises(ParameterError, match="expected an Axis or its name, got 3"):
+        unchecked.remove_axis(3)
+    with pytest.raises(UnknownName, match=r"no axis y"):
+        model.remove_axis(Y)
+    model.remove_axis(X)
+    assert model.document.spare_axes == ()
+
+
 def test_a_removed_axis_takes_the_values_for_it_along() -> None:
     x, y = dd.Axis("x", 0, 100, samples=11), dd.Axis("y", -5, 5, samples=21)
     model = dd.Model("axes")
