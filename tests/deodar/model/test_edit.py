@@ -18,8 +18,6 @@ from deodar.model.script import script
 
 X, Y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 20, samples=21)
 
-X = dd.Axis("x", 0, 10, samples=11)
-
 
 def make() -> dd.Model:
     """Return a group with two connected fields, a stimulus outside, and a document parameter that drives
@@ -414,7 +412,7 @@ def test_words_for_an_axis_and_its_name_go_with_it() -> None:
     u = model.add(dd.Field("u", [X, Y], kernel=[kernel]))
     _at_u(model, dd.Project([X], rename={"x": "x", "y": "z"}, name="p"))
     _at_u(model, dd.SteeredShift(along=("x", "y"), name="s"))
-    assert edit.remove_axis(model.document, Y).by_id()[u.id].element.axes == (X,)
+    assert edit.remove_axis(model.document, Y).by_id()[u.id].axes == (X,)
     after = dd.Model(document=edit.remove_axis(model.document, Y))
     assert after.get("u.kernel.0.boundary") == ("periodic",)
     assert after.get("p.rename") == (("x", "x"),) and after.get("s.along") == ("x",)
