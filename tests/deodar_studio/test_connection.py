@@ -134,7 +134,7 @@ class Failing(PageConnection):
 
 @pytest.mark.parametrize("error", [RuntimeError("closed"), OSError("reset"), None])
 def test_only_errors_of_the_socket_mean_that_the_page_has_disconnected(error: Exception | None) -> None:
-    """A page whose messages cannot be made would wait for ever if their errors were hidden."""
+    """A page whose messages cannot be made would wait without an end if their errors were hidden."""
 
     async def send_text(text: str) -> None:
         if error is not None:

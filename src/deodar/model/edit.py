@@ -392,7 +392,7 @@ def add_axis(doc: Document, axis: Axis) -> Document:
 
     Raises:
         ModelError: the document has the axis already.
-        ParameterError: it is no axis.
+        ParameterError: it is another object, such as a name.
     """
     if not isinstance(axis, Axis):
         raise ParameterError(

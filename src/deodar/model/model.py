@@ -215,7 +215,7 @@ class Model(Summarised):
 
         Raises:
             ModelError: the document has the axis already.
-            ParameterError: it is no `Axis`, such as a name.
+            ParameterError: it is another object, such as a name.
         """
         self.commit(edit.add_axis(self.document, axis))
 
