@@ -132,18 +132,23 @@ class Failing(PageConnection):
         await self._send()
 
 
-@pytest.mark.parametrize("error", [RuntimeError("closed"), OSError("reset"), None])
-def test_only_errors_of_the_socket_mean_that_the_page_has_disconnected(error: Exception | None) -> None:
-    """A page whose messages cannot be made would wait without an end if their errors were hidden."""
+def failing(error: Exception | None) -> Failing:
+    """Return a connection whose socket raises an error."""
 
     async def send_text(text: str) -> None:
         if error is not None:
             raise error
 
     hub = SimpleNamespace(new_page=lambda: Page(1), welcome=Answer(request=1))
-    connection = Failing(cast("Any", SimpleNamespace(send_text=send_text)), cast("Any", hub))
-    if error is not None:
-        asyncio.run(connection.sending())
-        return
+    return Failing(cast("Any", SimpleNamespace(send_text=send_text)), cast("Any", hub))
+
+
+@pytest.mark.parametrize("error", [RuntimeError("closed"), OSError("reset")])
+def test_an_error_of_the_socket_means_that_the_page_has_disconnected(error: Exception) -> None:
+    assert asyncio.run(failing(error).sending()) is None
+
+
+def test_an_error_of_a_message_is_not_taken_for_a_page_that_has_disconnected() -> None:
+    """A page whose messages cannot be made would wait without an end if their errors were hidden."""
     with pytest.raises(NotImplementedError, match="no axes"):
-        asyncio.run(connection.sending())
+        asyncio.run(failing(None).sending())

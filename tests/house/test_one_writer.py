@@ -20,6 +20,7 @@ OTHERS = {
     "figures._encode": "writes into the temporary file that `output` gives it",
     "private_file": "a secret of mode 0600, which must not exist before",
     "deodar_studio.access.redirect_file": "a secret of mode 0600, in a temporary folder",
+    "deodar_studio.files.saved_files": "moves whole files when their document gets a title",
     "deodar_studio.world.embodiment": "a file in a temporary folder",
     "deodar_spikes.norse": "the file for norse, in a temporary folder",
     "deodar_robots.event_file.event_file": "an example in a temporary folder",
