@@ -179,7 +179,9 @@ test("a field over four axes is cut by sliders on the axes that are not drawn", 
 });
 
 test("plots without a scene ask the server for no further part of the page", async () => {
+  await observer.ask({ type: "close", discard: true });
   const page = await studio.another();
+  await page.getByRole("heading", { name: "Examples" }).waitFor();
   const asked: string[] = [];
   page.on("request", (request) => {
     if (/assets.*\.js$/.test(request.url())) asked.push(request.url());
