@@ -207,7 +207,8 @@ def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
         await p.do("repeat_trial", trial=5)
         record = p.document["record"]
         assert record["path"] == "two_targets-001/repeats/000005.nc"
-        assert experiment(p)["repeated"] == 5 and experiment(p)["problems"] == []
+        assert experiment(p)["repeated"] == 5
+        await p.until(lambda: experiment(p)["problems"] == [])
         recording = dd.open_record(folder / record["path"])
         row = next(row for row in rows(p) if row["trial"] == 5)
         shown = np.argmax(recording["u.activation"].values.max(axis=1) > 0)
