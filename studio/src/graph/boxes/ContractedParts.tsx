@@ -1,10 +1,9 @@
 // The elements that a box of a contracted architecture shows inside: a dot for each stimulus that it
 // receives, a ring for each coupling with itself.
 
-import { pickElement } from "../../build/picked";
-import { openPlot } from "../../panels/openPlot";
 import { useStudio } from "../../store";
 import { useHover } from "../hover";
+import { pressing } from "./pressing";
 import { useProblem } from "../problem";
 
 type Props = { dots: string[]; badges: string[] };
@@ -39,14 +38,7 @@ function Part({ element: id, look }: { element: string; look: "dot" | "ring" }) 
       title={path}
       aria-label={look === "dot" ? path : `${path}, on itself`}
       aria-pressed={selected}
-      onClick={(event) => {
-        event.stopPropagation();
-        pickElement(id, event.shiftKey || event.ctrlKey || event.metaKey);
-      }}
-      onDoubleClick={(event) => {
-        event.stopPropagation();
-        openPlot({ element: id });
-      }}
+      {...pressing(id)}
       onPointerEnter={(event) => {
         event.stopPropagation();
         enter(id, event.currentTarget);

@@ -1,12 +1,11 @@
 // A coupling on an edge: its name and the number it is known by.
 
-import { pickElement } from "../../build/picked";
 import { useStudio } from "../../store";
-import { openPlot } from "../../panels/openPlot";
 import { mainNumber } from "./facts";
 import { useHover } from "../hover";
 import { labelOf } from "./label";
 import { MarkIcon } from "./Mark";
+import { pressing } from "./pressing";
 import { useProblem, useWarning } from "../problem";
 
 export function Pill({ element: id }: { element: string }) {
@@ -36,14 +35,7 @@ export function Pill({ element: id }: { element: string }) {
       title={said || undefined}
       aria-label={[path, number, said].filter((part) => part !== "").join(", ")}
       aria-pressed={selected}
-      onClick={(event) => {
-        event.stopPropagation();
-        pickElement(id, event.shiftKey || event.ctrlKey || event.metaKey);
-      }}
-      onDoubleClick={(event) => {
-        event.stopPropagation();
-        openPlot({ element: id });
-      }}
+      {...pressing(id)}
       onPointerEnter={(event) => enter(id, event.currentTarget)}
       onPointerLeave={leave}
     >
