@@ -151,11 +151,11 @@ class Embodiment:
 
     def _usable(self, doc: Document, present: World | None) -> list[tuple[str, World | type[World]]]:
         """Return the world of a document, or those that may become it, with their titles."""
-        wanted = signals(doc)
-        world = present if present is not None and wanted else self.chosen
+        names = signals(doc)
+        world = present if present is not None and names else self.chosen
         if world is not None and not missing(world, doc):
             return [(self.label(world), world)]
-        return [(name, cls) for name, cls in _standing().items() if wanted <= {*cls.sensors, *cls.motors}]
+        return [(name, cls) for name, cls in _standing().items() if names <= {*cls.sensors, *cls.motors}]
 
     def kind(self, name: str) -> type[World]:
         """Return the class of a world."""
