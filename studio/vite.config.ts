@@ -16,7 +16,7 @@ const {
 const headers = { origin: STUDIO, cookie: `deodar_token_${port}=${searchParams.get("token") ?? ""}` };
 
 /** Libraries that change rarely, one file each: the browser fetches them side by side. */
-const APART = ["react", "@mantine", "@xyflow", "dockview", "@dagrejs", "katex"];
+const APART = ["react", "@mantine", "@xyflow", "@dagrejs", "katex"];
 
 export default defineConfig({
   base: "./",

@@ -2,7 +2,7 @@ import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { findings, obstacles } from "./axe";
-import { box, button, choose, openExample, panel, select } from "./hands";
+import { box, button, choose, openExample, openTool, panel, select } from "./hands";
 import { shot, startStudio, type Studio } from "./studio";
 
 let studio: Studio;
@@ -34,7 +34,7 @@ function focused(page: Page): Promise<{ name: string; where: string; seen: boole
       .map((one) => getComputedStyle(one));
     const lines = (style: CSSStyleDeclaration) =>
       style.outlineStyle !== "none" && Number.parseFloat(style.outlineWidth) > 0;
-    const around = ["header", "[role=tabpanel]", "[role=tablist]"]
+    const around = ["header", "footer", "[role=tabpanel]", "[role=tablist]", "[role=region]"]
       .map((sort) => element.closest(sort))
       .find((one) => one !== null);
     return {
@@ -109,6 +109,7 @@ test("every control of an open document, also in its menus, has a name", async (
   await panel(page, "Inspector").locator(".katex").first().waitFor();
   expect(await obstacles(page)).toEqual([]);
   await choose(page, "More for tau", "Pin to Sliders");
+  await openTool(page, "Sliders");
   await panel(page, "Sliders").getByRole("slider", { name: "u.tau" }).waitFor();
   for (const name of [
     "File menu",
@@ -140,7 +141,7 @@ test("the tab key reaches the run, the boxes and the inspector, and the focus is
     await page.keyboard.press("Tab");
     const stop = await focused(page);
     stops.push(stop);
-    if (stop.name === "global_inhibition") break;
+    if (stop.name === "Speed: 1×") break;
   }
   const names = stops.map(({ name }) => name);
   for (const name of [
@@ -155,8 +156,8 @@ test("the tab key reaches the run, the boxes and the inspector, and the focus is
   ]) {
     expect(names).toContain(name);
   }
-  expect(names.indexOf("Play")).toBeLessThan(names.indexOf("u, Field"));
   expect(names.indexOf("u, Field")).toBeLessThan(names.indexOf("tau"));
+  expect(names.indexOf("tau")).toBeLessThan(names.indexOf("Play"));
   expect(stops.filter(({ seen }) => !seen)).toEqual([]);
   await box(page, "left").focus();
   await page.keyboard.press("Enter");

@@ -41,7 +41,7 @@ async function fill(box: Locator, text: string): Promise<void> {
 /** Choose one of the names that a field lists. */
 async function pick(box: Locator, name: string): Promise<void> {
   await box.click();
-  await studio.page.getByRole("option", { name, exact: true }).click();
+  await studio.page.getByRole("option", { name, exact: true }).last().click();
 }
 
 const written = (name: string): string => readFileSync(join(studio.folder, name), "utf8");

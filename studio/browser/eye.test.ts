@@ -77,7 +77,6 @@ test("a target that is moved sends its events from another place", async () => {
 test("a narrow window shows the events above the plan, and everybody can use the panel", async () => {
   const { page } = studio;
   await page.setViewportSize({ width: 390, height: 800 });
-  await page.getByRole("tab", { name: "World" }).click();
   await events().waitFor();
   expect(await obstacles(page)).toEqual([]);
   await shot(page, "studio-eye-390");

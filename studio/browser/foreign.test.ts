@@ -4,7 +4,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { button, choose, colours, drawn, drop, file, panel, slider, type } from "./hands";
+import { button, choose, colours, drawn, drop, file, openTool, panel, slider, type } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -48,7 +48,7 @@ beforeAll(async () => {
 
 afterAll(() => studio.stop());
 
-const notes = () => studio.page.getByRole("dialog", { name: "Notes" });
+const notes = () => panel(studio.page, "Notes");
 const took = () => studio.page.getByRole("dialog", { name: "What did not match" });
 
 /** Find an element by its name and select it. */
@@ -93,8 +93,9 @@ test("a file of another tool opens by its name, and the report lists what was im
   await report.getByRole("textbox", { name: "Find in the report" }).fill("cos -> cos ScaleInput");
   const group = report.getByRole("group", { name: "cos -> cos", exact: true });
   await group.getByRole("option").filter({ hasText: "element ScaleInput" }).click();
-  await panel(page, "Inspector").getByRole("heading", { name: "cos -> cos", exact: true }).waitFor();
   await shot(page, "foreign-report");
+  await openTool(page, "Inspector");
+  await panel(page, "Inspector").getByRole("heading", { name: "cos -> cos", exact: true }).waitFor();
   expect(await said.count(), "the offer was taken").toBe(0);
   expect(await page.getByRole("button", { name: /^Import report/ }).count(), "nothing was lost").toBe(0);
   const tab = page.getByRole("tab", { name: "Import report" });
@@ -102,7 +103,7 @@ test("a file of another tool opens by its name, and the report lists what was im
   await tab.press("Delete");
   await file(page, "Notes");
   await notes().getByText("carried, 0 approximated, 0 dropped").waitFor();
-  await page.keyboard.press("Escape");
+  await openTool(page, "Inspector");
 });
 
 test("the imported model runs, and the plot of a field shows it", async () => {
@@ -131,6 +132,7 @@ test("elements with spaces and arrows in their names are tuned like others", asy
   await type(page, "factor", "3.5");
   await observer.until(() => observer.value("cos -> cos", "factor") === 3.5);
   await choose(page, "More for factor", "Pin to Sliders");
+  await openTool(page, "Sliders");
   const pinned = slider(page, "cos -> cos.factor", "Sliders");
   await pinned.focus();
   await pinned.press("Home");

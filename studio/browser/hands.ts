@@ -5,9 +5,22 @@ import type { Download, Locator, Page } from "playwright-core";
 
 import type { Observer } from "./observer";
 
-/** One of the panels, by its title. */
-export const panel = (page: Page, title: string): Locator =>
-  page.getByRole("tabpanel", { name: title, exact: true });
+/** A tool of the dock, or a part of the page beside it, by its title. */
+export const panel = (page: Page, title: string): Locator => {
+  const name = { name: title, exact: true };
+  return page.getByRole("tabpanel", name).or(page.getByRole("region", name)).first();
+};
+
+/** Show a tool of the dock, where it is not shown. */
+export async function openTool(page: Page, title: string): Promise<void> {
+  if (!(await panel(page, title).isVisible())) await choose(page, "Open panels and plots", title);
+  await panel(page, title).waitFor();
+}
+
+/** Show another view of the document. */
+export async function showView(page: Page, view: "Build" | "Run" | "Experiment" | "Robot"): Promise<void> {
+  await page.getByRole("radiogroup", { name: "View" }).getByText(view, { exact: true }).click();
+}
 
 /** The box of an element on the canvas. */
 export const box = (page: Page, path: string): Locator =>
@@ -54,6 +67,7 @@ export async function openEmpty(page: Page, observer: Observer): Promise<void> {
 /** Select an element on the canvas, so that the inspector shows it. */
 export async function select(page: Page, path: string): Promise<void> {
   await box(page, path).click({ position: { x: 20, y: 12 } });
+  await openTool(page, "Inspector");
   await panel(page, "Inspector")
     .getByRole("heading", { name: path.split(".").at(-1) as string, exact: true })
     .waitFor();

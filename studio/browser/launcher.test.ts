@@ -2,7 +2,7 @@
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
-import { button, choose, panel, slider } from "./hands";
+import { button, choose, openTool, panel, slider } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -50,6 +50,7 @@ test("a launcher opens by its name, with its sliders in their ranges", async () 
   for (const shown of ["Curves of cue 2", "Curves of choice"]) {
     await page.getByRole("region", { name: shown, exact: true }).waitFor({ state: "attached" });
   }
+  await openTool(page, "Sliders");
   const rest = slider(page, "rest", "Sliders");
   await rest.waitFor();
   expect([await rest.getAttribute("aria-valuemin"), await rest.getAttribute("aria-valuemax")]).toEqual([

@@ -5,7 +5,7 @@ import type { Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
 import { ident, many, panels, plot as plotOf, selection, ten } from "./bench/documents";
-import { beside, button, choose, colours, downloaded, drawn, panel, reopen, settled } from "./hands";
+import { beside, button, choose, colours, downloaded, drawn, reopen, settled, showView } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -81,7 +81,7 @@ afterAll(() => studio.stop());
 const plot = (name: string): Locator => studio.page.getByRole("region", { name, exact: true });
 const chart = (name: string, label: string): Locator =>
   plot(name).getByRole("img", { name: label, exact: true });
-const arranged = () => JSON.stringify(observer.document?.layout["panels"] ?? {});
+const arranged = () => JSON.stringify(observer.document?.layout["tiles"] ?? {});
 
 type Written = { text: string; size: number; left: number; right: number; top: number; bottom: number };
 type Listening = typeof globalThis & { written: Map<HTMLCanvasElement, Written[]> };
@@ -279,12 +279,13 @@ test("the cursor of one plot shows its position and its time in all others, with
   await expect.poll(() => readout(map).textContent()).toBe("");
 });
 
-test("twenty plots of 160 x 100 pixels are readable: no text is tiny, cut or covered", async () => {
+test("twenty plots of 300 x 180 pixels are readable: no text is tiny, cut or covered", async () => {
   const { page } = studio;
   await page.evaluate(listenToTexts);
-  // what surrounds the plots: the header, the tabs and the gaps
-  await page.setViewportSize({ width: 5 * 160 + 4, height: 4 * (100 + 30) + 80 });
+  // what surrounds the plots: the head, the foot, the dock and the gaps
+  await page.setViewportSize({ width: 3 * 301 + 300, height: 7 * 181 + 48 + 57 });
   await reopen(page, observer, "twenty.json");
+  await showView(page, "Run");
   await step(40);
   await expect.poll(() => page.getByRole("region").getByText("Press play").count()).toBe(0);
   const boxes = await settled(page, () =>
@@ -292,8 +293,8 @@ test("twenty plots of 160 x 100 pixels are readable: no text is tiny, cut or cov
   );
   expect(boxes).toHaveLength(20);
   for (const { width, height } of boxes) {
-    expect(Math.abs(width - 160)).toBeLessThan(4);
-    expect(Math.abs(height - 100)).toBeLessThan(14);
+    expect(Math.abs(width - 300)).toBeLessThan(4);
+    expect(Math.abs(height - 180)).toBeLessThan(4);
   }
   await shot(page, "plot-twenty");
   await expectReadable(page, 20);
@@ -310,8 +311,9 @@ test("twenty plots of 160 x 100 pixels are readable: no text is tiny, cut or cov
 test("small multiples show the fields over the same axes side by side, on the same scale", async () => {
   const { page } = studio;
   await page.evaluate(listenToTexts);
-  await page.setViewportSize({ width: 5 * 160 + 18, height: 4 * 102 + 170 });
+  await page.setViewportSize({ width: 5 * 160 + 18 + 301, height: 4 * 102 + 150 });
   await reopen(page, observer, "many.json");
+  await showView(page, "Run");
   await step(40);
   const multiples = plot("Small multiples of u0");
   await expect.poll(() => multiples.locator(".plot-cell canvas[role=img]").count()).toBe(20);
@@ -530,33 +532,25 @@ test("a browser without WebGL says so where a surface would be", async () => {
   await page.reload();
 });
 
-test("the arrangement of panels is kept in a reload and in the file", async () => {
+test("the plots are kept in a reload and in the file", async () => {
   const { page, folder } = studio;
   const original = readFileSync(join(folder, "selection.json"), "utf8");
-  expect(original).not.toContain("panels");
+  expect(original).not.toContain("tiles");
   await button(page, "Open panels and plots").click();
   await page.getByLabel("Find a panel, or an element to plot").fill("lef");
   await page.getByRole("menuitem", { name: "left", exact: true }).click();
   await plot("Curves of left").waitFor();
-  await page.getByRole("tab", { name: "Sliders", exact: true }).press("Delete");
-  await panel(page, "Sliders").waitFor({ state: "detached" });
-  await observer.until(
-    () =>
-      arranged().includes(observer.element("left").id) && !arranged().includes('"contentComponent":"pins"'),
-  );
-  expect(observer.document?.unsaved, "how panels stand is nothing to ask about").toBe(false);
+  await observer.until(() => arranged().includes(observer.element("left").id));
+  expect(observer.document?.unsaved, "which plots are open is nothing to ask about").toBe(false);
 
   await page.reload();
   await plot("Curves of left").waitFor();
-  expect(await panel(page, "Sliders").count()).toBe(0);
   await observer.ask({ type: "save", path: "arranged.json" });
-  expect(readFileSync(join(folder, "arranged.json"), "utf8")).toContain('"panels"');
+  expect(readFileSync(join(folder, "arranged.json"), "utf8")).toContain('"tiles"');
   await reopen(page, observer, "node.json");
   await plot("Time course of u").waitFor();
   await reopen(page, observer, "arranged.json");
   await plot("Curves of left").waitFor();
-  await choose(page, "Open panels and plots", "Sliders");
-  await panel(page, "Sliders").waitFor();
 });
 
 test("a plot is exported as a picture file", async () => {

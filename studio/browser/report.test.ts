@@ -6,7 +6,7 @@ import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
-import { box, button, file, panel, reopen } from "./hands";
+import { box, button, file, openTool, panel, reopen, showView } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -184,10 +184,10 @@ test("the report is removed, and undo brings it back", async () => {
   await line("colour").waitFor();
 });
 
-test("a line opens the panel of the architecture again where it was closed", async () => {
+test("a line opens the view of the architecture again where another one is shown", async () => {
   const { page } = studio;
-  await page.getByRole("tab", { name: "Architecture" }).press("Delete");
-  await panel(page, "Architecture").waitFor({ state: "detached" });
+  await showView(page, "Run");
+  await openTool(page, "Import report");
   await line("gain factor").click();
   await panel(page, "Architecture").waitFor();
   const placeholder = box(page, `${GROUP}.new StaticGain 7`);
@@ -225,6 +225,7 @@ test("a line of a group leads to the group, and of a renamed group to its first 
   await report().getByText(`group ${GROUP} in the file`).waitFor();
   await broken.click();
   const first = observer.document?.elements.find(({ group }) => group[0] === "behavior");
+  await openTool(page, "Inspector");
   await panel(page, "Inspector")
     .getByRole("heading", { name: first?.name ?? "", exact: true })
     .waitFor();

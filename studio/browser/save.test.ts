@@ -136,7 +136,7 @@ test("the browser asks before it leaves a page with unsaved edits", async () => 
   await edit(81);
   const page = await another();
   await page.getByRole("img", { name: "Unsaved edits" }).waitFor();
-  await page.getByRole("tab", { name: "Inspector" }).click();
+  await page.getByRole("tab", { name: "Sliders" }).click();
   const asked = page.waitForEvent("dialog");
   const left = page.close({ runBeforeUnload: true });
   const dialog = await asked;

@@ -4,7 +4,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { TOOLS } from "../src/panels/tools";
 import { PLOTS } from "../src/plots/kinds/plots";
 import { SHOWN, writeArranged, writeEveryPlot } from "./everyPlot";
-import { choose, openExample, panel, reopen } from "./hands";
+import { choose, openExample, panel, reopen, showView } from "./hands";
 import { examplePackage } from "./installed";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -43,6 +43,7 @@ test("every kind of plot draws", async () => {
   const shown = Object.entries(SHOWN).map(([kind, [element]]) => [element, kind] as const);
   writeArranged(studio.folder, "shown.json", [shown.slice(0, 4), shown.slice(4, 8), shown.slice(8)]);
   await reopen(page, observer, "shown.json");
+  await showView(page, "Run");
   await observer.ask({ type: "step", n: 2 });
   expect(await page.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null)).toBe(
     true,
@@ -50,6 +51,7 @@ test("every kind of plot draws", async () => {
   for (const [element, kind] of shown) {
     const name = `${PLOTS.get(kind)?.title ?? "Polar plot"} of ${element}`;
     const plot = page.getByRole("region", { name, exact: true });
+    await plot.scrollIntoViewIfNeeded();
     await plot.locator("canvas, svg").first().waitFor();
     await expect.poll(() => plot.getByText("Press play").count(), { message: name }).toBe(0);
   }

@@ -3,7 +3,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { button, choose, drag, number, panel, reopen, select, slider, type } from "./hands";
+import { button, choose, drag, number, openTool, panel, reopen, select, slider, type } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -119,7 +119,7 @@ test("another kind of sigmoid recompiles and keeps the state", async () => {
   await observer.until(() => observer.clock?.tick === 300 && observer.max("u", "activation") > 1);
   const before = [...observer.values("u", "activation")];
   await inspector().getByRole("combobox", { name: "sigmoid", exact: true }).click();
-  await page.getByRole("option", { name: "Linear", exact: true }).click();
+  await page.getByRole("option", { name: "Linear", exact: true }).last().click();
   await observer.until(
     () =>
       (observer.value("u", "sigmoid") as { kind: string }).kind === "Linear" && observer.clock?.busy === "",
@@ -208,11 +208,14 @@ test("a parameter returns to its default", async () => {
 test("a parameter is pinned to the sliders, which are stored in the document", async () => {
   const { page, folder } = studio;
   await choose(page, "More for resting_level", "Pin to Sliders");
+  await openTool(page, "Sliders");
   const pinned = slider(page, "u.resting_level", "Sliders");
   await pinned.waitFor();
   await drag(page, pinned, 0.5);
-  await comes("u", "resting_level", 0);
+  await observer.until(() => Math.abs(observer.value("u", "resting_level") as number) < 0.2);
+  await openTool(page, "Inspector");
   await choose(page, "More for kernel.0.sigma", "Pin to Sliders");
+  await openTool(page, "Sliders");
   await type(page, "u.kernel.0.sigma", "6", "Sliders");
   await comes("u", "kernel.0.sigma", 6);
   await shot(page, "tune-pins");
@@ -226,6 +229,7 @@ test("a parameter is pinned to the sliders, which are stored in the document", a
   writeFileSync(join(folder, "selection.json"), original);
   expect(layout.pins.map(({ parameter }) => parameter)).toEqual(["resting_level", "kernel.0.sigma"]);
   await page.reload();
+  await openTool(page, "Sliders");
   await pinned.waitFor();
   expect(await number(page, "u.kernel.0.sigma", "Sliders").inputValue()).toBe("6");
   await choose(page, "More for u.resting_level", "Unpin");
@@ -250,6 +254,7 @@ test("one slider sets a document parameter that drives two elements", async () =
     await inspector().getByRole("list", { name: "Driven by strength" }).getByRole("listitem").allInnerTexts(),
   ).toEqual(["left.amplitude", "right.amplitude"]);
   await choose(page, "More for strength", "Pin to Sliders");
+  await openTool(page, "Sliders");
   const strength = slider(page, "strength", "Sliders");
   await strength.focus();
   await strength.press("Home");

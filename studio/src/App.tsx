@@ -3,7 +3,7 @@
 import { useEffect } from "react";
 
 import { Chooser } from "./build/palette/Chooser";
-import { Dock } from "./panels/Dock";
+import { Workspace } from "./panels/Workspace";
 import { Dialogs } from "./dialogs/Dialogs";
 import { DropArea } from "./files/DropArea";
 import { GalleryPage } from "./gallery/GalleryPage";
@@ -17,12 +17,12 @@ import { Splash } from "./connection/Splash";
 import { useView } from "./gallery/view";
 import { ComparisonBar } from "./replay/ComparisonBar";
 import { RecordNotes } from "./replay/RecordNotes";
-import { Timeline } from "./replay/Timeline";
 import { forgetMoment } from "./replay/replay";
 import { useShortcuts } from "./shortcuts";
 import { useStudio } from "./store";
 import { TourCard } from "./tour/TourCard";
 import { FailureBar } from "./transport/FailureBar";
+import { Foot } from "./transport/Foot";
 import { useRobotStop } from "./world/robotStop";
 import classes from "./App.module.css";
 
@@ -72,14 +72,14 @@ function Page() {
       <Header />
       <NeedsServer>
         <RecoveryBar />
-        <Timeline />
         <RecordNotes />
         <ComparisonBar />
         <FailureBar />
       </NeedsServer>
-      <main className={classes.dock}>
-        <Dock />
-      </main>
+      <div className={classes.body}>
+        <Workspace />
+      </div>
+      <Foot />
       <Chooser />
     </div>
   );

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from deodar.model.document import Document
 
-LOOKS = ("panels", "folded")
-"""Keys of the layout whose changes do not count as unsaved edits: positions of panels, folded groups."""
+LOOKS = ("tiles", "panels", "folded")
+"""Keys of the layout whose changes do not count as unsaved edits: plots (`panels`: of 0.1), folded groups."""
 
 
 @dc.dataclass(frozen=True)

@@ -48,7 +48,10 @@ export function curves(count: number): object {
   const plots = Array.from({ length: count }, () => plot("u", "curve", "activation"));
   return {
     ...selection,
-    layout: { panels: panels([plots.slice(0, Math.ceil(count / 2)), plots.slice(Math.ceil(count / 2))]) },
+    layout: {
+      view: "run",
+      panels: panels([plots.slice(0, Math.ceil(count / 2)), plots.slice(Math.ceil(count / 2))]),
+    },
   };
 }
 
@@ -79,6 +82,7 @@ export const ten = {
     wire("n", "m"),
   ],
   layout: {
+    view: "run",
     panels: panels([
       [plot("map", "heat", "activation"), plot("map", "heat", "output"), plot("map", "course", "activation")],
       [

@@ -163,7 +163,7 @@ for (const colours of COLOURS) {
     await observer.ask({ type: "speed", factor: null });
     await run(page, 330);
     const canvas = page
-      .getByRole("tabpanel", { name: "World", exact: true })
+      .getByRole("region", { name: "World", exact: true })
       .getByRole("img", { name: /^The world from above/ });
     const area = await canvas.boundingBox();
     const border = observer.world.now.scene?.border ?? [0, 0, 1, 1];
@@ -231,10 +231,7 @@ for (const colours of COLOURS) {
     const { page } = studio;
     const observer = await studio.observe();
     await observer.runs();
-    for (const title of ["Inspector", "Sliders"]) {
-      await page.getByRole("tab", { name: title }).press("Delete");
-    }
-    const world = page.getByRole("tabpanel", { name: "World", exact: true });
+    const world = page.getByRole("region", { name: "World", exact: true });
     await world.getByRole("button", { name: "Add its camera" }).click();
     await world.getByRole("img", { name: /^Picture of the camera/ }).waitFor(PATIENCE);
     await world.getByRole("button", { name: "yellow block" }).click();
@@ -246,7 +243,7 @@ for (const colours of COLOURS) {
   test(`lesson, ${colours}`, async () => {
     const { page, observer } = await openRunning(colours, "Colour search");
     await page.getByRole("button", { name: /^play/i }).click();
-    const world = page.getByRole("tabpanel", { name: "World", exact: true });
+    const world = page.getByRole("region", { name: "World", exact: true });
     const isOn = (item: number) => observer.max(`item ${item}.node`, "activation") > 0;
     for (const [k, colour] of ["blue", "magenta", "red"].entries()) {
       await observer.until(() => isOn(k + 1));

@@ -3,6 +3,7 @@
 import { exportScript } from "../files/exportScript";
 import type { Point } from "../graph/layout/layout";
 import { keysText } from "../keys";
+import { showGoal } from "../report/showGoal";
 import type { Shortcut } from "../shortcuts";
 import { useStudio } from "../store";
 import { ALIGNMENTS, align } from "./aligning";
@@ -19,7 +20,7 @@ import {
   spotFor,
   templateEntries,
 } from "./palette/palette";
-import { getPointer, getStage } from "./stage";
+import { getPointer } from "./stage";
 
 // Commands without keys.
 const WITHOUT_KEYS: ListEntry[] = [
@@ -41,7 +42,7 @@ export function openCommands(shortcuts: readonly Shortcut[]): void {
     family: "Go to",
     title: path,
     note: kinds.get(kind)?.title ?? kind,
-    run: () => getStage()?.center(id),
+    run: () => showGoal({ element: id }),
   }));
   const added = isEditable()
     ? [

@@ -26,7 +26,8 @@ if (typeof addEventListener === "function") {
   addEventListener("pointermove", follow, { capture: true, passive: true });
 }
 
-export const getStage = (): Stage | null => stage;
+// Null while another view hides the canvas.
+export const getStage = (): Stage | null => (stage?.around.checkVisibility() === true ? stage : null);
 
 export function setStage(made: Stage | null): void {
   stage = made;
@@ -35,7 +36,7 @@ export function setStage(made: Stage | null): void {
 // The position of the pointer on the screen where the canvas is below it, else null.
 export function getPointer(): Point | null {
   const over = pointer === null ? null : document.elementFromPoint(pointer.x, pointer.y);
-  return stage !== null && over !== null && stage.around.contains(over) ? pointer : null;
+  return over !== null && stage?.around.contains(over) === true ? pointer : null;
 }
 
 // The middle of the canvas.
@@ -50,5 +51,6 @@ export const pointerOf = (event: MouseEvent | TouchEvent): MouseEvent | Touch | 
 
 // Whether keys are meant for the canvas: it has the focus, or nothing has.
 export function isOnCanvas(focus: Element | null): boolean {
-  return stage !== null && (focus === null || stage.around.contains(focus) || focus.contains(stage.around));
+  const around = getStage()?.around;
+  return around !== undefined && (focus === null || around.contains(focus) || focus.contains(around));
 }

@@ -6,7 +6,6 @@ import { useEffect } from "react";
 
 import { ChooseDialog } from "./ChooseDialog";
 import { useOffline } from "../connection/NeedsServer";
-import { NotesDialog } from "./NotesDialog";
 import { ReplaceDialog } from "./ReplaceDialog";
 import { SaveAsDialog } from "./SaveAsDialog";
 import { ShortcutsDialog } from "./ShortcutsDialog";
@@ -19,7 +18,7 @@ export function Dialogs() {
   const { asked, cancel } = useDialogs();
   const offline = useOffline();
   useEffect(() => {
-    if (offline && asked !== null && asked.name !== "notes" && asked.name !== "shortcuts") {
+    if (offline && asked !== null && asked.name !== "shortcuts") {
       cancel();
     }
   }, [offline, asked, cancel]);
@@ -53,8 +52,6 @@ function contentOf(asked: Asked) {
       return <SaveAsDialog {...asked} />;
     case "taken":
       return <TakenDialog {...asked} />;
-    case "notes":
-      return <NotesDialog />;
     case "shortcuts":
       return <ShortcutsDialog />;
     case "world":
@@ -82,8 +79,6 @@ function titleOf(asked: Asked): string {
       return "Save as";
     case "taken":
       return "What did not match";
-    case "notes":
-      return "Notes";
     case "shortcuts":
       return "Keys and mouse";
     case "world":
@@ -96,7 +91,6 @@ function sizeOf(asked: Asked | null): number {
     case "unsaved":
     case "replace":
       return 440;
-    case "notes":
     case "shortcuts":
       return 660;
     default:

@@ -19,8 +19,6 @@ type Conversations = {
     question: { file: string; carried: number; unmatched: readonly string[] };
     answer: "keep" | "undo";
   };
-  // The notes of the document, with the report on a file of another tool.
-  notes: { question: null; answer: null };
   shortcuts: { question: null; answer: null };
   // The world that the sensors read, or one to use.
   world: { question: null; answer: null };
@@ -51,7 +49,6 @@ const CANCELLED: { [K in Name]: AnswerTo<K> } = {
   choose: null,
   save_as: null,
   taken: "keep",
-  notes: null,
   shortcuts: null,
   world: null,
 };

@@ -27,9 +27,7 @@ export function Experiment() {
   const experiment = useStudio((state) => state.experiment);
   const open_ = experiment !== null && experiment.data !== null;
   return (
-    <section className="experiment inspector" aria-label="Experiment">
-      {open_ ? <Opened experiment={experiment} /> : <Nothing />}
-    </section>
+    <div className="experiment inspector">{open_ ? <Opened experiment={experiment} /> : <Nothing />}</div>
   );
 }
 

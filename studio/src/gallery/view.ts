@@ -2,6 +2,6 @@
 
 import { create } from "zustand";
 
-type View = { gallery: boolean };
+type GalleryView = { gallery: boolean };
 
-export const useView = create<View>(() => ({ gallery: false }));
+export const useView = create<GalleryView>(() => ({ gallery: false }));

@@ -15,10 +15,9 @@ import { useReactFlow } from "@xyflow/react";
 import type { ReactNode } from "react";
 import { openPalette } from "../build/palette/palette";
 import { useOffline } from "../connection/NeedsServer";
-import { FIT } from "./layout/fit";
-import { glide } from "./layout/glide";
 
 type Props = {
+  onShow: () => void;
   onSearch: () => void;
   onTidy: () => void;
   // Whether a large architecture shows every element; null where it always does.
@@ -26,8 +25,8 @@ type Props = {
   onEvery: (shown: boolean) => void;
 };
 
-export function Controls({ onSearch, onTidy, every, onEvery }: Props) {
-  const { zoomIn, zoomOut, fitView, getNodes } = useReactFlow();
+export function Controls({ onShow, onSearch, onTidy, every, onEvery }: Props) {
+  const { zoomIn, zoomOut } = useReactFlow();
   const offline = useOffline();
   return (
     <div className="graph-controls" role="toolbar" aria-label="Canvas">
@@ -43,10 +42,7 @@ export function Controls({ onSearch, onTidy, every, onEvery }: Props) {
       <Control label="Zoom out" onClick={() => void zoomOut()}>
         <IconMinus size={16} />
       </Control>
-      <Control
-        label="Show everything"
-        onClick={() => getNodes().length > 0 && void fitView({ ...FIT, duration: glide(GLIDE_MS) })}
-      >
+      <Control label="Show everything" onClick={onShow}>
         <IconMaximize size={16} />
       </Control>
       <Control

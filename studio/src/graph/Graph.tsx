@@ -93,7 +93,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const offline = useOffline();
   const leaving = usePicked((state) => state.into === "");
   const around = useRef<HTMLDivElement>(null);
-  const { now, touch } = useStart(structure, kinds, around);
+  const { now, touch, showAll } = useStart(structure, kinds, around);
   const { nodes, onNodesChange, settle, forgetKeys, reset } = useNodes(now);
   const [painting] = useState(newPainting);
   const { painter, layer } = painting;
@@ -133,7 +133,7 @@ function Canvas({ structure }: { structure: Structure }) {
   useEffect(() => {
     const key = (event: KeyboardEvent) => {
       const control = event.key.toLowerCase() === "f" && (event.ctrlKey || event.metaKey);
-      if (!event.defaultPrevented && control && useDialogs.getState().asked === null) {
+      if (!event.defaultPrevented && control && getStage() !== null && useDialogs.getState().asked === null) {
         event.preventDefault();
         setSearching(true);
       }
@@ -147,10 +147,10 @@ function Canvas({ structure }: { structure: Structure }) {
     async (answer: Promise<Answer>) => {
       const { problems = [] } = await answer;
       if (problems.length === 0) {
-        requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: glide(GLIDE_MS) }));
+        requestAnimationFrame(() => showAll(glide(GLIDE_MS)));
       }
     },
-    [flow],
+    [showAll],
   );
   const every = contraction === null ? null : showsEvery(structure.layout);
 
@@ -269,6 +269,7 @@ function Canvas({ structure }: { structure: Structure }) {
         </ReactFlow>
         {nodes.length === 0 && <EmptyHint />}
         <Controls
+          onShow={() => showAll(glide(GLIDE_MS))}
           onSearch={() => setSearching(true)}
           onTidy={() => void arranged(every === false ? toGrid() : place(tidied(structure, kinds)))}
           every={every}

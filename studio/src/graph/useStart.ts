@@ -1,12 +1,14 @@
-// What the canvas shows until a person moves the view: the whole architecture, at any size of the panel, with
-// groups folded so that names can be read.
+// What the canvas shows: the whole architecture at any size of the panel, until a person moves the view; then
+// its middle stays in the middle. Until a person changes something, groups are folded so that names can be
+// read.
 
-import { getViewportForBounds, useReactFlow } from "@xyflow/react";
+import { getViewportForBounds, type Viewport, useReactFlow } from "@xyflow/react";
 import { type RefObject, useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
 import type { Kind } from "../protocol";
+import { useStudio } from "../store";
 import { FIT, ZOOM } from "./layout/fit";
 import { firstFolded, useOpening, withFolded } from "./layout/folding";
-import { PANEL, type Rect } from "./layout/layout";
+import { PANEL, type Rect, type Size } from "./layout/layout";
 import { scene, type GraphScene, type Structure } from "./scene";
 
 // A panel that differs by less keeps its layout.
@@ -16,19 +18,70 @@ type Start = {
   now: GraphScene;
   // To call when a person moves or changes something.
   touch: () => void;
+  // Shows everything.
+  showAll: (duration?: number) => void;
 };
+
+// Around the selected box, in px.
+const MARGIN = 12;
 
 export function useStart(
   structure: Structure,
   kinds: Map<string, Kind>,
   around: RefObject<HTMLElement | null>,
 ): Start {
-  const { setViewport } = useReactFlow();
+  const { setViewport, getViewport, getInternalNode } = useReactFlow();
   const { folded, panel } = useOpening();
   // The first element of an empty document stays where it was put.
   const touched = useRef(structure.elements.length === 0);
   const [times, setTimes] = useState(0);
   const latest = useRef({ structure, kinds });
+  const shown = useRef<GraphScene | null>(null);
+  // The view and the size of the panel when everything was shown last.
+  const fitted = useRef<Viewport | null>(null);
+  const size = useRef<Size | null>(null);
+
+  const showAll = useCallback(
+    (duration = 0) => {
+      const { width = 0, height = 0 } = around.current?.getBoundingClientRect() ?? {};
+      const scene = shown.current;
+      if (width > 0 && scene !== null && scene.nodes.length > 0) {
+        const whole = wholeOf(scene);
+        fitted.current = getViewportForBounds(whole, width, height, ZOOM.min, ZOOM.whole, FIT.padding ?? 0);
+        void setViewport(fitted.current, { duration });
+      }
+    },
+    [around, setViewport],
+  );
+
+  // Another size of the panel.
+  const resize = useCallback(
+    (before: Size, now: Size) => {
+      const view = getViewport();
+      if (fitted.current !== null && isSame(view, fitted.current)) {
+        showAll();
+        return;
+      }
+      const moved = {
+        ...view,
+        x: view.x + (now.width - before.width) / 2,
+        y: view.y + (now.height - before.height) / 2,
+      };
+      const node = getInternalNode(useStudio.getState().selected[0] ?? "");
+      const { x, y } = node?.internals.positionAbsolute ?? { x: 0, y: 0 };
+      const { width = 0, height = 0 } = node?.measured ?? {};
+      void setViewport(
+        node === undefined
+          ? moved
+          : {
+              zoom: view.zoom,
+              x: moved.x + inside(x * view.zoom + moved.x, width * view.zoom, now.width),
+              y: moved.y + inside(y * view.zoom + moved.y, height * view.zoom, now.height),
+            },
+      );
+    },
+    [showAll, getViewport, getInternalNode, setViewport],
+  );
   useLayoutEffect(() => {
     latest.current = { structure, kinds };
   }, [structure, kinds]);
@@ -49,7 +102,15 @@ export function useStart(
     open();
     const observer = new ResizeObserver(() => {
       const { width, height } = element.getBoundingClientRect();
-      if (touched.current || width === 0 || height === 0) {
+      if (width === 0 || height === 0) {
+        return;
+      }
+      const last = size.current;
+      size.current = { width, height };
+      if (touched.current) {
+        if (last !== null && (last.width !== width || last.height !== height)) {
+          resize(last, size.current);
+        }
         return;
       }
       const before = useOpening.getState().panel;
@@ -61,7 +122,7 @@ export function useStart(
     });
     observer.observe(element);
     return () => observer.disconnect();
-  }, [around]);
+  }, [around, resize]);
 
   const now = useMemo(
     () => scene(withFolded(structure, folded), kinds, panel),
@@ -70,19 +131,24 @@ export function useStart(
 
   // Again where only the size of the panel changed, which `times` counts.
   useEffect(() => {
-    const size = around.current?.getBoundingClientRect();
-    if (!touched.current && size !== undefined && size.width > 0 && now.nodes.length > 0) {
-      const { width, height } = size;
-      void setViewport(
-        getViewportForBounds(wholeOf(now), width, height, ZOOM.min, ZOOM.whole, FIT.padding ?? 0),
-      );
+    shown.current = now;
+    if (!touched.current) {
+      showAll();
     }
-  }, [now, times, around, setViewport]);
+  }, [now, times, showAll]);
 
   const touch = useCallback(() => {
     touched.current = true;
   }, []);
-  return { now, touch };
+  return { now, touch, showAll };
+}
+
+const isSame = (a: Viewport, b: Viewport): boolean =>
+  Math.abs(a.x - b.x) < 0.5 && Math.abs(a.y - b.y) < 0.5 && Math.abs(a.zoom - b.zoom) < 1e-3;
+
+// How far a box on a line has to move to lie inside a panel.
+function inside(start: number, length: number, panel: number): number {
+  return Math.max(MARGIN - start, Math.min(0, panel - MARGIN - start - length));
 }
 
 // The rectangle around all nodes.

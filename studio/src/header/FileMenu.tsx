@@ -18,7 +18,6 @@ import {
 
 import { useStudio } from "../store";
 import { Logo } from "../gallery/Logo";
-import { ask } from "../dialogs/questions";
 import { exportScript } from "../files/exportScript";
 import { leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";
@@ -103,11 +102,7 @@ export function FileMenu() {
         <Menu.Item leftSection={<IconFileImport {...ICON} />} onClick={() => void takeValues()}>
           Take over values…
         </Menu.Item>
-        <Menu.Item
-          leftSection={<IconNotes {...ICON} />}
-          disabled={!noted}
-          onClick={() => void ask("notes", null)}
-        >
+        <Menu.Item leftSection={<IconNotes {...ICON} />} disabled={!noted} onClick={() => openTool("notes")}>
           Notes
         </Menu.Item>
         <Menu.Item

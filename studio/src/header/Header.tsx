@@ -1,10 +1,11 @@
-// The bar above an open document: files, history, the run, panels.
+// The bar above an open document: files, history, views, problems, help.
 
 import { ActionIcon, Tooltip } from "@mantine/core";
-import { IconHelp } from "@tabler/icons-react";
+import { IconHelp, IconSearch } from "@tabler/icons-react";
 
-import { PanelMenu } from "../panels/PanelMenu";
-import { Transport } from "../transport/Transport";
+import { openCommands } from "../build/commands";
+import { keysText } from "../keys";
+import { SHORTCUTS } from "../shortcuts";
 import { DocumentName } from "./DocumentName";
 import { FileMenu } from "./FileMenu";
 import { NeedsServer } from "../connection/NeedsServer";
@@ -12,6 +13,7 @@ import { ProblemsMenu } from "./ProblemsMenu";
 import { ReportButton } from "../report/ReportButton";
 import { SchemeToggle } from "./SchemeToggle";
 import { UndoButtons } from "./UndoButtons";
+import { Views } from "./Views";
 import { ask } from "../dialogs/questions";
 import classes from "./Header.module.css";
 
@@ -25,13 +27,15 @@ export function Header() {
           <UndoButtons />
         </NeedsServer>
       </div>
-      <NeedsServer>
-        <Transport />
-      </NeedsServer>
+      <Views />
       <div className={classes.right}>
         <ReportButton />
         <ProblemsMenu />
-        <PanelMenu />
+        <Tooltip label={`Find a command or an element (${keysText("Ctrl+K")})`}>
+          <ActionIcon aria-label="Find" size={28} onClick={() => openCommands(SHORTCUTS)}>
+            <IconSearch size={17} />
+          </ActionIcon>
+        </Tooltip>
         <SchemeToggle />
         <Tooltip label="Help and keys (?)">
           <ActionIcon aria-label="Help and keys" size={28} onClick={() => void ask("shortcuts", null)}>

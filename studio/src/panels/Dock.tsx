@@ -1,154 +1,153 @@
-// The panels of the page, which can be moved, stacked, closed and resized. Their arrangement is kept with the
-// document.
+// The tools, one at a time, in a column of a fixed width that a person may drag.
 
-import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type DockviewTheme } from "dockview-react";
-import "dockview-react/dist/styles/dockview.css";
-import { type KeyboardEvent, useEffect, useRef, useState, useSyncExternalStore } from "react";
-import { PalettePanel } from "../build/palette/PalettePanel";
+import { IconX } from "@tabler/icons-react";
+import { type CSSProperties, type KeyboardEvent, type PointerEvent, type ReactNode, useRef } from "react";
 import { CostsPanel } from "../costs/CostsPanel";
-import { Experiment } from "../experiment/Experiment";
-import { Graph } from "../graph/Graph";
-import { Inspector } from "../inspector/Inspector";
 import { NeedsServer } from "../connection/NeedsServer";
+import { Inspector } from "../inspector/Inspector";
 import { Pins } from "../pins/Pins";
 import { RegimePanel } from "../regime/RegimePanel";
 import { ReportPanel } from "../report/ReportPanel";
-import { request } from "../socket";
+import { usePage } from "../state/page";
+import { changePerson, usePerson } from "../state/person";
 import { useStudio } from "../store";
-import { live } from "../world/live";
-import { World } from "../world/World";
-import { isChanged, found, type ArrangementFound, restore } from "./arrangement";
-import { Empty } from "./Empty";
-import { forgetArrangements, openFirstWorld, openTool, setDock } from "./openPlot";
-import { PanelTab } from "./PanelTab";
-import { PlotPanel } from "./PlotPanel";
-import "./dock.css";
+import classes from "./Dock.module.css";
+import { openTool } from "./openPlot";
+import { PanelMenu } from "./PanelMenu";
+import { FIRST_TOOL, isStanding, STANDING, TOOLS, type Tool } from "./tools";
 
-const COMPONENTS = {
-  graph: () => <Graph />,
-  inspector: () => (
-    <NeedsServer>
-      <Inspector />
-    </NeedsServer>
-  ),
-  pins: () => (
-    <NeedsServer>
-      <Pins />
-    </NeedsServer>
-  ),
-  costs: () => (
-    <NeedsServer>
-      <CostsPanel />
-    </NeedsServer>
-  ),
-  regime: () => (
-    <NeedsServer>
-      <RegimePanel />
-    </NeedsServer>
-  ),
+const CONTENT: Partial<Record<Tool, () => ReactNode>> = {
+  inspector: () => <Inspector />,
+  pins: () => <Pins />,
+  regime: () => <RegimePanel />,
+  notes: () => <Notes />,
+  costs: () => <CostsPanel />,
   report: () => <ReportPanel />,
-  palette: () => (
-    <NeedsServer>
-      <PalettePanel />
-    </NeedsServer>
-  ),
-  world: () => (
-    <NeedsServer>
-      <World />
-    </NeedsServer>
-  ),
-  experiment: () => (
-    <NeedsServer>
-      <Experiment />
-    </NeedsServer>
-  ),
-  plot: PlotPanel,
 };
-
-// Panels are parted by a gap through which the ground shows: lines above them would be drawn over every plot
-// again and again.
-const THEME: DockviewTheme = { name: "deodar", className: "dock-theme", dndPanelOverlay: "group", gap: 1 };
-const SAVE_AFTER_MS = 600;
+const WIDTH = { least: 280, most: 480, step: 10 };
 
 export function Dock() {
-  const [api, setApi] = useState<DockviewApi | null>(null);
-  const session = useStudio((state) => state.session);
-  const saved = useRef<ArrangementFound | null>(null);
+  const view = usePage((page) => page.view);
+  const extra = usePage((page) => page.extra) as Tool | null;
+  const opened = usePage((page) => page.tabs[view]);
+  const habit = usePerson((person) => person.tabs[view]);
+  const shown = (opened ?? (isStanding(habit) ? habit : FIRST_TOOL[view])) as Tool;
+  const width = usePerson((person) => person.dock);
+  const tabs = useRef<HTMLDivElement>(null);
 
-  const ready = ({ api: made }: DockviewReadyEvent) => {
-    setDock(made);
-    setApi(made);
+  // What does not fit beside the others is in the menu.
+  const last = extra === null || shown === "notes" ? "notes" : extra;
+  const tools = [...STANDING.slice(0, -1), last];
+  const choose = (tool: Tool) => {
+    openTool(tool);
+    if (isStanding(tool)) {
+      changePerson({ tabs: { ...usePerson.getState().tabs, [view]: tool } });
+    }
   };
-  useEffect(() => () => setDock(null), []);
-
-  useEffect(() => {
-    if (api === null) {
-      return;
-    }
-    let timer: ReturnType<typeof setTimeout> | undefined;
-    restore(api, useStudio.getState().document?.layout["panels"]);
-    forgetArrangements();
-    saved.current = found(api);
-    const save = () => {
-      const [before, now] = [saved.current, found(api)];
-      saved.current = now;
-      if (before !== null && isChanged(before, now)) {
-        void request({ type: "arrange", layout: { panels: api.toJSON() }, undoable: false });
-      }
-    };
-    const later = () => {
-      clearTimeout(timer);
-      timer = setTimeout(save, SAVE_AFTER_MS);
-    };
-    const watch = api.panels.map((panel) => panel.api.onDidParametersChange(later));
-    const ends = [
-      api.onDidLayoutChange(later),
-      api.onDidAddPanel((panel) => watch.push(panel.api.onDidParametersChange(later))),
-    ];
-    return () => {
-      clearTimeout(timer);
-      [...watch, ...ends].forEach((end) => end.dispose());
-    };
-  }, [api, session]);
-
-  // What the page opens by itself is no arrangement of a person, and not stored.
-  // A world with a view from above, or in another process, is shown, unless the document stores an
-  // arrangement of panels.
-  const shown = () => live.scene() !== null || live.link() !== null;
-  const seen = useSyncExternalStore(live.listen, shown);
-  useEffect(() => {
-    if (api !== null && seen && useStudio.getState().document?.layout["panels"] === undefined) {
-      openFirstWorld();
-      saved.current = found(api);
-    }
-  }, [api, session, seen]);
-
-  // So is an experiment that was opened.
-  const experiment = useStudio((state) => state.experiment !== null && state.experiment.data !== null);
-  useEffect(() => {
-    if (api !== null && experiment) {
-      openTool("experiment");
-      saved.current = found(api);
-    }
-  }, [api, session, experiment]);
-
-  const closeByKey = (event: KeyboardEvent) => {
-    const tab = event.key === "Delete" ? (event.target as HTMLElement).closest("[role=tab]") : null;
-    const panel = api?.getPanel(tab?.getAttribute("data-tab-panel-id") ?? "");
-    if (panel !== undefined) {
+  const close = () => usePage.setState({ extra: null, tabs: {} });
+  const key = (event: KeyboardEvent) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key] ?? 0;
+    const next = tools[(tools.indexOf(shown) + step + tools.length) % tools.length];
+    if (step !== 0 && next !== undefined) {
+      event.preventDefault();
+      choose(next);
+      tabs.current?.querySelector<HTMLElement>(`[data-tool="${next}"]`)?.focus();
+    } else if (event.key === "Delete" && shown === extra) {
       event.stopPropagation();
-      panel.api.close();
+      close();
+    }
+  };
+  const style = (width === 0 ? {} : { "--dock": `${width}px` }) as CSSProperties;
+  return (
+    <aside className={classes.dock} style={style} aria-label="Tools">
+      <Edge width={width} />
+      <div className={classes.head}>
+        <div className={classes.tabs} role="tablist" aria-label="Tools" ref={tabs}>
+          {tools.map((tool) => (
+            <div
+              key={tool}
+              role="tab"
+              data-tool={tool}
+              id={`tab-${tool}`}
+              aria-selected={tool === shown}
+              aria-controls="tool"
+              tabIndex={tool === shown ? 0 : -1}
+              className={classes.tab}
+              onClick={() => choose(tool)}
+              onKeyDown={key}
+            >
+              <span className="one-line">{TOOLS[tool].title}</span>
+              {/* A tab may not contain a button: screen readers do not reach it. */}
+              {tool === extra && (
+                <span
+                  className={classes.close}
+                  aria-hidden="true"
+                  title="Close (Delete)"
+                  onClick={(event) => {
+                    event.stopPropagation();
+                    close();
+                  }}
+                >
+                  <IconX size={13} stroke={1.6} />
+                </span>
+              )}
+            </div>
+          ))}
+        </div>
+        <PanelMenu />
+      </div>
+      <div key={shown} className={classes.tool} id="tool" role="tabpanel" aria-label={TOOLS[shown].title}>
+        <NeedsServer>{CONTENT[shown]?.()}</NeedsServer>
+      </div>
+    </aside>
+  );
+}
+
+// The border that sets the width of the dock.
+function Edge({ width }: { width: number }) {
+  const set = (wanted: number) =>
+    changePerson({ dock: Math.round(Math.min(WIDTH.most, Math.max(WIDTH.least, wanted))) });
+  const drag = (event: PointerEvent) => {
+    if (event.currentTarget.hasPointerCapture(event.pointerId)) {
+      set(innerWidth - event.clientX);
+    }
+  };
+  const key = (event: KeyboardEvent) => {
+    const step = { ArrowLeft: WIDTH.step, ArrowRight: -WIDTH.step }[event.key];
+    if (step !== undefined) {
+      event.preventDefault();
+      set((event.currentTarget.parentElement?.clientWidth ?? width) + step);
     }
   };
   return (
-    <div className="dock" onKeyDown={closeByKey}>
-      <DockviewReact
-        components={COMPONENTS}
-        defaultTabComponent={PanelTab}
-        watermarkComponent={Empty}
-        theme={THEME}
-        onReady={ready}
-      />
+    <div
+      className={classes.edge}
+      role="separator"
+      aria-label="Width of the tools"
+      aria-orientation="vertical"
+      aria-valuemin={WIDTH.least}
+      aria-valuemax={WIDTH.most}
+      aria-valuenow={width === 0 ? 320 : width}
+      tabIndex={0}
+      title="Drag to change the width; double-click for the first one"
+      onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+      onPointerMove={drag}
+      onDoubleClick={() => changePerson({ dock: 0 })}
+      onKeyDown={key}
+    />
+  );
+}
+
+// The notes of the document to read. They are changed in the inspector.
+function Notes() {
+  const notes = useStudio((state) => state.document?.notes ?? "");
+  return (
+    <div className={classes.notes} role="document" aria-label="Notes of the document" tabIndex={0}>
+      {notes === "" ? (
+        <p>This document has no notes. Write them in the inspector, with no element selected.</p>
+      ) : (
+        notes
+      )}
     </div>
   );
 }

@@ -1,7 +1,7 @@
-// The menu that brings panels back and adds plots.
+// The menu of all tools, which adds plots too.
 
-import { Button, Menu, ScrollArea } from "@mantine/core";
-import { IconChartLine, IconLayoutGridAdd } from "@tabler/icons-react";
+import { ActionIcon, Menu, ScrollArea } from "@mantine/core";
+import { IconChartLine, IconPlus } from "@tabler/icons-react";
 import { useState } from "react";
 import { useStudio } from "../store";
 import { openPlot, openTool } from "./openPlot";
@@ -24,15 +24,9 @@ export function PanelMenu() {
   return (
     <Menu position="bottom-end" width={280} shadow="md" onClose={() => setSearch("")}>
       <Menu.Target>
-        <Button
-          size="compact-sm"
-          variant="default"
-          leftSection={<IconLayoutGridAdd size={15} />}
-          aria-label="Open panels and plots"
-          className="panel-menu"
-        >
-          Panels
-        </Button>
+        <ActionIcon size={28} aria-label="Open panels and plots" title="Open tools and plots">
+          <IconPlus size={16} />
+        </ActionIcon>
       </Menu.Target>
       <Menu.Dropdown ref={asGroup}>
         <Menu.Search
@@ -58,7 +52,7 @@ export function PanelMenu() {
                 title={element.path}
                 onClick={() => openPlot({ element: element.id })}
               >
-                <span className="dock-item one-line">{element.path}</span>
+                <span className="one-line">{element.path}</span>
               </Menu.Item>
             ))}
             {found.length > MOST && <Menu.Label>{found.length - MOST} more: type to find them</Menu.Label>}

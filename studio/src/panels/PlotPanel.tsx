@@ -1,16 +1,16 @@
-// A panel with a plot: finds its element and the component for the kind of plot.
+// The plot of a tile: finds its element and the component for the kind of plot.
 
-import type { IDockviewPanelProps } from "dockview-react";
-import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
+import { type ComponentType, lazy, Suspense } from "react";
 import { elementsAlike, mainPort, portAxes, portsOf, weightsOf } from "../model/ports";
 import { PackagedPlot } from "../plots/kinds/PackagedPlot";
 import { PLOTS, plotKinds } from "../plots/kinds/plots";
 import type { PlotProps } from "../plots/PlotFrame";
 import { Tile } from "../plots/Tile";
-import { type PlotParams, readParams, readSettings } from "../plots/settings";
+import { type PlotParams, readSettings } from "../plots/settings";
 import { SideBySide } from "../replay/SideBySide";
+import type { View } from "../state/page";
+import { changeTile, type PlotTile } from "../state/tiles";
 import { useStudio } from "../store";
-import { plotTitle } from "./openPlot";
 
 type Components = Record<string, ComponentType<PlotProps>>;
 
@@ -29,8 +29,8 @@ const SCENES = new Map(
   [...PLOTS].flatMap(([name, plot]) => ("component" in plot ? [[name, componentOf(plot.component)]] : [])),
 );
 
-export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {
-  const plot = readParams(params);
+export function PlotPanel({ tile, view, visible }: { tile: PlotTile; view: View; visible: boolean }) {
+  const { key, ...plot } = tile;
   const element = useStudio((state) => state.elements.get(plot.element));
   const port = useStudio(() =>
     element === undefined || portsOf(element).includes(plot.port)
@@ -46,34 +46,23 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
           several: elementsAlike(document, element, port).length > 1,
         }).join(),
   );
-  const visible = useVisible(api);
   const compared = useStudio((state) => state.comparison !== null);
   const kinds = offered.split(",");
   const kind = plot.kind !== null && kinds.includes(plot.kind) ? plot.kind : (kinds[0] ?? "course");
 
   const packaged = useStudio((state) => state.welcome?.plots.find((other) => other.name === kind));
 
-  const title = element === undefined ? null : plotTitle({ element: plot.element, kind });
-  useEffect(() => {
-    if (title !== null) {
-      api.setTitle(title);
-    }
-  }, [api, title]);
-
   if (element === undefined) {
     return (
-      <div className="dock-gone" role="status">
-        <p>The element of this plot is no longer in the document.</p>
-        <button type="button" className="dock-button" onClick={() => api.close()}>
-          Close this plot
-        </button>
-      </div>
+      <p className="plot-message" role="status">
+        The element of this plot is no longer in the document.
+      </p>
     );
   }
-  // Without a connection the arrangement, which has the settings of plots, is not kept.
+  // Without a connection the settings of plots are not kept.
   const change = (next: Partial<PlotParams>) => {
     if (useStudio.getState().connection === "open") {
-      api.updateParameters({ ...plot, kind, port, ...next });
+      changeTile(view, key, { ...plot, kind, port, ...next });
     }
   };
   const props: PlotProps = {
@@ -98,14 +87,4 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
       <PackagedPlot key={kind} plot={packaged} {...props} />
     );
   return compared ? <SideBySide key={kind}>{drawing}</SideBySide> : drawing;
-}
-
-function useVisible(api: IDockviewPanelProps["api"]): boolean {
-  const [visible, setVisible] = useState(api.isVisible);
-  useEffect(() => {
-    setVisible(api.isVisible);
-    const end = api.onDidVisibilityChange((event) => setVisible(event.isVisible));
-    return () => end.dispose();
-  }, [api]);
-  return visible;
 }

@@ -1,62 +1,48 @@
-// Adding panels to the dock from anywhere: the dock passes on its interface when it is ready.
+// Opening plots and tools from anywhere.
 
-import type { DockviewApi, IDockviewPanel } from "dockview-react";
 import { mainPort, type PlotKind, portAxes, portsOf } from "../model/ports";
-import { plotKinds, tabOf } from "../plots/kinds/plots";
-import { readParams, readSettings } from "../plots/settings";
+import { plotKinds } from "../plots/kinds/plots";
+import { readSettings } from "../plots/settings";
 import { shownPorts } from "../plots/shownPorts";
 import type { RecordedPort } from "../protocol";
+import { showView, usePage, type View } from "../state/page";
+import { changePerson } from "../state/person";
+import { addTile, tilesIn, useTiles } from "../state/tiles";
 import { useStudio } from "../store";
-import { NARROW, placeFor, reportGroup } from "./placement";
-import { Remembered } from "./remembered";
-import { TOOLS, type Tool } from "./tools";
+import { isStanding, TOOLS, type Tool } from "./tools";
 
 export type PlotWish = { element: string; kind?: PlotKind; port?: string };
 
-let dock: DockviewApi | null = null;
-let remembered: Remembered | null = null;
-
-export function setDock(api: DockviewApi | null): void {
-  remembered?.end();
-  dock = api;
-  remembered = api === null ? null : new Remembered(api);
-}
-
-// Another document has its own arrangement.
-export function forgetArrangements(): void {
-  remembered?.forget();
-}
+// A page that is narrower has no room for plots below the architecture.
+export const NARROW = "(max-width: 819px)";
 
 // Show a plot: the one that is there, or else a new one.
 export function openPlot(wish: PlotWish): void {
-  if (dock === null) {
-    return;
+  if (usePage.getState().view === "build" && matchMedia(NARROW).matches) {
+    showView("run");
   }
   const plot = plotFor(wish);
-  const there = dock.panels.find((panel) => isPlot(panel) && isSame(panel, plot));
-  if (there !== undefined) {
-    there.api.setActive();
-    return;
+  const { view, enlarged } = usePage.getState();
+  const there = tilesIn(useTiles.getState(), view).find(
+    ({ element, kind, port }) =>
+      element === plot.element && kind === plot.kind && (port === plot.port || plot.kind === "curve"),
+  );
+  const key = there?.key ?? addTile(view, { ...plot, settings: {} });
+  if (enlarged !== null && enlarged !== key) {
+    usePage.setState({ enlarged: null });
   }
-  const position = placeFor(dock);
-  remembered?.add();
-  dock.addPanel({
-    id: freeId(dock),
-    component: "plot",
-    title: plotTitle(plot),
-    params: { ...plot, settings: {} },
-    ...(position === null ? {} : { position }),
-  });
+  requestAnimationFrame(() =>
+    document.querySelector(`[data-tile="${key}"]`)?.scrollIntoView({ block: "nearest" }),
+  );
 }
 
-// The ports that all plots show.
+// The ports that all plots of the view show.
 export function plottedPorts(): RecordedPort[] {
   const { document, elements, kinds } = useStudio.getState();
   const ports = new Map<string, RecordedPort>();
-  for (const panel of dock?.panels ?? []) {
-    const { element, port, kind, settings } = readParams(panel.params ?? {});
+  for (const { element, port, kind, settings } of tilesIn(useTiles.getState(), usePage.getState().view)) {
     const found = elements.get(element);
-    if (document !== null && isPlot(panel) && found !== undefined) {
+    if (document !== null && found !== undefined) {
       const type = kinds.get(found.kind);
       const main = portsOf(found).includes(port) ? port : mainPort(found, type);
       const plot = { kind: kind ?? plotKinds(portAxes(document, found, main))[0] ?? "course", port: main };
@@ -68,55 +54,23 @@ export function plottedPorts(): RecordedPort[] {
   return [...ports.values()];
 }
 
-// Show one of the panels that exist once.
+// Show a tool: in the dock, or the view whose centre it is.
 export function openTool(tool: Tool): void {
-  if (dock === null) {
+  const { view } = TOOLS[tool];
+  if (view !== undefined) {
+    showView(view);
+    if (tool === "palette") {
+      changePerson({ palette: true });
+    }
     return;
   }
-  const there = dock.getPanel(tool);
-  if (there !== undefined) {
-    there.api.setActive();
-    return;
-  }
-  const { title, direction, width } = TOOLS[tool];
-  const group = tool === "report" ? reportGroup(dock) : null;
-  remembered?.add();
-  const panel = { id: tool, component: tool, title };
-  if (group === null) {
-    dock.addPanel({ ...panel, position: { direction }, initialWidth: width });
-  } else {
-    dock.addPanel({ ...panel, position: { referenceGroup: group, direction: "within" } });
-  }
+  usePage.setState((page) => ({
+    tabs: { ...page.tabs, [page.view]: tool },
+    extra: isStanding(tool) ? page.extra : tool,
+  }));
 }
 
-// Whether a panel that exists once can be seen.
-export function isShown(tool: Tool): boolean {
-  return dock?.getPanel(tool)?.api.isVisible === true;
-}
-
-// Show the world of a document that was just opened: beside its first plot, so that the architecture keeps
-// its place.
-export function openFirstWorld(): void {
-  const plot = dock?.getPanel("plot-1");
-  if (dock === null || plot === undefined || dock.getPanel("world") !== undefined) {
-    openTool("world");
-    return;
-  }
-  const direction = dock.width < NARROW ? "within" : "right";
-  remembered?.add();
-  dock.addPanel({
-    id: "world",
-    component: "world",
-    title: TOOLS.world.title,
-    position: { referencePanel: plot, direction },
-    inactive: direction === "within",
-  });
-}
-
-export function plotTitle({ element, kind }: { element: string; kind: PlotKind | null }): string {
-  const found = useStudio.getState().elements.get(element);
-  return found === undefined ? "Plot" : tabOf(kind, found.name);
-}
+export const isInView = (view: View): boolean => usePage.getState().view === view;
 
 type Plot = { element: string; kind: PlotKind; port: string };
 
@@ -126,25 +80,4 @@ function plotFor({ element, kind, port }: PlotWish): Plot {
   const shown = port ?? (found === undefined ? "" : mainPort(found, kinds.get(found.kind)));
   const axes = document === null || found === undefined ? null : portAxes(document, found, shown);
   return { element, kind: kind ?? plotKinds(axes)[0] ?? "course", port: shown };
-}
-
-function isPlot(panel: IDockviewPanel): boolean {
-  return panel.api.component === "plot";
-}
-
-function isSame(panel: IDockviewPanel, plot: Plot): boolean {
-  const params = readParams(panel.params ?? {});
-  return (
-    params.element === plot.element &&
-    params.kind === plot.kind &&
-    (params.port === plot.port || plot.kind === "curve")
-  );
-}
-
-function freeId(api: DockviewApi): string {
-  for (let n = 1; ; n++) {
-    if (api.getPanel(`plot-${n}`) === undefined) {
-      return `plot-${n}`;
-    }
-  }
 }

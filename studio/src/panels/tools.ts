@@ -1,18 +1,43 @@
-// The panels that exist once: their names and places.
+// The tools of the page: their titles, and the views in whose centre some of them are; the others are tabs of
+// the dock.
+
+import type { View } from "../state/page";
 
 export type Tool =
-  "graph" | "inspector" | "pins" | "costs" | "world" | "palette" | "experiment" | "report" | "regime";
+  | "inspector"
+  | "pins"
+  | "regime"
+  | "notes"
+  | "costs"
+  | "report"
+  | "graph"
+  | "palette"
+  | "experiment"
+  | "world";
 
-export const TOOLS: Record<Tool, { title: string; direction: "left" | "right"; width: number }> = {
-  graph: { title: "Architecture", direction: "left", width: 700 },
-  inspector: { title: "Inspector", direction: "right", width: 330 },
-  pins: { title: "Sliders", direction: "right", width: 330 },
-  costs: { title: "Costs", direction: "right", width: 400 },
-  palette: { title: "Elements", direction: "left", width: 300 },
-  world: { title: "World", direction: "right", width: 460 },
-  experiment: { title: "Experiment", direction: "right", width: 460 },
-  regime: { title: "Regime", direction: "right", width: 400 },
-  report: { title: "Import report", direction: "right", width: 460 },
+export const TOOLS: Record<Tool, { title: string; view?: View }> = {
+  inspector: { title: "Inspector" },
+  pins: { title: "Sliders" },
+  regime: { title: "Regime" },
+  notes: { title: "Notes" },
+  costs: { title: "Costs" },
+  report: { title: "Import report" },
+  graph: { title: "Architecture", view: "build" },
+  palette: { title: "Elements", view: "build" },
+  experiment: { title: "Experiment", view: "experiment" },
+  world: { title: "World", view: "robot" },
 };
 
 export const TOOL_NAMES = Object.keys(TOOLS) as Tool[];
+
+// The tabs that the dock always has; one more shows a tool that was opened besides.
+export const STANDING: readonly Tool[] = ["inspector", "pins", "regime", "notes"];
+
+export const FIRST_TOOL: Record<View, Tool> = {
+  build: "inspector",
+  run: "pins",
+  experiment: "inspector",
+  robot: "pins",
+};
+
+export const isStanding = (value: unknown): value is Tool => STANDING.includes(value as Tool);

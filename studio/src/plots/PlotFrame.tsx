@@ -92,6 +92,9 @@ export function PlotFrame(props: PlotFrameProps) {
           <span className="plot-path one-line" title={element.path}>
             {element.path}
           </span>
+          {legend === undefined && note === undefined && (
+            <span className="plot-note">{titleOf(kind, packaged)}</span>
+          )}
           {ports !== undefined && (
             <NativeSelect
               size="xs"

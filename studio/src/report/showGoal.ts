@@ -1,18 +1,18 @@
-// Leads to an element or a group on the canvas: the panel of the architecture is shown, and folded groups are
+// Leads to an element or a group on the canvas: the view of the architecture is shown, and folded groups are
 // opened.
 
 import { getStage } from "../build/stage";
-import { isShown, openTool } from "../panels/openPlot";
+import { isInView, openTool } from "../panels/openPlot";
 import type { ReportGoal } from "./reportItems";
 
-// A panel that was closed gets its size within some frames; it has it when it keeps one for a few.
+// A view that was hidden gets its size within some frames; it has it when it keeps one for a few.
 const FRAMES = 90;
 const STILL = 5;
 
 export function showGoal(goal: ReportGoal): void {
   const show = () =>
     "group" in goal ? getStage()?.centerGroup(goal.group) : getStage()?.center(goal.element);
-  if (isShown("graph")) {
+  if (isInView("build")) {
     show();
     return;
   }

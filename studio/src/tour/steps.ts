@@ -62,7 +62,7 @@ export const STEPS: readonly TourStep[] = [
   },
   {
     title: "Go back in time",
-    text: "Drag the slider of time, below the header, to the left.",
+    text: "Drag the slider of time, at the foot of the page, to the left.",
     lesson:
       "The last 60 s of every run can be seen again, in all plots and boxes. The arrow keys show one frame" +
       " after the other; Live returns to the present.",

@@ -1,4 +1,5 @@
-// The line of the panel of the world about the link with a robot in another process, and its stop.
+// The link with a robot in another process: a line in the panel of the world, and the stop in the foot of the
+// page.
 
 import { Button } from "@mantine/core";
 import { useSyncExternalStore } from "react";
@@ -15,9 +16,17 @@ export function LinkState() {
   return (
     <div className="world-link">
       <span className="one-line numbers">{linkText(link)}</span>
-      <Button size="compact-xs" color="red" title="Stop the robot (Escape)" onClick={() => void stopRobot()}>
+    </div>
+  );
+}
+
+export function StopButton() {
+  const connected = useSyncExternalStore(live.listen, () => live.link() !== null);
+  return (
+    connected && (
+      <Button size="compact-md" color="red" title="Stop the robot (Escape)" onClick={() => void stopRobot()}>
         Stop
       </Button>
-    </div>
+    )
   );
 }

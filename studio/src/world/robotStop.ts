@@ -1,4 +1,4 @@
-// The stop of a robot in another process: a button of the panel of the world, and the key Escape everywhere.
+// The stop of a robot in another process: a button in the foot of the page, and the key Escape everywhere.
 // The run pauses; the server then puts the motors to rest, and they get no more commands.
 
 import { useEffect } from "react";

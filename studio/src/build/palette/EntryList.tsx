@@ -16,6 +16,8 @@ type Props = {
   empty: string;
   hint?: string;
   autoFocus?: boolean;
+  // Without the description of the active entry.
+  brief?: boolean;
   // Entries are dragged to the canvas.
   draggable?: boolean;
   onChoose: (entry: ListEntry) => void;
@@ -31,6 +33,7 @@ export function EntryList({
   empty,
   hint,
   autoFocus = false,
+  brief = false,
   draggable = false,
   onChoose,
   onLook,
@@ -108,8 +111,8 @@ export function EntryList({
           </div>
         ))}
       </div>
-      {active?.kind !== undefined && <Description kind={active.kind} />}
-      {active?.template !== undefined && <TemplateDescription template={active.template} />}
+      {!brief && active?.kind !== undefined && <Description kind={active.kind} />}
+      {!brief && active?.template !== undefined && <TemplateDescription template={active.template} />}
     </>
   );
 }

@@ -1,11 +1,18 @@
-// The list of all kinds as a panel: a line is dragged to the canvas, or clicked.
+// The list of all kinds beside the canvas, with names where there is room: a line is dragged to the canvas,
+// or clicked.
 
+import { ActionIcon, Tooltip } from "@mantine/core";
+import { IconLayoutSidebarLeftCollapse, IconLayoutSidebarLeftExpand } from "@tabler/icons-react";
 import { useMemo } from "react";
 
+import { changePerson, usePerson } from "../../state/person";
 import { useStudio } from "../../store";
 import { addElement } from "../edits";
+import { carriedBy, carry } from "../wiring/carried";
+import type { ListEntry } from "./entries";
 import { EntryList } from "./EntryList";
 import { type Add, kindEntries, type Selected, signalEntries, spotFor, templateEntries } from "./palette";
+import { Sketch } from "./Sketch";
 
 export function PalettePanel() {
   const kinds = useStudio((state) => state.kinds);
@@ -25,16 +32,53 @@ export function PalettePanel() {
       ...templateEntries(templates ?? [], null),
     ];
   }, [kinds, templates, offered, only, name, kind]);
+  const named = usePerson((person) => person.palette);
+  const Icon = named ? IconLayoutSidebarLeftCollapse : IconLayoutSidebarLeftExpand;
   return (
-    <div className="palette-panel" inert={record}>
-      <EntryList
-        label="Elements to add"
-        placeholder="Name, family or parameter"
-        entries={entries}
-        empty="No kind matches"
-        draggable
-        onChoose={(entry) => entry.run?.()}
-      />
+    <div className="palette-panel" inert={record} data-named={named || undefined}>
+      <div className="palette-names">
+        <EntryList
+          label="Elements to add"
+          placeholder="Add an element"
+          entries={entries}
+          empty="No kind matches"
+          brief
+          draggable
+          onChoose={(entry) => entry.run?.()}
+        />
+      </div>
+      <div className="palette-sketches">
+        {entries.map((entry) => entry.kind !== undefined && <SketchButton key={entry.id} entry={entry} />)}
+      </div>
+      <ActionIcon
+        size={28}
+        className="palette-fold"
+        aria-label={named ? "Fold the list of elements" : "Show the names of elements"}
+        onClick={() => changePerson({ palette: !named })}
+      >
+        <Icon size={16} />
+      </ActionIcon>
     </div>
+  );
+}
+
+// Keys open the list of the canvas instead.
+function SketchButton({ entry }: { entry: ListEntry }) {
+  const carried = carriedBy(entry);
+  return (
+    <Tooltip label={entry.why ?? entry.title} position="right">
+      <button
+        type="button"
+        tabIndex={-1}
+        className="palette-sketch"
+        aria-label={entry.title}
+        aria-disabled={entry.why !== undefined}
+        draggable={carried !== null}
+        onDragStart={(event) => carried !== null && carry(event.dataTransfer, carried)}
+        onClick={() => entry.why === undefined && entry.run?.()}
+      >
+        {entry.kind !== undefined && <Sketch kind={entry.kind} />}
+      </button>
+    </Tooltip>
   );
 }

@@ -1,0 +1,178 @@
+// The plots of a view as tiles of a grid: a row below the centre, or all of the centre in Run.
+
+import { ActionIcon, Tooltip } from "@mantine/core";
+import { IconArrowsDiagonal, IconArrowsDiagonalMinimize, IconX } from "@tabler/icons-react";
+import {
+  type CSSProperties,
+  type KeyboardEvent,
+  type PointerEvent,
+  type RefObject,
+  useEffect,
+  useRef,
+  useState,
+} from "react";
+import { usePage, type View } from "../state/page";
+import { moveTile, removeTile, type PlotTile, tilesIn, useTiles } from "../state/tiles";
+import { NARROW } from "./openPlot";
+import { PlotPanel } from "./PlotPanel";
+import classes from "./TileGrid.module.css";
+
+const LEAST_WIDTH = 300;
+const ROW = { wide: 3, narrow: 2, from: 1280 };
+
+// Columns of a grid of this width in px: as few rows as it allows, and these as even as possible.
+export function columnsOf(width: number, count: number): number {
+  const most = Math.max(1, Math.floor(width / LEAST_WIDTH));
+  return Math.ceil(count / Math.ceil(count / most)) || 1;
+}
+
+export function TileGrid() {
+  const view = usePage((page) => page.view);
+  const tiles = useTiles((state) => tilesIn(state, view));
+  const enlarged = usePage((page) => page.enlarged);
+  const grid = useRef<HTMLDivElement>(null);
+  const width = useWidth(grid);
+  useEffect(() => {
+    const back = (event: globalThis.KeyboardEvent) => {
+      if (event.key === "Escape" && !event.defaultPrevented) {
+        usePage.setState({ enlarged: null });
+      }
+    };
+    addEventListener("keydown", back);
+    return () => removeEventListener("keydown", back);
+  }, []);
+  const inRow = Math.min(tiles.length, innerWidth >= ROW.from ? ROW.wide : ROW.narrow);
+  const columns = view === "run" || matchMedia(NARROW).matches ? columnsOf(width, tiles.length) : inRow;
+  return (
+    <div
+      ref={grid}
+      className={classes.tiles}
+      data-view={view}
+      data-enlarged={enlarged ?? undefined}
+      style={{ "--columns": Math.max(1, columns) } as CSSProperties}
+    >
+      {view === "run" && tiles.length === 0 && (
+        <p className={classes.none}>
+          No plot is open. Double-click a box of the architecture, or press + on the right.
+        </p>
+      )}
+      {tiles.map((tile, i) => (
+        <OneTile key={tile.key} view={view} tile={tile} place={i} enlarged={enlarged === tile.key} />
+      ))}
+    </div>
+  );
+}
+
+type OneTileProps = { view: View; tile: PlotTile; place: number; enlarged: boolean };
+
+function OneTile({ view, tile, place, enlarged }: OneTileProps) {
+  const around = useRef<HTMLDivElement>(null);
+  const visible = useVisible(around);
+  const enlarge = () => usePage.setState({ enlarged: enlarged ? null : tile.key });
+  const drag = useDrag(view, tile.key);
+  const key = (event: KeyboardEvent) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key] ?? 0;
+    if (event.key === "Delete") {
+      removeTile(view, tile.key);
+    } else if (event.shiftKey && step !== 0) {
+      moveTile(view, tile.key, place + step);
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return (
+    <div
+      ref={around}
+      className={classes.tile}
+      data-tile={tile.key}
+      data-place={place}
+      data-enlarged={enlarged || undefined}
+      {...drag}
+      onDoubleClick={(event) => isHead(event.target) && enlarge()}
+    >
+      <PlotPanel tile={tile} view={view} visible={visible} />
+      <div className={classes.buttons} onKeyDown={key}>
+        <Tooltip
+          label={enlarged ? "Back to the others (Esc)" : "Enlarge (double click; Shift+arrows move the plot)"}
+        >
+          <ActionIcon
+            size={24}
+            aria-label={enlarged ? "Reduce this plot" : "Enlarge this plot"}
+            onClick={enlarge}
+          >
+            {enlarged ? <IconArrowsDiagonalMinimize size={14} /> : <IconArrowsDiagonal size={14} />}
+          </ActionIcon>
+        </Tooltip>
+        <Tooltip label="Close (Delete)">
+          <ActionIcon size={24} aria-label="Close this plot" onClick={() => removeTile(view, tile.key)}>
+            <IconX size={14} />
+          </ActionIcon>
+        </Tooltip>
+      </div>
+    </div>
+  );
+}
+
+// The line of names of a plot, apart from its controls.
+const isHead = (target: EventTarget): boolean =>
+  target instanceof Element &&
+  target.closest(".plot-head") !== null &&
+  target.closest("button, select, input, [role=menu]") === null;
+
+// A tile that is dragged by its head takes the place of the one below the pointer. The page listens, because
+// a tile that moves in the document would lose the pointer.
+function useDrag(view: View, key: number) {
+  const [dragging, setDragging] = useState(false);
+  const onPointerDown = (down: PointerEvent) => {
+    if (down.button !== 0 || !isHead(down.target)) {
+      return;
+    }
+    const move = ({ clientX: x, clientY: y }: globalThis.PointerEvent) => {
+      if (Math.hypot(x - down.clientX, y - down.clientY) < 6) {
+        return;
+      }
+      setDragging(true);
+      const over = document.elementFromPoint(x, y)?.closest<HTMLElement>("[data-tile]");
+      if (over != null && over.dataset["tile"] !== String(key)) {
+        moveTile(view, key, Number(over.dataset["place"]));
+      }
+    };
+    const end = () => {
+      removeEventListener("pointermove", move);
+      removeEventListener("pointerup", end);
+      removeEventListener("pointercancel", end);
+      setDragging(false);
+    };
+    addEventListener("pointermove", move);
+    addEventListener("pointerup", end);
+    addEventListener("pointercancel", end);
+  };
+  return { "data-dragging": dragging || undefined, onPointerDown };
+}
+
+// A tile that is scrolled away draws nothing, but its time courses grow.
+function useVisible(around: RefObject<HTMLElement | null>): boolean {
+  const [visible, setVisible] = useState(true);
+  useEffect(() => {
+    const observer = new IntersectionObserver((seen) => setVisible(seen.at(-1)?.isIntersecting ?? true));
+    if (around.current !== null) {
+      observer.observe(around.current);
+    }
+    return () => observer.disconnect();
+  }, [around]);
+  return visible;
+}
+
+function useWidth(around: RefObject<HTMLElement | null>): number {
+  const [width, setWidth] = useState(0);
+  useEffect(() => {
+    const observer = new ResizeObserver(([entry]) => setWidth(entry?.contentRect.width ?? 0));
+    if (around.current !== null) {
+      observer.observe(around.current);
+    }
+    return () => observer.disconnect();
+  }, [around]);
+  return width;
+}

@@ -1,0 +1,109 @@
+// The body of an open document: palette, centre with the plots, and the dock of tools. What a tool does never
+// changes the size of another part.
+
+import { type ReactNode, useEffect, useLayoutEffect, useState, useSyncExternalStore } from "react";
+import { PalettePanel } from "../build/palette/PalettePanel";
+import { NeedsServer } from "../connection/NeedsServer";
+import { Experiment } from "../experiment/Experiment";
+import { Graph } from "../graph/Graph";
+import { emptyPage, isView, showView, usePage, type View } from "../state/page";
+import { viewOf } from "../state/person";
+import { beginTiles, tilesIn, useTiles } from "../state/tiles";
+import { useStudio } from "../store";
+import { live } from "../world/live";
+import { World } from "../world/World";
+import { Dock } from "./Dock";
+import { firstTiles } from "./firstTiles";
+import classes from "./Workspace.module.css";
+import { TileGrid } from "./TileGrid";
+import { TOOLS } from "./tools";
+
+export function Workspace() {
+  const session = useStudio((state) => state.session);
+  const begun = usePage((page) => page.session);
+  useLayoutEffect(() => begin(session), [session]);
+  return begun === session ? <Body key={session} /> : null;
+}
+
+// A new session begins with new, empty objects.
+function begin(session: number): void {
+  const { document, kinds } = useStudio.getState();
+  if (document !== null && usePage.getState().session !== session) {
+    const { layout, file } = document;
+    const stored = viewOf(file) ?? (isView(layout["view"]) ? layout["view"] : null);
+    beginTiles(session, firstTiles(document, kinds));
+    usePage.setState({ ...emptyPage(session, stored ?? "build"), chosen: stored !== null }, true);
+  }
+}
+
+function Body() {
+  const view = usePage((page) => page.view);
+  const tiled = useTiles((state) => tilesIn(state, view).length > 0);
+  const enlarged = usePage((page) => page.enlarged !== null);
+  useViewOfContent();
+  // The canvas stays where it is when another view is shown.
+  const [built, setBuilt] = useState(view === "build");
+  useEffect(() => setBuilt((before) => before || view === "build"), [view]);
+  return (
+    <main className={classes.frame} data-view={view}>
+      {view === "build" && (
+        <Part title={TOOLS.palette.title} className={classes.palette}>
+          <NeedsServer>
+            <PalettePanel />
+          </NeedsServer>
+        </Part>
+      )}
+      <div className={classes.centre} data-tiled={tiled || undefined} data-enlarged={enlarged || undefined}>
+        {(built || view === "build") && (
+          <Part title={TOOLS.graph.title} className={classes.stage} hidden={view !== "build"}>
+            <Graph />
+          </Part>
+        )}
+        {view === "experiment" && (
+          <Part title={TOOLS.experiment.title} className={classes.stage}>
+            <NeedsServer>
+              <Experiment />
+            </NeedsServer>
+          </Part>
+        )}
+        {view === "robot" && (
+          <Part title={TOOLS.world.title} className={classes.stage}>
+            <NeedsServer>
+              <World />
+            </NeedsServer>
+          </Part>
+        )}
+        <TileGrid />
+      </div>
+      <Dock />
+    </main>
+  );
+}
+
+type PartProps = { title: string; className: string | undefined; hidden?: boolean; children: ReactNode };
+
+function Part({ title, className, hidden = false, children }: PartProps) {
+  return (
+    <section aria-label={title} className={className} hidden={hidden}>
+      {children}
+    </section>
+  );
+}
+
+// The page shows an experiment that was opened, and, where neither the document nor a person states a view, a
+// world that can be seen.
+function useViewOfContent(): void {
+  const show = (view: View) => !usePage.getState().chosen && showView(view, false);
+  const seen = useSyncExternalStore(live.listen, () => live.scene() !== null || live.link() !== null);
+  useEffect(() => {
+    if (seen) {
+      show("robot");
+    }
+  }, [seen]);
+  const experiment = useStudio((state) => state.experiment !== null && state.experiment.data !== null);
+  useEffect(() => {
+    if (experiment) {
+      showView("experiment", false);
+    }
+  }, [experiment]);
+}

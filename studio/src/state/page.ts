@@ -1,0 +1,39 @@
+// What the page holds in memory while one document is open: a new session gets a new, empty object, so that
+// nothing has to be reset by hand.
+
+import { create } from "zustand";
+
+export const VIEWS = ["build", "run", "experiment", "robot"] as const;
+
+export type View = (typeof VIEWS)[number];
+
+export type PageState = Readonly<{
+  session: number;
+  view: View;
+  // Whether a person chose the view, which the page does not change then.
+  chosen: boolean;
+  // The tool that the dock shows in each view; without one, what the person used last there.
+  tabs: Readonly<Partial<Record<View, string>>>;
+  // The tool that was opened beside those that the dock always has.
+  extra: string | null;
+  // The key of the tile that covers the centre.
+  enlarged: number | null;
+}>;
+
+export const emptyPage = (session: number, view: View = "build"): PageState => ({
+  session,
+  view,
+  chosen: false,
+  tabs: {},
+  extra: null,
+  enlarged: null,
+});
+
+export const usePage = create<PageState>(() => emptyPage(0));
+
+export const isView = (value: unknown): value is View => VIEWS.includes(value as View);
+
+// Without `chosen` the page shows the view by itself.
+export function showView(view: View, chosen = true): void {
+  usePage.setState((page) => ({ view, chosen: chosen || page.chosen, enlarged: null }));
+}
