@@ -10,7 +10,7 @@ import { groupSelected, selectAll, ungroupSelected } from "./build/grouping";
 import { openPalette } from "./build/palette/palette";
 import { disconnectByKeys, removeSelected } from "./build/removing";
 import { renameSelected } from "./build/renaming";
-import { isOnCanvas } from "./build/stage";
+import { getStage, isOnCanvas } from "./build/stage";
 import { ask, useDialogs } from "./dialogs/questions";
 import * as experiment from "./experiment/actions";
 import { open, save, saveAs } from "./files/flows";
@@ -18,6 +18,7 @@ import { useView } from "./gallery/view";
 import { isPressed, isTyping, type Press } from "./keys";
 import { isPast, seekFirst, seekFrames, seekLast } from "./replay/replay";
 import { request } from "./socket";
+import { undo } from "./state/undo";
 import { useStudio } from "./store";
 import { play, reset, step } from "./transport/run";
 import { stopRobot } from "./world/robotStop";
@@ -64,7 +65,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   {
     keys: ["Ctrl+Z"],
     does: "Undo, in the experiment if its panel has the focus",
-    run: () => (experiment.hasFocus() ? experiment.undo() : request({ type: "undo" })),
+    run: () => (experiment.hasFocus() ? experiment.undo() : undo()),
     repeats: true,
   },
   {
@@ -79,6 +80,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
     run: () => openPalette(),
   },
   { keys: ["Ctrl+K"], does: "Find a command or an element", run: () => openCommands(SHORTCUTS) },
+  { keys: ["F"], does: "Show the whole architecture", run: () => getStage()?.showAll(), canvas: true },
   { keys: ["C"], does: "Connect the selected element", run: () => connectByKeys(), canvas: true },
   { keys: ["X"], does: "Remove a connection of the selected element", run: disconnectByKeys, canvas: true },
   { keys: ["Delete", "Backspace"], does: "Remove what is selected", run: removeSelected, canvas: true },

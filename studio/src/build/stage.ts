@@ -14,6 +14,8 @@ export type Stage = {
   center: (element: string) => void;
   // Selects a group with all its elements and brings it into view.
   centerGroup: (group: string) => void;
+  // Shows the whole architecture, and again when the size of the canvas changes.
+  showAll: () => void;
 };
 
 let stage: Stage | null = null;

@@ -25,14 +25,15 @@ export function useStage(
   scene: GraphScene,
   center: (element: string) => void,
   centerGroup: (group: string) => void,
+  showAll: (duration: number) => void,
 ) {
   const flow = useReactFlow();
   const latest = useRef(scene);
-  const centering = useRef({ center, centerGroup });
+  const centering = useRef({ center, centerGroup, showAll });
   useEffect(() => {
     latest.current = scene;
-    centering.current = { center, centerGroup };
-  }, [scene, center, centerGroup]);
+    centering.current = { center, centerGroup, showAll };
+  }, [scene, center, centerGroup, showAll]);
   useEffect(listen, []);
 
   useEffect(() => {
@@ -64,6 +65,7 @@ export function useStage(
       reveal,
       center: (element) => centering.current.center(element),
       centerGroup: (group) => centering.current.centerGroup(group),
+      showAll: () => centering.current.showAll(glide(GLIDE_MS)),
     });
     return () => setStage(null);
   }, [around, flow]);

@@ -123,6 +123,7 @@ function Canvas({ structure }: { structure: Structure }) {
       pickGroup(group, false);
       centerGroup(group);
     },
+    showAll,
   );
   const wiring = useWires(useMemo(() => withCourses(now), [now]));
   // The first element of an empty document stays where it was put.

@@ -5,6 +5,7 @@ import { IconArrowBackUp, IconArrowForwardUp } from "@tabler/icons-react";
 
 import { keysText } from "../keys";
 import { request } from "../socket";
+import { undo as takeBack } from "../state/undo";
 import { useStudio } from "../store";
 
 export function UndoButtons() {
@@ -14,7 +15,7 @@ export function UndoButtons() {
     <HistoryButtons
       undo={undo}
       redo={redo}
-      onUndo={() => void request({ type: "undo" })}
+      onUndo={() => void takeBack()}
       onRedo={() => void request({ type: "redo" })}
     />
   );

@@ -15,6 +15,11 @@ const DATA: { value: View; label: string }[] = [
 
 const LABEL = { label: { padding: "3px 12px", fontSize: 13 } };
 
+function choose(view: View): void {
+  showView(view);
+  rememberView(useStudio.getState().document?.file ?? "", view);
+}
+
 export function Views() {
   const view = usePage((page) => page.view);
   return (
@@ -24,10 +29,9 @@ export function Views() {
       styles={LABEL}
       data={DATA}
       value={view}
-      onChange={(chosen) => {
-        showView(chosen);
-        rememberView(useStudio.getState().document?.file ?? "", chosen);
-      }}
+      // also the view that is shown is chosen by a click
+      onClick={() => choose(view)}
+      onChange={choose}
     />
   );
 }

@@ -4,6 +4,7 @@ import { ActionIcon, Menu, ScrollArea } from "@mantine/core";
 import { IconChartLine, IconPlus } from "@tabler/icons-react";
 import { useState } from "react";
 import { useStudio } from "../store";
+import { openInThisView, restoreFrame } from "./author";
 import { openPlot, openTool } from "./openPlot";
 import { TOOL_NAMES, TOOLS } from "./tools";
 
@@ -58,6 +59,14 @@ export function PanelMenu() {
             {found.length > MOST && <Menu.Label>{found.length - MOST} more: type to find them</Menu.Label>}
             {found.length === 0 && <Menu.Label>No element has this name.</Menu.Label>}
           </ScrollArea.Autosize>
+          {wanted === "" && (
+            <>
+              <Menu.Divider />
+              <Menu.Label>View</Menu.Label>
+              <Menu.Item onClick={openInThisView}>Open the document in this view</Menu.Item>
+              <Menu.Item onClick={restoreFrame}>Restore views, tools and plots</Menu.Item>
+            </>
+          )}
         </div>
       </Menu.Dropdown>
     </Menu>

@@ -29,7 +29,8 @@ export function columnsOf(width: number, count: number): number {
 export function TileGrid() {
   const view = usePage((page) => page.view);
   const tiles = useTiles((state) => tilesIn(state, view));
-  const enlarged = usePage((page) => page.enlarged);
+  // a plot that was closed leaves the others as they were
+  const enlarged = usePage((page) => tiles.find(({ key }) => key === page.enlarged)?.key ?? null);
   const grid = useRef<HTMLDivElement>(null);
   const width = useWidth(grid);
   useEffect(() => {

@@ -6,14 +6,15 @@ import { PalettePanel } from "../build/palette/PalettePanel";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Experiment } from "../experiment/Experiment";
 import { Graph } from "../graph/Graph";
-import { emptyPage, isView, showView, usePage, type View } from "../state/page";
+import { emptyPage, showView, usePage } from "../state/page";
 import { viewOf } from "../state/person";
-import { beginTiles, tilesIn, useTiles } from "../state/tiles";
+import { beginTiles, followTiles, tilesIn, useTiles } from "../state/tiles";
 import { useStudio } from "../store";
 import { live } from "../world/live";
 import { World } from "../world/World";
+import { viewOfAuthor } from "./author";
 import { Dock } from "./Dock";
-import { firstTiles } from "./firstTiles";
+import { firstTiles, tilesOf } from "./firstTiles";
 import classes from "./Workspace.module.css";
 import { TileGrid } from "./TileGrid";
 import { TOOLS } from "./tools";
@@ -30,7 +31,7 @@ function begin(session: number): void {
   const { document, kinds } = useStudio.getState();
   if (document !== null && usePage.getState().session !== session) {
     const { layout, file } = document;
-    const stored = viewOf(file) ?? (isView(layout["view"]) ? layout["view"] : null);
+    const stored = viewOf(file) ?? viewOfAuthor(layout);
     beginTiles(session, firstTiles(document, kinds));
     usePage.setState({ ...emptyPage(session, stored ?? "build"), chosen: stored !== null }, true);
   }
@@ -39,7 +40,7 @@ function begin(session: number): void {
 function Body() {
   const view = usePage((page) => page.view);
   const tiled = useTiles((state) => tilesIn(state, view).length > 0);
-  const enlarged = usePage((page) => page.enlarged !== null);
+  useStoredTiles();
   useViewOfContent();
   // The canvas stays where it is when another view is shown.
   const [built, setBuilt] = useState(view === "build");
@@ -53,7 +54,7 @@ function Body() {
           </NeedsServer>
         </Part>
       )}
-      <div className={classes.centre} data-tiled={tiled || undefined} data-enlarged={enlarged || undefined}>
+      <div className={classes.centre} data-tiled={tiled || undefined}>
         {(built || view === "build") && (
           <Part title={TOOLS.graph.title} className={classes.stage} hidden={view !== "build"}>
             <Graph />
@@ -90,16 +91,23 @@ function Part({ title, className, hidden = false, children }: PartProps) {
   );
 }
 
+// Undo, and other pages, change the plots of the document too.
+function useStoredTiles(): void {
+  const tiles = useStudio((state) => state.document?.layout["tiles"]);
+  useEffect(() => followTiles(tilesOf(useStudio.getState().document?.layout ?? {})), [tiles]);
+}
+
 // The page shows an experiment that was opened, and, where neither the document nor a person states a view, a
-// world that can be seen.
+// world that can be seen, unless the person edits the architecture already.
 function useViewOfContent(): void {
-  const show = (view: View) => !usePage.getState().chosen && showView(view, false);
+  const edits = () => useStudio.getState().document?.undo;
+  const [first] = useState(edits);
   const seen = useSyncExternalStore(live.listen, () => live.scene() !== null || live.link() !== null);
   useEffect(() => {
-    if (seen) {
-      show("robot");
+    if (seen && !usePage.getState().chosen && edits() === first) {
+      showView("robot", false);
     }
-  }, [seen]);
+  }, [seen, first]);
   const experiment = useStudio((state) => state.experiment !== null && state.experiment.data !== null);
   useEffect(() => {
     if (experiment) {

@@ -5,16 +5,19 @@ import { firstToPlot, mainPort, portAxes, portsOf } from "../model/ports";
 import { plotKinds } from "../plots/kinds/plots";
 import { type PlotParams, readParams } from "../plots/settings";
 import type { DocumentView, ElementView, Kind } from "../protocol";
-import { VIEWS, type View } from "../state/page";
+import { VIEWS } from "../state/page";
+import type { PlotLists } from "../state/tiles";
 
-type Plots = Partial<Record<View, PlotParams[]>>;
-
-export function firstTiles(document: DocumentView, kinds: ReadonlyMap<string, Kind>): Plots {
-  const { tiles, panels } = document.layout;
-  return storedTiles(tiles) ?? panelPlots(panels) ?? { build: firstPlots(document, kinds) };
+export function firstTiles(document: DocumentView, kinds: ReadonlyMap<string, Kind>): PlotLists {
+  return tilesOf(document.layout) ?? { build: firstPlots(document, kinds) };
 }
 
-function storedTiles(stored: unknown): Plots | null {
+// The plots that a layout states; null: none.
+export function tilesOf({ tiles, panels }: DocumentView["layout"]): PlotLists | null {
+  return storedTiles(tiles) ?? panelPlots(panels);
+}
+
+function storedTiles(stored: unknown): PlotLists | null {
   if (!isRecord(stored)) {
     return null;
   }
@@ -26,7 +29,7 @@ function storedTiles(stored: unknown): Plots | null {
 }
 
 // The plots among panels that were arranged by hand, in the order in which they were opened.
-function panelPlots(stored: unknown): Plots | null {
+function panelPlots(stored: unknown): PlotLists | null {
   if (!isRecord(stored) || !isRecord(stored["grid"]) || !isRecord(stored["panels"])) {
     return null;
   }

@@ -1,5 +1,6 @@
 // Pinned parameters: the rows of the panel of sliders, as they are kept in the document's layout.
 
+import { openTool } from "../panels/openPlot";
 import type { DocumentView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -84,6 +85,12 @@ export function changedPin(
   change: Partial<Pick<Pin, "lower" | "upper" | "label" | "switch">>,
 ): Pin[] {
   return pins.map((p) => (isAt(p, pin.element, pin.parameter) ? (pinOf({ ...p, ...change })[0] ?? p) : p));
+}
+
+// Pin a parameter as the last one, and show the sliders.
+export function pin(element: string, parameter: string): void {
+  keepPins((pins) => withPin(pins, element, parameter));
+  openTool("pins");
 }
 
 // Keep them in the document, as one step of undo.

@@ -15,7 +15,7 @@ export type PersonState = Readonly<{
 }>;
 
 const KEY = "deodar";
-const STANDARD: PersonState = { dock: 0, palette: true, tabs: {}, views: {} };
+export const STANDARD: PersonState = { dock: 0, palette: true, tabs: {}, views: {} };
 const MOST_FILES = 50;
 
 export const usePerson = create<PersonState>(() => restored(stored()));

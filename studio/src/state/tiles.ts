@@ -1,34 +1,40 @@
-// The plots of the open document, a list for each view. They are kept with the document when a person changes
-// them; a view without a list of its own shows that of Build.
+// The plots of the open document, a list for each view. A change by a person is a step of undo of the document;
+// a view without a list of its own shows that of Build.
 
 import { create } from "zustand";
 import type { PlotParams } from "../plots/settings";
 import { request } from "../socket";
 import { useStudio } from "../store";
-import type { View } from "./page";
+import { type View, VIEWS } from "./page";
 
 export type PlotTile = Readonly<PlotParams & { key: number }>;
+
+export type PlotLists = Readonly<Partial<Record<View, readonly PlotParams[]>>>;
+
+type TileLists = Readonly<Partial<Record<View, readonly PlotTile[]>>>;
 
 export type TilesState = Readonly<{
   session: number;
   next: number;
-  views: Readonly<Partial<Record<View, readonly PlotTile[]>>>;
+  views: TileLists;
+  // Those that the document was opened with.
+  opened: PlotLists;
 }>;
 
 const NONE: readonly PlotTile[] = [];
+// Settings change often during one movement of the mouse.
 const SAVE_AFTER_MS = 600;
 
-export const useTiles = create<TilesState>(() => ({ session: 0, next: 0, views: {} }));
+export const useTiles = create<TilesState>(() => ({ session: 0, next: 0, views: {}, opened: {} }));
 
 export const tilesIn = ({ views }: TilesState, view: View): readonly PlotTile[] =>
   views[view] ?? views.build ?? NONE;
 
-export function beginTiles(session: number, plots: Partial<Record<View, readonly PlotParams[]>>): void {
-  let next = 0;
-  const views = Object.fromEntries(
-    Object.entries(plots).map(([view, list]) => [view, list.map((plot) => ({ ...plot, key: next++ }))]),
-  );
-  useTiles.setState({ session, next, views }, true);
+export function beginTiles(session: number, opened: PlotLists): void {
+  clearTimeout(timer);
+  timer = undefined;
+  unanswered.clear();
+  useTiles.setState({ session, opened, ...keyed(opened, {}, 0) }, true);
 }
 
 // Add a tile at the end of a view; its key.
@@ -40,10 +46,11 @@ export function addTile(view: View, plot: PlotParams): number {
 }
 
 export function changeTile(view: View, key: number, plot: PlotParams): void {
-  setTiles(
-    view,
-    tilesIn(useTiles.getState(), view).map((tile) => (tile.key === key ? { ...plot, key } : tile)),
-  );
+  const tiles = tilesIn(useTiles.getState(), view);
+  const changed = tiles.map((tile) => (tile.key === key ? { ...plot, key } : tile));
+  useTiles.setState(({ views }) => ({ views: { ...views, [view]: changed } }));
+  clearTimeout(timer);
+  timer = setTimeout(saveTiles, SAVE_AFTER_MS);
 }
 
 export function removeTile(view: View, key: number): void {
@@ -62,27 +69,81 @@ export function moveTile(view: View, key: number, to: number): void {
   }
 }
 
-let timer: ReturnType<typeof setTimeout> | undefined;
-
-function setTiles(view: View, tiles: readonly PlotTile[]): void {
-  const { session, views } = useTiles.getState();
-  useTiles.setState({ views: { ...views, [view]: tiles } });
-  clearTimeout(timer);
-  timer = setTimeout(() => useTiles.getState().session === session && save(), SAVE_AFTER_MS);
+// Show the plots that the document was opened with.
+export function restoreTiles(): void {
+  const { opened } = useTiles.getState();
+  if (!isSame(opened)) {
+    useTiles.setState((state) => keyed(opened, state.views, state.next));
+    saveTiles();
+  }
 }
 
-function save(): void {
+// Take over the plots that the document has now, after undo or a change on another page; null: it has none of
+// its own. What this page sends at the same time replaces them.
+export function followTiles(stored: PlotLists | null): void {
+  const wanted = stored ?? useTiles.getState().opened;
+  if (timer === undefined && unanswered.size === 0 && !isSame(wanted)) {
+    useTiles.setState((state) => keyed(wanted, state.views, state.next));
+  }
+}
+
+let timer: ReturnType<typeof setTimeout> | undefined;
+const unanswered = new Set<object>();
+
+// Store a change of settings now, before a step of undo.
+export function settleTiles(): void {
+  if (timer !== undefined) {
+    saveTiles();
+  }
+}
+
+function setTiles(view: View, tiles: readonly PlotTile[]): void {
+  useTiles.setState(({ views }) => ({ views: { ...views, [view]: tiles } }));
+  saveTiles();
+}
+
+function saveTiles(): void {
+  clearTimeout(timer);
+  timer = undefined;
   const { document, connection } = useStudio.getState();
   if (document === null || connection !== "open") {
     return;
   }
-  const tiles = Object.fromEntries(
-    Object.entries(useTiles.getState().views).map(([view, list]) => [
-      view,
-      list.map(({ key: _, ...plot }) => plot),
-    ]),
-  );
+  const asked = {};
+  unanswered.add(asked);
+  const answered = () => void unanswered.delete(asked);
   // an old arrangement of panels is replaced
   const old = document.layout["panels"] === undefined ? {} : { panels: null };
-  void request({ type: "arrange", layout: { tiles, ...old }, undoable: false });
+  const tiles = plain(useTiles.getState().views);
+  // what is undone is a document, not a record
+  const undoable = document.record == null;
+  request({ type: "arrange", layout: { tiles, ...old }, undoable }).then(answered, answered);
+}
+
+function plain(views: TileLists): PlotLists {
+  return Object.fromEntries(
+    Object.entries(views).map(([view, tiles]) => [view, tiles.map(({ key: _, ...plot }) => plot)]),
+  );
+}
+
+function isSame(wanted: PlotLists): boolean {
+  const shown = plain(useTiles.getState().views);
+  return VIEWS.every((view) => JSON.stringify(shown[view]) === JSON.stringify(wanted[view]));
+}
+
+// A plot that is shown already keeps its tile, and with it the past that it draws.
+function keyed(plots: PlotLists, before: TileLists, next: number): Pick<TilesState, "next" | "views"> {
+  const views = Object.fromEntries(
+    Object.entries(plots).map(([view, list]) => {
+      const rest = [...(before[view as View] ?? [])];
+      const keyOf = ({ element, kind, port }: PlotParams) => {
+        const i = rest.findIndex(
+          (tile) => tile.element === element && tile.kind === kind && tile.port === port,
+        );
+        return i < 0 ? next++ : (rest.splice(i, 1)[0]?.key ?? next++);
+      };
+      return [view, list.map((plot) => ({ ...plot, key: keyOf(plot) }))];
+    }),
+  );
+  return { next, views };
 }

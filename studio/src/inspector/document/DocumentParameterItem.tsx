@@ -4,7 +4,7 @@ import { ActionIcon, Menu, UnstyledButton } from "@mantine/core";
 import { IconLink, IconLinkOff, IconPin, IconPinnedOff, IconTrash } from "@tabler/icons-react";
 import { useState } from "react";
 
-import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../../pins/pin";
+import { isAt, keepPins, pin, pinsOf, withoutPin } from "../../pins/pin";
 import type { DocumentParameterView, LinkView } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
@@ -37,10 +37,7 @@ export function DocumentParameterItem({ documentParameter }: { documentParameter
               Unpin from Sliders
             </Menu.Item>
           ) : (
-            <Menu.Item
-              leftSection={<IconPin size={14} />}
-              onClick={() => keepPins((pins) => withPin(pins, "", name))}
-            >
+            <Menu.Item leftSection={<IconPin size={14} />} onClick={() => pin("", name)}>
               Pin to Sliders
             </Menu.Item>
           )}

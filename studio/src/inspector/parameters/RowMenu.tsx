@@ -11,7 +11,7 @@ import {
 } from "@tabler/icons-react";
 import type { ReactNode } from "react";
 
-import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../../pins/pin";
+import { isAt, keepPins, pin, pinsOf, withoutPin } from "../../pins/pin";
 import type { DocumentParameterView } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
@@ -77,10 +77,7 @@ function RowMenuItems({
             Unpin from Sliders
           </Menu.Item>
         ) : (
-          <Menu.Item
-            leftSection={<IconPin size={14} />}
-            onClick={() => keepPins((pins) => withPin(pins, element, path))}
-          >
+          <Menu.Item leftSection={<IconPin size={14} />} onClick={() => pin(element, path)}>
             Pin to Sliders
           </Menu.Item>
         ))}

@@ -1,0 +1,120 @@
+import { beforeEach, expect, test, vi } from "vitest";
+
+import type { PlotParams } from "../plots/settings";
+import type { DocumentView } from "../protocol";
+import { useStudio } from "../store";
+import {
+  addTile,
+  beginTiles,
+  changeTile,
+  followTiles,
+  moveTile,
+  removeTile,
+  restoreTiles,
+  tilesIn,
+  useTiles,
+} from "./tiles";
+import { undo } from "./undo";
+
+type Sent = { type: string; layout?: { tiles: { build?: PlotParams[] }; panels?: null }; undoable?: boolean };
+
+const sent: Sent[] = [];
+let answer = (): void => {};
+
+vi.mock("../socket", () => ({
+  request: (message: Sent) => {
+    sent.push(message);
+    return new Promise((resolve) => {
+      answer = () => resolve({});
+    });
+  },
+}));
+
+const plot = (element: string, kind = "curve"): PlotParams => ({
+  element,
+  kind,
+  port: "activation",
+  settings: {},
+});
+const open = (layout: object, record: object | null = null) =>
+  useStudio.setState({ connection: "open", document: { layout, record } as unknown as DocumentView });
+const shown = () => tilesIn(useTiles.getState(), "build").map(({ element, key }) => `${element}${key}`);
+const stored = () =>
+  sent
+    .at(-1)
+    ?.layout?.tiles.build?.map(({ element }) => element)
+    .join("");
+const answered = async () => {
+  answer();
+  await Promise.resolve();
+};
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  sent.length = 0;
+  open({});
+  beginTiles(1, { build: [plot("a"), plot("b"), plot("c")] });
+});
+
+test("a plot that is opened, moved or closed is one step of undo at once", () => {
+  expect(shown()).toEqual(["a0", "b1", "c2"]);
+  expect(addTile("build", plot("d"))).toBe(3);
+  expect([stored(), sent.length, sent[0]?.undoable]).toEqual(["abcd", 1, true]);
+  moveTile("build", 3, 0);
+  expect([stored(), sent.length]).toEqual(["dabc", 2]);
+  moveTile("build", 3, 4);
+  removeTile("build", 1);
+  expect([stored(), sent.length]).toEqual(["dac", 3]);
+  expect(sent[0]?.layout).not.toHaveProperty("panels");
+});
+
+test("a stored arrangement of panels is replaced, and plots of a record are no step of undo", () => {
+  open({ panels: {} }, {});
+  removeTile("build", 0);
+  expect([sent[0]?.layout?.panels, sent[0]?.undoable]).toEqual([null, false]);
+});
+
+test("settings are stored after a pause as one step, or before the step that takes them back", () => {
+  for (const down of [true, false]) changeTile("build", 0, { ...plot("a"), settings: { down } });
+  expect(sent).toEqual([]);
+  vi.advanceTimersByTime(700);
+  expect(sent.map(({ type }) => type)).toEqual(["arrange"]);
+  expect(sent[0]?.layout?.tiles.build?.[0]?.settings).toEqual({ down: false });
+  changeTile("build", 0, plot("a"));
+  void undo();
+  vi.advanceTimersByTime(700);
+  expect(sent.map(({ type }) => type)).toEqual(["arrange", "arrange", "undo"]);
+});
+
+test("plots that come back by undo are new tiles, and the others keep theirs", async () => {
+  removeTile("build", 0);
+  followTiles({ build: [plot("a"), plot("b"), plot("c")] });
+  expect(shown(), "the answer is still to come").toEqual(["b1", "c2"]);
+  await answered();
+  followTiles({ build: [plot("a"), plot("b"), plot("c")] });
+  expect(shown()).toEqual(["a3", "b1", "c2"]);
+  followTiles({ build: [plot("b"), plot("b")] });
+  expect(shown()).toEqual(["b1", "b4"]);
+  followTiles(null);
+  expect(shown(), "as the document was opened").toEqual(["a5", "b1", "c6"]);
+  expect(sent).toHaveLength(1);
+});
+
+test("the plots that the document was opened with are shown again", () => {
+  restoreTiles();
+  expect(sent).toEqual([]);
+  removeTile("build", 2);
+  addTile("run", plot("d"));
+  restoreTiles();
+  expect(shown()).toEqual(["a0", "b1", "c4"]);
+  expect(useTiles.getState().views.run).toBeUndefined();
+  expect(stored()).toBe("abc");
+});
+
+test("a session that begins forgets what was not stored", () => {
+  changeTile("build", 0, { ...plot("a"), settings: { down: true } });
+  beginTiles(2, { build: [plot("z")] });
+  vi.advanceTimersByTime(700);
+  expect(sent).toEqual([]);
+  expect(shown()).toEqual(["z0"]);
+});
