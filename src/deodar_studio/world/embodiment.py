@@ -272,7 +272,7 @@ def _lacking(path: str, element: Sensor | Motor, world: World | None) -> Problem
     lacks = "no world was chosen that has" if world is None else f"the world {type(world).__name__} lacks"
     having = [kind for kind, cls in registry.kinds("worlds").items() if name in {**cls.sensors, **cls.motors}]
     such = f", such as {' or '.join(having)}" if having else ""
-    fix = f"Choose a world that has it{such}: the button World in the header"
+    fix = f"Choose a world that has it{such}: the button World in the foot of the page"
     return Problem(path, f"{lacks} the {what} {name!r}", fix)
 
 

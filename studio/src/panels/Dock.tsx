@@ -1,7 +1,15 @@
 // The tools, one at a time, in a column of a fixed width that a person may drag.
 
 import { IconX } from "@tabler/icons-react";
-import { type CSSProperties, type KeyboardEvent, type PointerEvent, type ReactNode, useRef } from "react";
+import {
+  Activity,
+  type CSSProperties,
+  type KeyboardEvent,
+  type PointerEvent,
+  type ReactNode,
+  useRef,
+  useState,
+} from "react";
 import { CostsPanel } from "../costs/CostsPanel";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Inspector } from "../inspector/Inspector";
@@ -34,6 +42,11 @@ export function Dock() {
   const shown = (opened ?? (isStanding(habit) ? habit : FIRST_TOOL[view])) as Tool;
   const width = usePerson((person) => person.dock);
   const tabs = useRef<HTMLDivElement>(null);
+  // A tool that another one hides keeps what was typed and scrolled in it.
+  const [visited, setVisited] = useState<readonly Tool[]>([]);
+  if (!visited.includes(shown)) {
+    setVisited([...visited, shown]);
+  }
 
   // What does not fit beside the others is in the menu.
   const last = extra === null || shown === "notes" ? "notes" : extra;
@@ -44,15 +57,21 @@ export function Dock() {
       changePerson({ tabs: { ...usePerson.getState().tabs, [view]: tool } });
     }
   };
-  const close = () => usePage.setState({ extra: null, tabs: {} });
-  const key = (event: KeyboardEvent) => {
+  const close = () => {
+    usePage.setState(({ tabs: opened }) => ({
+      extra: null,
+      tabs: Object.fromEntries(Object.entries(opened).filter(([, tool]) => tool !== extra)),
+    }));
+    setVisited(visited.filter((tool) => tool !== extra));
+  };
+  const key = (event: KeyboardEvent, tool: Tool) => {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key] ?? 0;
-    const next = tools[(tools.indexOf(shown) + step + tools.length) % tools.length];
+    const next = tools[(tools.indexOf(tool) + step + tools.length) % tools.length];
     if (step !== 0 && next !== undefined) {
       event.preventDefault();
       choose(next);
       tabs.current?.querySelector<HTMLElement>(`[data-tool="${next}"]`)?.focus();
-    } else if (event.key === "Delete" && shown === extra) {
+    } else if (event.key === "Delete" && tool === extra) {
       event.stopPropagation();
       close();
     }
@@ -70,11 +89,11 @@ export function Dock() {
               data-tool={tool}
               id={`tab-${tool}`}
               aria-selected={tool === shown}
-              aria-controls="tool"
+              aria-controls={tool === shown ? `tool-${tool}` : undefined}
               tabIndex={tool === shown ? 0 : -1}
               className={classes.tab}
               onClick={() => choose(tool)}
-              onKeyDown={key}
+              onKeyDown={(event) => key(event, tool)}
             >
               <span className="one-line">{TOOLS[tool].title}</span>
               {/* A tab may not contain a button: screen readers do not reach it. */}
@@ -96,9 +115,13 @@ export function Dock() {
         </div>
         <PanelMenu />
       </div>
-      <div key={shown} className={classes.tool} id="tool" role="tabpanel" aria-label={TOOLS[shown].title}>
-        <NeedsServer>{CONTENT[shown]?.()}</NeedsServer>
-      </div>
+      {visited.map((tool) => (
+        <Activity key={tool} mode={tool === shown ? "visible" : "hidden"}>
+          <div className={classes.tool} id={`tool-${tool}`} role="tabpanel" aria-label={TOOLS[tool].title}>
+            <NeedsServer>{CONTENT[tool]?.()}</NeedsServer>
+          </div>
+        </Activity>
+      ))}
     </aside>
   );
 }

@@ -13,12 +13,12 @@ import { isStanding, TOOLS, type Tool } from "./tools";
 
 export type PlotWish = { element: string; kind?: PlotKind; port?: string };
 
-// A page that is narrower has no room for plots below the architecture.
+// A page that is narrower shows plots in Run alone.
 export const NARROW = "(max-width: 819px)";
 
 // Show a plot: the one that is there, or else a new one.
 export function openPlot(wish: PlotWish): void {
-  if (usePage.getState().view === "build" && matchMedia(NARROW).matches) {
+  if (usePage.getState().view !== "run" && matchMedia(NARROW).matches) {
     showView("run");
   }
   const plot = plotFor(wish);
