@@ -1,7 +1,7 @@
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
-import { beside, button, choose, panel } from "./hands";
+import { beside, button, choose, openTool, panel } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -73,9 +73,11 @@ test("the cost of each element is measured while the model runs, and a row selec
   expect(rows).toHaveLength(4);
   expect(rows[1]).toMatch(/^u\s+Field\s+[\d.]+\s+[\d.]+ %/);
   await table.getByRole("button", { name: "left", exact: true }).click();
-  await panel(page, "Inspector").getByRole("heading", { name: "left", exact: true }).waitFor();
   expect(await obstacles(page)).toEqual([]);
   await shot(page, "costs");
+  await openTool(page, "Inspector");
+  await panel(page, "Inspector").getByRole("heading", { name: "left", exact: true }).waitFor();
+  await openTool(page, "Costs");
   await costs.getByRole("button", { name: "Measure costs" }).click();
   await costs.getByRole("button", { name: "Measure costs again" }).waitFor();
 });

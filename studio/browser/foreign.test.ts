@@ -60,6 +60,7 @@ async function find(name: string): Promise<void> {
     .getByRole("option")
     .filter({ has: page.getByText(name, { exact: true }) })
     .click();
+  await openTool(page, "Inspector");
   await panel(page, "Inspector").getByRole("heading", { name, exact: true }).waitFor();
 }
 

@@ -21,12 +21,12 @@ beforeAll(async () => {
 
 afterAll(() => studio.stop());
 
-/** Controls of the header and of the timeline that overlap or leave the page, by their names. */
+/** Controls of the head and the foot of the page that overlap or leave it, by their names. */
 const overlapping = () =>
   studio.page.evaluate(() => {
-    const inHeader = "header :is(button, [role=timer], [role=group], h1)";
-    const inTimeline = "[role=toolbar][aria-label=Replay] :is(button, select)";
-    const controls = [...document.querySelectorAll(`${inHeader}, ${inTimeline}`)]
+    const inHead = "header :is(button, [role=group], [role=radiogroup], h1)";
+    const inFoot = "footer :is(button, [role=timer], select)";
+    const controls = [...document.querySelectorAll(`${inHead}, ${inFoot}`)]
       .map((one) => ({
         name: one.getAttribute("aria-label") ?? one.textContent,
         at: one.getBoundingClientRect(),
@@ -46,7 +46,7 @@ const overlapping = () =>
     return [...out.map(({ name }) => `${name} is outside`), ...over];
   });
 
-test("no control of the header overlaps another one at any width, paused or running", async () => {
+test("no control of the head or the foot overlaps another one at any width, paused or running", async () => {
   const { page } = studio;
   await observer.ask({ type: "speed", factor: null });
   for (const running of [false, true]) {
@@ -87,7 +87,7 @@ test("while it compiles the page shows the step, the phase and the time", async 
   });
   await page.setViewportSize({ width: 390, height: 800 });
   expect(await overlapping()).toEqual([]);
-  await page.locator("header").getByText("planning").locator("visible=true").first().waitFor();
+  await page.locator("footer").getByText("planning").locator("visible=true").first().waitFor();
   await shot(page, "compiling-390");
   await second.runs();
   await status.getByText("planning").waitFor({ state: "detached" });

@@ -9,7 +9,7 @@ import { ident, many } from "./bench/documents";
 import { median } from "./bench/figures";
 import { mainThread } from "./bench/frames";
 import { panned, zoomed } from "./bench/measures";
-import { box, button, panel, showEverything } from "./hands";
+import { box, button, panel, showEverything, showView } from "./hands";
 import { behind, misplacedNames, overlaps, SMALLEST } from "./legibility";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -116,13 +116,9 @@ async function open(path: string, first: Locator): Promise<void> {
   await first.waitFor();
 }
 
-/** Longer than it takes to store an arrangement that a person changed. */
-const STORED = 1000;
-
-/** Change the width and reload: panels are arranged for the width that they find, as no person moved them. */
+/** Change the width and reload: the page finds this width when it opens. */
 async function reloaded(width: number): Promise<void> {
   await studio.page.setViewportSize({ width, height: 800 });
-  await studio.page.waitForTimeout(STORED);
   await studio.page.reload();
 }
 
@@ -131,12 +127,13 @@ const foldedGroup = (name: string) =>
 
 test("the groups of planning are folded, names are readable, on a wide and a narrow page", async () => {
   const { page } = studio;
+  await showView(page, "Build"); // it has a world
   await foldedGroup("north").waitFor();
   await readable(page, 20);
   await expect.poll(() => wires(page)).toBe(SPA_WIRES);
   await shot(page, "legible-spa-wide");
   await reloaded(NARROW);
-  expect(observer.document?.layout["panels"], "no person arranged the panels").toBeUndefined();
+  expect(observer.document?.layout["tiles"], "no person changed the plots").toBeUndefined();
   await readable(page, 20);
   await shot(page, "legible-spa-narrow");
   await reloaded(WIDE);

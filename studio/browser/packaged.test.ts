@@ -55,7 +55,7 @@ test("a plot of a package is drawn again with new values and sizes, and is expor
   expect(picture.suggestedFilename()).toBe("target_activation.png");
 
   const width = await drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width);
-  await page.setViewportSize({ width: 1100, height: 700 });
+  await page.setViewportSize({ width: 1000, height: 700 });
   await expect
     .poll(() => drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width))
     .toBeLessThan(width);

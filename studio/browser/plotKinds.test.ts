@@ -6,7 +6,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { obstacles } from "./axe";
 import { PLOTS } from "../src/plots/kinds/plots";
 import { SHOWN, writeArranged, writeEveryPlot } from "./everyPlot";
-import { colours, downloaded, drawn, panel, reopen, settled } from "./hands";
+import { colours, downloaded, drawn, panel, reopen, settled, showView } from "./hands";
 import { examplePackage } from "./installed";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -16,6 +16,8 @@ let observer: Observer;
 
 beforeAll(async () => {
   studio = await startStudio(examplePackage());
+  // twelve plots are seen at once in Run
+  await studio.page.setViewportSize({ width: 1600, height: 1000 });
   await writeEveryPlot(studio.folder);
   observer = await studio.observe();
 });
@@ -28,6 +30,7 @@ const plot = (name: string): Locator => studio.page.getByRole("region", { name, 
 async function arrange(name: string, rows: Parameters<typeof writeArranged>[2]): Promise<void> {
   writeArranged(studio.folder, name, rows);
   await reopen(studio.page, observer, name);
+  await showView(studio.page, "Run");
   // every plot has a first sample before the others are computed: a time course begins with the first one
   // after its subscription, and a phase plot needs two
   for (const [n, tick] of [

@@ -176,7 +176,7 @@ test("the first field is plotted from the start, with threshold and resting leve
   expect(await colours(drawing)).toBeGreaterThan(5);
   expect(await curves.getByRole("button", { name: "levels" }).getAttribute("aria-pressed")).toBe("true");
   const width = await drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width);
-  await page.setViewportSize({ width: 1100, height: 700 });
+  await page.setViewportSize({ width: 1000, height: 700 });
   await expect
     .poll(() => drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width))
     .toBeLessThan(width);
@@ -253,7 +253,9 @@ test("a plot shows a field over time, also of a moment of the past", async () =>
 
 test("the cursor of one plot shows its position and its time in all others, with their values", async () => {
   const { page } = studio;
+  await page.setViewportSize({ width: 1600, height: 900 });
   await reopen(page, observer, "linked.json");
+  await showView(page, "Run");
   await step(300);
   const readout = (name: string) => plot(name).locator(".plot-readout");
   const reads = (name: string, words: string) =>
@@ -277,6 +279,7 @@ test("the cursor of one plot shows its position and its time in all others, with
   expect(await readout(course).textContent()).toBe("");
   await page.getByRole("toolbar", { name: "Run" }).hover();
   await expect.poll(() => readout(map).textContent()).toBe("");
+  await page.setViewportSize({ width: 1280, height: 800 });
 });
 
 test("twenty plots of 300 x 180 pixels are readable: no text is tiny, cut or covered", async () => {

@@ -1,7 +1,7 @@
 import { expect, onTestFinished, test } from "vitest";
 
 import { obstacles } from "./axe";
-import { button, choose, colours, number, panel, select } from "./hands";
+import { button, choose, colours, number, openTool, panel, select } from "./hands";
 import { shot, startStudio } from "./studio";
 
 test("the regime of a field is measured, drawn and stale after a change of the field", async () => {
@@ -39,6 +39,7 @@ test("the regime of a field is measured, drawn and stale after a change of the f
   const level = number(page, "resting_level");
   await level.fill("-9");
   await level.press("Enter");
+  await openTool(page, "Regime");
   await regime.getByText("The field has changed since").waitFor();
   const before = await table.innerText();
   await regime.getByRole("button", { name: "Measure regime again" }).click();

@@ -85,7 +85,7 @@ test("a file with losses opens, and the header counts what was not carried", asy
   await button(page, "Dismiss").click();
 });
 
-test("a click on the count opens the report below the architecture, with what was not carried", async () => {
+test("a click on the count opens the report beside the architecture, with what was not carried", async () => {
   const { page } = studio;
   await mark().click();
   await report()
@@ -138,7 +138,6 @@ test("keys lead from line to line, and Enter to the element, in a group that was
   await field.waitFor();
   await expect.poll(() => selected(field)).toBe(true);
   await expect.poll(() => inView(field)).toBe(true);
-  await panel(page, "Inspector").getByRole("heading", { name: "intention field", exact: true }).waitFor();
   expect(await line("colour").evaluate((one) => one === document.activeElement), "the focus stays").toBe(
     true,
   );
@@ -146,7 +145,11 @@ test("keys lead from line to line, and Enter to the element, in a group that was
   await shot(page, "report-led");
   await page.keyboard.press("ArrowUp");
   await page.keyboard.press("Enter");
+  await expect.poll(() => selected(box(page, `${GROUP}.CoS field`))).toBe(true);
+  await openTool(page, "Inspector");
   await panel(page, "Inspector").getByRole("heading", { name: "CoS field", exact: true }).waitFor();
+  await openTool(page, "Import report");
+  expect(await report().getByRole("option").count(), "the filter stays").toBe(5);
 });
 
 test("a renamed element keeps its lines, and those of a removed one say so", async () => {

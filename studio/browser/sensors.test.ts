@@ -36,7 +36,7 @@ test("a picture that is dropped on the page is what the sensor reads, and the ru
   expect(observer.time).toBeGreaterThanOrEqual(before);
 });
 
-test("a picture below the folder can be chosen in the header, with a preview", async () => {
+test("a picture below the folder can be chosen in the foot of the page, with a preview", async () => {
   const { page, folder } = studio;
   writeFileSync(join(folder, "blue.png"), png(40, 40, [0, 0, 255]));
   const before = observer.time;
@@ -54,7 +54,7 @@ test("a picture below the folder can be chosen in the header, with a preview", a
   expect(observer.time).toBeGreaterThanOrEqual(before);
 });
 
-test("a video and a record of another run are chosen in the header as what the sensor reads", async () => {
+test("a video and a record of another run are chosen in the foot as what the sensor reads", async () => {
   const { page, folder } = studio;
   await runScript("sensor_files", folder);
   const dialog = page.getByRole("dialog");

@@ -55,6 +55,9 @@ async function watch(page: Page): Promise<void> {
   });
 }
 
+/** The architecture has 1280 px of it, in which each box has a live picture. */
+const SIZE = { width: 1280 + 524, height: 800 };
+
 /** A place on the canvas without a box or a connection. */
 const ground = (page: Page) =>
   page.evaluate(() => {
@@ -106,6 +109,7 @@ test("each of 200 boxes is redrawn once a second, also while the canvas is moved
     files: { "many.json": JSON.stringify(many(COUNT)) },
   });
   onTestFinished(stop);
+  await page.setViewportSize(SIZE);
   const observer = await observe();
   await watch(page);
   await observer.ask({ type: "open_file", path: "many.json" });

@@ -239,8 +239,8 @@ test("two pages that drag one box at once agree on its place", async () => {
   await box(second, "left").waitFor();
   await holdAndMove(page, box(page, "left"), { x: 20, y: 12 }, { x: 40, y: 80 });
   await holdAndMove(second, box(second, "left"), { x: 20, y: 12 }, { x: -60, y: 50 });
-  await page.mouse.move(300, 500, { steps: 3 });
-  await second.mouse.move(200, 450, { steps: 3 });
+  await page.mouse.move(500, 420, { steps: 3 });
+  await second.mouse.move(400, 390, { steps: 3 });
   await page.mouse.up();
   await second.mouse.up();
   const { id } = observer.element("left");

@@ -174,8 +174,8 @@ test("a wide panel shows the picture beside the plan, one of 390 pixels above it
       .boundingBox(),
     plan: await canvas().boundingBox(),
   });
-  await page.setViewportSize({ width: 1440, height: 900 });
-  await expect.poll(async () => (await canvas().boundingBox())?.width).toBeGreaterThan(500);
+  await page.setViewportSize({ width: 1600, height: 900 });
+  await expect.poll(async () => (await canvas().boundingBox())?.width).toBeGreaterThan(700);
   const wide = await parts();
   expect(wide.picture?.x).toBeGreaterThan((wide.plan?.x ?? 0) + (wide.plan?.width ?? 0));
   expect(wide.picture?.width).toBeGreaterThan(400);
@@ -183,10 +183,10 @@ test("a wide panel shows the picture beside the plan, one of 390 pixels above it
   await page.setViewportSize({ width: 390, height: 800 });
   await expect.poll(async () => (await canvas().boundingBox())?.width).toBeLessThan(391);
   const narrow = await parts();
-  expect(narrow.picture?.height).toBeGreaterThan(60);
+  expect(narrow.picture?.height).toBeGreaterThan(120);
   expect((narrow.picture?.y ?? 0) + (narrow.picture?.height ?? 0)).toBeLessThan(narrow.plan?.y ?? 0);
   expect(narrow.plan?.width).toBeGreaterThan(370);
-  expect(narrow.plan?.height).toBeGreaterThan(150);
+  expect(narrow.plan?.height).toBeGreaterThan(250);
   const swatches = await world().getByRole("group", { name: "Blocks in front of the robot" }).boundingBox();
   expect(swatches?.height).toBeLessThan(35);
   expect(await findings(page)).toEqual([]);

@@ -7,7 +7,7 @@ import { smoothness, type Smoothness } from "./frames";
 import { asScript, install } from "./probe";
 import { slid } from "./slider";
 import { slowed } from "./slowdown";
-import { onStage } from "./stage";
+import { onStage, WIDE } from "./stage";
 
 const SCRIPT = asScript(install);
 const CONTEXTS = 5;
@@ -71,32 +71,36 @@ export async function tenPlots(): Promise<void> {
 
 /** Many elements on the canvas, all boxes live: a still view, and a moved view. */
 export async function manyElements(count: number): Promise<void> {
-  await onStage(many(count), async ({ open, browser }) => {
-    const page = await open(SCRIPT);
-    await running(page);
-    await settled(page);
-    await panned(page, 4); // graphics in software compile at the first use
-    await page.waitForTimeout(3000);
-    const still = await smoothness(browser, page, SECONDS, ".graph-live canvas");
-    showLoad();
-    const shown = await page.locator(".graph-live").count();
-    show(`${count} elements on the canvas: visible live boxes`, shown, "");
-    show(`${count} elements with live boxes: time between pictures, 95 % below`, still.p95, "ms", "<= 50");
-    show(`${count} elements: the live box that is drawn least often`, still.least, "1/s");
-    costs(`${count} elements`, still);
-    const [moved] = await Promise.all([
-      smoothness(browser, page, SECONDS, ".none"),
-      panned(page, SECONDS + 1),
-    ]);
-    show(`${count} elements, panning: time between pictures, 95 of 100 below`, moved.p95, "ms", "<= 50");
-    costs(`${count} elements, panning`, moved);
-    const [scaled] = await Promise.all([
-      smoothness(browser, page, SECONDS, ".none"),
-      zoomed(page, SECONDS + 1),
-    ]);
-    show(`${count} elements, panning: pictures of the browser`, moved.rate, "1/s", ">= 20");
-    show(`${count} elements, zooming: pictures of the browser`, scaled.rate, "1/s", ">= 20");
-  });
+  await onStage(
+    many(count),
+    async ({ open, browser }) => {
+      const page = await open(SCRIPT);
+      await running(page);
+      await settled(page);
+      await panned(page, 4); // graphics in software compile at the first use
+      await page.waitForTimeout(3000);
+      const still = await smoothness(browser, page, SECONDS, ".graph-live canvas");
+      showLoad();
+      const shown = await page.locator(".graph-live").count();
+      show(`${count} elements on the canvas: visible live boxes`, shown, "");
+      show(`${count} elements with live boxes: time between pictures, 95 % below`, still.p95, "ms", "<= 50");
+      show(`${count} elements: the live box that is drawn least often`, still.least, "1/s");
+      costs(`${count} elements`, still);
+      const [moved] = await Promise.all([
+        smoothness(browser, page, SECONDS, ".none"),
+        panned(page, SECONDS + 1),
+      ]);
+      show(`${count} elements, panning: time between pictures, 95 of 100 below`, moved.p95, "ms", "<= 50");
+      costs(`${count} elements, panning`, moved);
+      const [scaled] = await Promise.all([
+        smoothness(browser, page, SECONDS, ".none"),
+        zoomed(page, SECONDS + 1),
+      ]);
+      show(`${count} elements, panning: pictures of the browser`, moved.rate, "1/s", ">= 20");
+      show(`${count} elements, zooming: pictures of the browser`, scaled.rate, "1/s", ">= 20");
+    },
+    WIDE,
+  );
 }
 
 /** A real browser, connected to an engine that runs at full speed. */

@@ -12,6 +12,8 @@ import { launch } from "../chromium";
 import { type Server, startServer } from "../server";
 
 const SIZE = { width: 1280, height: 800 };
+/** A page whose canvas has 1280 px. */
+export const WIDE = { width: 1280 + 524, height: 800 };
 
 export interface Stage {
   server: Server;
@@ -24,7 +26,11 @@ export interface Stage {
 }
 
 /** Call a function with a stage on which this document is open, or the gallery. */
-export async function onStage(document: object | null, act: (stage: Stage) => Promise<void>): Promise<void> {
+export async function onStage(
+  document: object | null,
+  act: (stage: Stage) => Promise<void>,
+  viewport = SIZE,
+): Promise<void> {
   const home = mkdtempSync(join(tmpdir(), "deodar-bench-"));
   const folder = join(home, "folder");
   mkdirSync(folder);
@@ -34,7 +40,7 @@ export async function onStage(document: object | null, act: (stage: Stage) => Pr
   try {
     const browser = await launch();
     const open = async (before = "") => {
-      const context = await browser.newContext({ viewport: SIZE, locale: "en-US", reducedMotion: "reduce" });
+      const context = await browser.newContext({ viewport, locale: "en-US", reducedMotion: "reduce" });
       const page = await context.newPage();
       if (before) await page.addInitScript({ content: before });
       await page.goto(server.url);

@@ -53,7 +53,7 @@ for (const colours of COLOURS) {
     await observer.until(() => observer.time > 500);
     await page.getByRole("button", { name: /^pause/i }).click();
     await box(page, "field").click();
-    await page.mouse.move(3, 400);
+    await page.mouse.move(420, 4);
     await page.waitForTimeout(DRAWN_MS);
     await shot(page, name("built"));
   });

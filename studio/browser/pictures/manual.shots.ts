@@ -9,7 +9,7 @@ import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
 import { frameOf, toPixels } from "../../src/world/planFrame";
-import { choose, openExample } from "../hands";
+import { choose, openExample, openTool } from "../hands";
 import type { Observer } from "../observer";
 import { runPython } from "../server";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
@@ -17,6 +17,8 @@ import { writeTwoTargets } from "../twoTargets";
 
 const COLOURS = ["light", "dark"] as const;
 const PATIENCE = { timeout: 60_000 };
+/** Where nothing answers the pointer. */
+const REST = [420, 4] as const;
 
 async function open(colours: "light" | "dark", options: StudioOptions): Promise<Studio> {
   const studio = await startStudio({ ...options, colours });
@@ -46,7 +48,7 @@ async function runUntil(page: Page, done: () => Promise<unknown>): Promise<void>
   await page.getByRole("button", { name: /^play/i }).click();
   await done();
   await page.getByRole("button", { name: /^pause/i }).click();
-  await page.mouse.move(3, 400);
+  await page.mouse.move(...REST);
   await page.waitForTimeout(500); // until the last frames are drawn
 }
 
@@ -60,7 +62,7 @@ async function tick(page: Page): Promise<number> {
 
 async function select(page: Page, name: string): Promise<void> {
   await page.locator(".react-flow__node", { hasText: name }).first().click();
-  await page.mouse.move(3, 400);
+  await page.mouse.move(...REST);
   await page.waitForTimeout(500); // until the hover card is closed
 }
 
@@ -85,7 +87,7 @@ for (const colours of COLOURS) {
       await toggle.click();
       await expect.poll(() => toggle.getAttribute("aria-pressed")).toBe("true");
     }
-    await page.mouse.move(3, 400);
+    await page.mouse.move(...REST);
     await page.waitForTimeout(1000); // until the curves are drawn
     await shot(page, name("curves"));
   });
@@ -98,7 +100,7 @@ for (const colours of COLOURS) {
     await choose(page, "Open panels and plots", "Regime");
     await page.getByRole("button", { name: "Measure regime" }).click();
     await page.getByRole("button", { name: "Measure regime again" }).waitFor(PATIENCE);
-    await page.mouse.move(3, 400);
+    await page.mouse.move(...REST);
     await page.waitForTimeout(500);
     await shot(page, name("regime"));
   });
@@ -131,7 +133,7 @@ for (const colours of COLOURS) {
     await slider.press("End");
     await page.getByRole("status", { name: "Moment shown" }).getByText("600 ms").waitFor(PATIENCE);
     for (let n = 0; n < 18; n++) await slider.press("PageDown");
-    await page.mouse.move(3, 400);
+    await page.mouse.move(...REST);
     await page.waitForTimeout(500); // until the last frames are drawn
     await shot(page, name("records"));
   });
@@ -146,6 +148,7 @@ for (const colours of COLOURS) {
   test(`groups and sliders, ${colours}`, async () => {
     const { page } = await startPinned(colours);
     await page.locator(".react-flow__node").first().waitFor(PATIENCE);
+    await openTool(page, "Sliders");
     await run(page, 900);
     await shot(page, name("sliders"));
   });
@@ -261,7 +264,7 @@ for (const colours of COLOURS) {
     const { time } = observer;
     await observer.until(() => observer.time > time + 500);
     await page.getByRole("button", { name: /^pause/i }).click();
-    await page.mouse.move(3, 400);
+    await page.mouse.move(...REST);
     await page.waitForTimeout(500); // until the last frames are drawn
     await shot(page, name("lesson"));
   });
@@ -275,7 +278,7 @@ for (const colours of COLOURS) {
     await dialog.waitFor({ state: "detached" });
     await page.getByRole("button", { name: "Run the experiment" }).click();
     await page.getByText("100 of 100 trials, complete").waitFor({ timeout: 120_000 });
-    await page.mouse.move(3, 400);
+    await page.mouse.move(...REST);
     await page.waitForTimeout(500); // until the bars are drawn
     await shot(page, name("experiment"));
   });
