@@ -404,7 +404,7 @@ test("a comment is written, moved and removed, and undo brings it back", async (
     Object.values(
       (observer.document?.layout["comments"] ?? {}) as Record<string, { text: string; x: number }>,
     );
-  await page.mouse.move(600, 250);
+  await page.mouse.move(640, 520); // beside the boxes, which lie above comments
   await page.keyboard.press("Shift+c");
   const field = page.getByRole("textbox", { name: "Text of the comment" });
   await field.fill("Inputs compete here.");

@@ -14,6 +14,8 @@ const EXAMPLES = readdirSync(FOLDER)
   .filter((name) => name.endsWith(".json"))
   .map((name) => name.slice(0, -".json".length));
 const WIDE = 1440;
+/** Examples with more boxes than a canvas of this width has names for: they are dots at first. */
+const DOTS = ["looking"];
 const SIZES = [
   { width: WIDE, height: 900 },
   { width: 1024, height: 700 },
@@ -51,7 +53,7 @@ test.each(EXAMPLES)("the names of %s", async (name) => {
           .map((one) => one.textContent),
       );
     // where a canvas is too small for the names of an example, it shows dots
-    if (size.width === WIDE)
+    if (size.width === WIDE && !DOTS.includes(name))
       await expect.poll(nameless, { message: `boxes without a name at ${size.width} px` }).toEqual([]);
     await shot(page, `example-${name}-${size.width}`);
   }

@@ -226,6 +226,13 @@ test("a plot is moved by its head, enlarged by a double click, reduced by Esc an
     .toEqual([true, true, true]);
   await button(page, "Close this plot").first().click();
   await expect.poll(names).toEqual([course, curves]);
+  await page.keyboard.press("Control+z");
+  await expect.poll(names).toEqual([map, course, curves]);
+  await page.keyboard.press("Control+z");
+  await expect.poll(names, { message: "before it was dragged" }).toEqual([curves, map, course]);
+  await page.keyboard.press("Control+Shift+z");
+  await page.keyboard.press("Control+Shift+z");
+  await expect.poll(names).toEqual([course, curves]);
   await reopen(page, observer, "plots.json");
 });
 
@@ -279,6 +286,42 @@ test("the architecture is fitted at every size until a person moves it; then its
   expect(inside.x + inside.width).toBeLessThanOrEqual(around.x + around.width);
   expect(inside.y).toBeGreaterThanOrEqual(around.y);
   expect(inside.y + inside.height).toBeLessThanOrEqual(around.y + around.height);
+});
+
+test("the key F shows the whole architecture, which is fitted from then on", async () => {
+  const { page } = studio;
+  const view = () => settled(page, () => page.locator(".react-flow__viewport").getAttribute("style"));
+  await button(page, "Show everything").click();
+  const whole = await view();
+  const pane = await page.locator(".react-flow").boundingBox();
+  await page.mouse.move((pane?.x ?? 0) + 300, (pane?.y ?? 0) + (pane?.height ?? 0) - 20);
+  await page.mouse.wheel(0, -200);
+  expect(await view()).not.toBe(whole);
+  await page.keyboard.press("f");
+  await expect.poll(view).toBe(whole);
+  await page.setViewportSize({ width: 1024, height: 700 });
+  expect(await view()).not.toBe(whole);
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await expect.poll(view).toBe(whole);
+});
+
+test("the author states the view, and the frame of the author is restored", async () => {
+  const { page } = studio;
+  const view = () => page.getByRole("radio", { checked: true }).getAttribute("value");
+  await showView(page, "Run");
+  await open("Open the document in this view");
+  await observer.until(() => observer.document?.layout["view"] === "run");
+  await showView(page, "Build");
+  await open("left");
+  await expect.poll(async () => (await plots()).length).toBe(2);
+  await open("Costs");
+  await open("Restore views, tools and plots");
+  await expect.poll(view).toBe("run");
+  await expect.poll(async () => (await plots()).length).toBe(1);
+  await panel(page, "Sliders").waitFor();
+  await showView(page, "Build");
+  await expect.poll(async () => (await plots()).length).toBe(1);
+  expect(await page.getByRole("tab", { name: "Costs" }).count()).toBe(0);
 });
 
 test("a view is what its author stated, then what the person chose for this file", async () => {

@@ -208,7 +208,7 @@ test("a parameter returns to its default", async () => {
 test("a parameter is pinned to the sliders, which are stored in the document", async () => {
   const { page, folder } = studio;
   await choose(page, "More for resting_level", "Pin to Sliders");
-  await openTool(page, "Sliders");
+  await panel(page, "Sliders").waitFor();
   const pinned = slider(page, "u.resting_level", "Sliders");
   await pinned.waitFor();
   await drag(page, pinned, 0.5);

@@ -1,4 +1,4 @@
-// What the author of a document decides about its frame: the view in which it opens, and the plots of the views.
+// What the author of a document decides about its frame: the view in which it opens, and the plots.
 
 import { request } from "../socket";
 import { emptyPage, isView, showView, usePage, type View } from "../state/page";

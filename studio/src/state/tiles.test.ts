@@ -16,13 +16,17 @@ import {
 } from "./tiles";
 import { undo } from "./undo";
 
-type Sent = { type: string; layout?: { tiles: { build?: PlotParams[] }; panels?: null }; undoable?: boolean };
+type Posted = {
+  type: string;
+  layout?: { tiles: { build?: PlotParams[] }; panels?: null };
+  undoable?: boolean;
+};
 
-const sent: Sent[] = [];
+const sent: Posted[] = [];
 let answer = (): void => {};
 
 vi.mock("../socket", () => ({
-  request: (message: Sent) => {
+  request: (message: Posted) => {
     sent.push(message);
     return new Promise((resolve) => {
       answer = () => resolve({});
@@ -56,13 +60,14 @@ beforeEach(() => {
   beginTiles(1, { build: [plot("a"), plot("b"), plot("c")] });
 });
 
-test("a plot that is opened, moved or closed is one step of undo at once", () => {
+test("a plot that is opened or closed is one step of undo at once, and a movement is one in the end", () => {
   expect(shown()).toEqual(["a0", "b1", "c2"]);
   expect(addTile("build", plot("d"))).toBe(3);
   expect([stored(), sent.length, sent[0]?.undoable]).toEqual(["abcd", 1, true]);
-  moveTile("build", 3, 0);
+  for (const to of [2, 1, 0, 4]) moveTile("build", 3, to);
+  expect([shown(), sent.length]).toEqual([["d3", "a0", "b1", "c2"], 1]);
+  vi.advanceTimersByTime(700);
   expect([stored(), sent.length]).toEqual(["dabc", 2]);
-  moveTile("build", 3, 4);
   removeTile("build", 1);
   expect([stored(), sent.length]).toEqual(["dac", 3]);
   expect(sent[0]?.layout).not.toHaveProperty("panels");

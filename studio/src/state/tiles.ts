@@ -1,5 +1,5 @@
-// The plots of the open document, a list for each view. A change by a person is a step of undo of the document;
-// a view without a list of its own shows that of Build.
+// The plots of the open document, a list for each view. A change by a person is a step of undo of the
+// document; a view without a list of its own shows that of Build.
 
 import { create } from "zustand";
 import type { PlotParams } from "../plots/settings";
@@ -22,7 +22,7 @@ export type TilesState = Readonly<{
 }>;
 
 const NONE: readonly PlotTile[] = [];
-// Settings change often during one movement of the mouse.
+// Settings and places change often during one movement of the mouse.
 const SAVE_AFTER_MS = 600;
 
 export const useTiles = create<TilesState>(() => ({ session: 0, next: 0, views: {}, opened: {} }));
@@ -42,15 +42,17 @@ export function addTile(view: View, plot: PlotParams): number {
   const state = useTiles.getState();
   useTiles.setState({ next: state.next + 1 });
   setTiles(view, [...tilesIn(state, view), { ...plot, key: state.next }]);
+  saveTiles();
   return state.next;
 }
 
 export function changeTile(view: View, key: number, plot: PlotParams): void {
   const tiles = tilesIn(useTiles.getState(), view);
-  const changed = tiles.map((tile) => (tile.key === key ? { ...plot, key } : tile));
-  useTiles.setState(({ views }) => ({ views: { ...views, [view]: changed } }));
-  clearTimeout(timer);
-  timer = setTimeout(saveTiles, SAVE_AFTER_MS);
+  setTiles(
+    view,
+    tiles.map((tile) => (tile.key === key ? { ...plot, key } : tile)),
+  );
+  saveSoon();
 }
 
 export function removeTile(view: View, key: number): void {
@@ -58,6 +60,7 @@ export function removeTile(view: View, key: number): void {
     view,
     tilesIn(useTiles.getState(), view).filter((tile) => tile.key !== key),
   );
+  saveTiles();
 }
 
 // Put a tile in the place of another one.
@@ -66,6 +69,7 @@ export function moveTile(view: View, key: number, to: number): void {
   const moved = tiles.find((tile) => tile.key === key);
   if (moved !== undefined && to >= 0 && to < tiles.length && tiles[to] !== moved) {
     setTiles(view, tiles.filter((tile) => tile !== moved).toSpliced(to, 0, moved));
+    saveSoon();
   }
 }
 
@@ -90,7 +94,7 @@ export function followTiles(stored: PlotLists | null): void {
 let timer: ReturnType<typeof setTimeout> | undefined;
 const unanswered = new Set<object>();
 
-// Store a change of settings now, before a step of undo.
+// Store what changed now, before a step of undo.
 export function settleTiles(): void {
   if (timer !== undefined) {
     saveTiles();
@@ -99,7 +103,11 @@ export function settleTiles(): void {
 
 function setTiles(view: View, tiles: readonly PlotTile[]): void {
   useTiles.setState(({ views }) => ({ views: { ...views, [view]: tiles } }));
-  saveTiles();
+}
+
+function saveSoon(): void {
+  clearTimeout(timer);
+  timer = setTimeout(saveTiles, SAVE_AFTER_MS);
 }
 
 function saveTiles(): void {
@@ -135,7 +143,7 @@ function isSame(wanted: PlotLists): boolean {
 function keyed(plots: PlotLists, before: TileLists, next: number): Pick<TilesState, "next" | "views"> {
   const views = Object.fromEntries(
     Object.entries(plots).map(([view, list]) => {
-      const rest = [...(before[view as View] ?? [])];
+      const rest = [...(before[view as View] ?? before.build ?? [])];
       const keyOf = ({ element, kind, port }: PlotParams) => {
         const i = rest.findIndex(
           (tile) => tile.element === element && tile.kind === kind && tile.port === port,
