@@ -19,6 +19,7 @@ function asGroup(dropdown: HTMLElement | null): void {
 export function PanelMenu() {
   const [search, setSearch] = useState("");
   const elements = useStudio((state) => state.document?.elements);
+  const edited = useStudio((state) => state.document?.record == null);
   const wanted = search.trim().toLowerCase();
   const tools = TOOL_NAMES.filter((tool) => TOOLS[tool].title.toLowerCase().includes(wanted));
   const found = (elements ?? []).filter((element) => element.path.toLowerCase().includes(wanted));
@@ -45,7 +46,7 @@ export function PanelMenu() {
           ))}
           {tools.length > 0 && <Menu.Divider />}
           <Menu.Label>Plot</Menu.Label>
-          <ScrollArea.Autosize mah={260} type="auto">
+          <ScrollArea.Autosize mah="clamp(90px, 100vh - 570px, 260px)" type="auto">
             {found.slice(0, MOST).map((element) => (
               <Menu.Item
                 key={element.id}
@@ -63,7 +64,7 @@ export function PanelMenu() {
             <>
               <Menu.Divider />
               <Menu.Label>View</Menu.Label>
-              <Menu.Item onClick={openInThisView}>Open the document in this view</Menu.Item>
+              {edited && <Menu.Item onClick={openInThisView}>Open the document in this view</Menu.Item>}
               <Menu.Item onClick={restoreFrame}>Restore views, tools and plots</Menu.Item>
             </>
           )}
