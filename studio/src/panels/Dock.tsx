@@ -39,7 +39,8 @@ export function Dock() {
   const extra = usePage((page) => page.extra) as Tool | null;
   const opened = usePage((page) => page.tabs[view]);
   const habit = usePerson((person) => person.tabs[view]);
-  const shown = (opened ?? (isStanding(habit) ? habit : FIRST_TOOL[view])) as Tool;
+  const isOpen = (tool: unknown): tool is Tool => isStanding(tool) || (extra !== null && tool === extra);
+  const shown = [opened, habit].find(isOpen) ?? FIRST_TOOL[view];
   const width = usePerson((person) => person.dock);
   const tabs = useRef<HTMLDivElement>(null);
   // A tool that another one hides keeps what was typed and scrolled in it.
@@ -58,10 +59,7 @@ export function Dock() {
     }
   };
   const close = () => {
-    usePage.setState(({ tabs: opened }) => ({
-      extra: null,
-      tabs: Object.fromEntries(Object.entries(opened).filter(([, tool]) => tool !== extra)),
-    }));
+    usePage.setState({ extra: null });
     setVisited(visited.filter((tool) => tool !== extra));
   };
   const key = (event: KeyboardEvent, tool: Tool) => {
