@@ -173,6 +173,6 @@ def test_24_mb_are_read_within_seconds(tmp_path: Path) -> None:
     with path.open("wb") as output:
         output.write(HEADER)
         words.tofile(output)
-    begun = time.perf_counter()
+    begun = time.process_time()
     seen = world(path)
-    assert seen.count == count and time.perf_counter() - begun < 10
+    assert seen.count == count and time.process_time() - begun < 10

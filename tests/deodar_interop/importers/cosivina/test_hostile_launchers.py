@@ -114,9 +114,9 @@ def test_every_beginning_of_a_launcher_opens_or_is_refused():
     ids=lambda text: text[:24],
 )
 def test_scripts_that_would_take_forever_end_soon(text):
-    start = time.perf_counter()
+    start = time.process_time()
     done = tried(PAIR + text + launcher(*CONTROLS, model=""))
-    assert time.perf_counter() - start < 20
+    assert time.process_time() - start < 20
     assert done is None or "line" in done.model
 
 
@@ -149,11 +149,11 @@ def test_scripts_that_are_no_launchers_are_one_error(text, says):
 @pytest.mark.parametrize("line", [b"\n", b" \n", b"x = 1;\n", b"from\n", b"import", b"def f(", b"gui . "])
 def test_the_format_of_a_long_file_is_recognised_soon(line):
     content = line * (6_000_000 // len(line))
-    start = time.perf_counter()
+    start = time.process_time()
     assert not is_launcher(content) and not cosivina.sniff(content)
     with pytest.raises(DocumentError):
         read(content, "x.m")
-    assert time.perf_counter() - start < 10
+    assert time.process_time() - start < 10
 
 
 def test_a_launcher_of_100_megabytes_is_refused_before_it_is_read(tmp_path):
