@@ -70,9 +70,9 @@ export const theme = createTheme({
 
 // Mantine and theme.css use the same background.
 const COLOURS = {
-  "--mantine-color-body": "var(--surface-raised)",
+  "--mantine-color-body": "var(--panel)",
   "--mantine-color-text": "var(--text)",
-  "--mantine-color-dimmed": "var(--text-dim)",
+  "--mantine-color-dimmed": "var(--dim)",
   "--mantine-color-error": "var(--error)",
   "--mantine-color-anchor": "var(--accent)",
 };

@@ -15,7 +15,7 @@ export function Splash() {
   const connection = useStudio((state) => state.connection);
   return (
     <main className={classes.splash} aria-busy="true">
-      <Logo size={56} color="var(--border-strong)" />
+      <Logo size={56} color="var(--edge)" />
       <p role="status">{WORDS[connection]}</p>
     </main>
   );

@@ -15,12 +15,13 @@ export function drawColorBar(
   ctx: CanvasRenderingContext2D,
   box: Area,
   ink: Ink,
-  { table, range, middle }: MapColors,
+  { tables, range, middle }: MapColors,
 ): void {
   if (ink.small) {
     return;
   }
   const { unit } = ink;
+  const table = tables[ink.shade];
   const left = box.left + box.width + GAP * unit;
   const width = WIDTH * unit;
   const place = (value: number) => box.top + box.height * (1 - (value - range[0]) / (range[1] - range[0]));

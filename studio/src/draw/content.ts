@@ -2,7 +2,7 @@
 
 import type { Axis } from "./axis";
 import type { Paint } from "./ink";
-import type { ColorTable } from "./paint";
+import type { ColorTables } from "./paint";
 import type { Range } from "./scale";
 
 // What the positions on a side are: on an axis of the model, times, or values.
@@ -24,6 +24,8 @@ export type CurveLine = Readonly<{
   type: "line";
   label: string;
   color: Paint;
+  // Above the threshold the line has another colour, and a faint glow down to it.
+  above?: Readonly<{ value: number; color: Paint }>;
   width: number;
   xs: ArrayLike<number>;
   ys: Series;
@@ -32,7 +34,7 @@ export type CurveLine = Readonly<{
   dashed?: boolean;
 }>;
 
-export type MapColors = Readonly<{ range: Range; middle: number | null; table: ColorTable }>;
+export type MapColors = Readonly<{ range: Range; middle: number | null; tables: ColorTables }>;
 
 // An array over both sides as colours. C order: index = ix * ny + iy.
 export type ColorMap = Readonly<{

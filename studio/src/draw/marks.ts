@@ -2,13 +2,14 @@
 
 import type { PlotLayout, Scale } from "./axes";
 import type { Content, LevelLine, CurveLine, PlotMark, Moment, Raster, Tail, Windows } from "./content";
-import { fitting, font, type Ink } from "./ink";
+import { fitting, font, type Ink, type Shade } from "./ink";
 import { paintHeat, paintPicture } from "./paint";
 import { short } from "./text";
 
 type MarkPlace = Readonly<{ ctx: CanvasRenderingContext2D; content: Content; layout: PlotLayout; ink: Ink }>;
 
 const SHADE = 0.12;
+const GLOW = 0.13;
 const DASH = [5, 4];
 const DASH_WIDTH = 1.25;
 const LABEL = { size: 10.5, height: 13, left: 6 };
@@ -52,18 +53,45 @@ function drawMark(place: MarkPlace, mark: PlotMark, labels: number[]): void {
   }
 }
 
-// Points on whole pixels and bevelled joins: without a graphics card others cost a fifth more. Of many
-// samples in one column of pixels the first, the least, the greatest and the last.
-function drawLine(
-  { ctx, layout, ink }: MarkPlace,
-  { xs, ys, color, width, right, dashed = false }: CurveLine,
-): void {
+// Bevelled joins: without a graphics card others cost a fifth more.
+function drawLine({ ctx, layout, ink }: MarkPlace, mark: CurveLine): void {
+  const { color, above, width, right, dashed = false } = mark;
   const up: Scale = right === true && layout.right !== null ? layout.right : layout.y;
-  ctx.strokeStyle = color[ink.shade];
+  const pieces = linePieces(mark, layout.x, up);
   ctx.lineWidth = width * ink.unit;
   ctx.lineJoin = "bevel";
   ctx.setLineDash(dashed ? DASH.map((length) => length * ink.unit) : []);
-  ctx.beginPath();
+  if (above === undefined) {
+    strokePieces(ctx, pieces, color[ink.shade]);
+    return;
+  }
+  const { left, top, width: across, height } = layout.box;
+  const threshold = Math.min(top + height, Math.max(top, up.place(above.value)));
+  const inside = (from: number, to: number, draw: () => void) => {
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(left, from, across, to - from);
+    ctx.clip();
+    draw();
+    ctx.restore();
+  };
+  inside(threshold, top + height, () => strokePieces(ctx, pieces, color[ink.shade]));
+  inside(top, threshold, () => {
+    ctx.fillStyle = above.color[ink.shade];
+    ctx.globalAlpha = GLOW;
+    fillPieces(ctx, pieces, threshold);
+    ctx.globalAlpha = 1;
+    strokePieces(ctx, pieces, above.color[ink.shade]);
+  });
+}
+
+type PixelPoint = readonly [x: number, y: number];
+
+// The line as pieces between gaps, on whole pixels. Of many samples in one column of pixels the first, the
+// least, the greatest and the last.
+function linePieces({ xs, ys }: CurveLine, x: Scale, y: Scale): PixelPoint[][] {
+  const pieces: PixelPoint[][] = [];
+  let piece: PixelPoint[] = [];
   let column = NaN;
   let [low, high, last] = [0, 0, 0];
   const leave = () => {
@@ -71,11 +99,10 @@ function drawLine(
       return;
     }
     if (low < high) {
-      ctx.lineTo(column, low);
-      ctx.lineTo(column, high);
+      piece.push([column, low], [column, high]);
     }
     if (last !== high && low < high) {
-      ctx.lineTo(column, last);
+      piece.push([column, last]);
     }
   };
   for (let i = 0; i < xs.length; i++) {
@@ -85,23 +112,47 @@ function drawLine(
       column = NaN;
       continue;
     }
-    const x = Math.round(layout.x.place(xs[i] as number));
-    const y = Math.round(up.place(value));
-    if (x === column) {
-      [low, high, last] = [Math.min(low, y), Math.max(high, y), y];
+    const [at, height] = [Math.round(x.place(xs[i] as number)), Math.round(y.place(value))];
+    if (at === column) {
+      [low, high, last] = [Math.min(low, height), Math.max(high, height), height];
       continue;
     }
     leave();
     if (Number.isNaN(column)) {
-      ctx.moveTo(x, y);
-    } else {
-      ctx.lineTo(x, y);
+      piece = [];
+      pieces.push(piece);
     }
-    column = x;
-    [low, high, last] = [y, y, y];
+    piece.push([at, height]);
+    column = at;
+    [low, high, last] = [height, height, height];
   }
   leave();
+  return pieces;
+}
+
+function strokePieces(ctx: CanvasRenderingContext2D, pieces: readonly PixelPoint[][], color: string): void {
+  ctx.strokeStyle = color;
+  ctx.beginPath();
+  for (const piece of pieces) {
+    piece.forEach(([x, y], i) => (i === 0 ? ctx.moveTo(x, y) : ctx.lineTo(x, y)));
+  }
   ctx.stroke();
+}
+
+// What lies between the pieces and a line across.
+function fillPieces(ctx: CanvasRenderingContext2D, pieces: readonly PixelPoint[][], across: number): void {
+  ctx.beginPath();
+  for (const piece of pieces) {
+    const [first, last] = [piece[0], piece[piece.length - 1]];
+    if (first === undefined || last === undefined) {
+      continue;
+    }
+    ctx.moveTo(first[0], across);
+    piece.forEach(([x, y]) => ctx.lineTo(x, y));
+    ctx.lineTo(last[0], across);
+    ctx.closePath();
+  }
+  ctx.fill();
 }
 
 // A line across; its name is above it, or below, where neither another name nor the edge is.
@@ -220,20 +271,21 @@ export function paintRaster(
   canvas: HTMLCanvasElement,
   raster: Raster,
   { x, y }: Pick<Content, "x" | "y">,
-  most: Readonly<{ width: number; height: number }>,
+  { width, height, shade }: Readonly<{ width: number; height: number; shade: Shade }>,
 ): void {
   if (raster.type === "picture") {
     paintPicture(canvas, raster.values, raster.nx, raster.ny, [0, 1], y.down !== true);
     return;
   }
-  const { range, table } = raster.colors;
+  const { range } = raster.colors;
+  const table = raster.colors.tables[shade];
   if (raster.type === "map") {
     paintHeat(canvas, raster.values, raster.nx, raster.ny, range, table, y.down);
     return;
   }
   const { rows } = raster;
   const across = x.along === "time";
-  const columns = Math.round(Math.max(1, Math.min(MOST_COLUMNS, across ? most.width : most.height)));
+  const columns = Math.round(Math.max(1, Math.min(MOST_COLUMNS, across ? width : height)));
   const values = rows.spread(across ? x.range : y.range, columns);
   if (across) {
     paintHeat(canvas, values, columns, rows.width, range, table, y.down);

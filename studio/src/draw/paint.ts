@@ -1,10 +1,14 @@
 // Arrays onto canvases.
 
 import { canvasSettings } from "./canvases";
+import type { Shade } from "./ink";
 import type { Range } from "./scale";
 
 // 256 colours of 4 bytes (red, green, blue, opaque).
 export type ColorTable = Uint8ClampedArray;
+
+// The colours on a light and on a dark ground.
+export type ColorTables = Readonly<Record<Shade, ColorTable>>;
 
 export type Curve = {
   width: number;

@@ -16,7 +16,7 @@ export function ExampleCard({ example }: { example: ExampleView }) {
       onClick={() => void leave({ type: "open_example", name: example.name })}
     >
       <span className={classes.picture}>
-        {missing && <Logo size={40} color="var(--border-strong)" />}
+        {missing && <Logo size={40} color="var(--edge)" />}
         {!missing && <img src={example.picture} alt="" loading="lazy" onError={() => setMissing(true)} />}
       </span>
       <span className={classes.text}>

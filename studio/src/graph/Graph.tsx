@@ -255,7 +255,7 @@ function Canvas({ structure }: { structure: Structure }) {
           fitViewOptions={FIT}
         >
           {nodes.length <= MOST_DOTTED && (
-            <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--border)" />
+            <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--line)" />
           )}
           <canvas ref={shown} className="graph-live-layer" aria-hidden />
           <MiniMap

@@ -8,7 +8,6 @@ import { contract, type WireContent } from "./contract";
 import { CHIP, contractedWires, inGrid, linksOf, withParts } from "./contracted";
 import { chains, type Chain } from "./wires/chains";
 import { type CanvasComment, readComments } from "./boxes/comments";
-import { elementFamily, type ElementFamily } from "./boxes/family";
 import { COUNT, FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout/layout";
 import { signText, together, type Sign } from "./wires/sign";
 import type { Course } from "./wires/wirePath";
@@ -21,7 +20,6 @@ export type BoxData = {
   path: string;
   name: string;
   title: string;
-  family: ElementFamily;
   kind: string;
   dimensions: number | null;
   inputs: string[];
@@ -192,7 +190,6 @@ function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, sta
   const { id, path, name, inputs, outputs } = element;
   const kind = kinds.get(element.kind);
   const title = kind?.title ?? element.kind;
-  const family = elementFamily(element, kind);
   return {
     id,
     type: "box",
@@ -205,7 +202,6 @@ function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, sta
       path,
       name,
       title,
-      family,
       kind: element.kind,
       dimensions: dimensions(element),
       inputs,

@@ -130,7 +130,8 @@ export class Drawing {
         host.prepend(this.image);
       }
       const { width: across, height: down } = (this.layout ?? NOTHING).box;
-      paintRaster(this.image, raster, content, { width: across / ink.unit, height: down / ink.unit });
+      const size = { width: across / ink.unit, height: down / ink.unit };
+      paintRaster(this.image, raster, content, { ...size, shade: ink.shade });
     }
     this.cursor();
   }
@@ -324,6 +325,6 @@ function stillOf(content: Content, ink: Ink, width: number, height: number): str
   const { x, y, equal, marks } = content;
   const colors = colorsOf(content);
   const others = marks.map((mark) => (mark.type === "moment" ? mark.time : mark.type));
-  const scale = colors && [colors.range, colors.middle, ...colors.table.subarray(0, 4)];
+  const scale = colors && [colors.range, colors.middle, ...colors.tables[ink.shade].subarray(0, 4)];
   return JSON.stringify([x, y, equal, others, scale, ink, width, height]);
 }

@@ -26,7 +26,7 @@ export function levelsOf(
 }
 
 // The level around which colours turn: the threshold, if there is one.
-export function thresholdOf(levels: Level[]): number | null {
+export function thresholdOf(levels: readonly Level[]): number | null {
   return levels.find((level) => level.label === "threshold")?.value ?? null;
 }
 

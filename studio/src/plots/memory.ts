@@ -2,21 +2,18 @@
 
 import type { MapColors } from "../draw/content";
 import { CalmRange, type Range } from "../draw/scale";
-import type { ScaleName } from "./colors/colors";
-import { FollowingColors, middleOf } from "./colors/mapColors";
+import { type ColorScale, FollowingColors, middleOf } from "./colors/mapColors";
 import type { Level } from "./levels";
 
 const ROOM = 0.03;
 
 type Wanted = { include?: number[]; fixed?: Range | null; side?: "x" | "y" };
 
-type Colouring = { name: ScaleName; twoSided: boolean };
-
 export class Memory {
   // The range of values, or of colours, that was shown last.
   range: Range = [0, 1];
   private sides = { x: new CalmRange(ROOM), y: new CalmRange(ROOM) };
-  private following = new FollowingColors("viridis");
+  private following = new FollowingColors();
 
   constructor(private now: () => number = () => performance.now()) {}
 
@@ -29,8 +26,8 @@ export class Memory {
     return range;
   }
 
-  colors(values: ArrayLike<number>, how: Colouring, levels: Level[], fixed: Range | null): MapColors {
-    this.following.follow(values, how.name, middleOf(how.twoSided, levels), fixed);
+  colors(values: ArrayLike<number>, scale: ColorScale, levels: Level[], fixed: Range | null): MapColors {
+    this.following.follow(values, scale, middleOf(scale.twoSided, levels), fixed);
     this.range = this.following.now.range;
     return this.following.now;
   }

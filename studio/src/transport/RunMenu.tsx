@@ -172,5 +172,5 @@ function Steps() {
 }
 
 function Hint({ children }: { children: string }) {
-  return <div style={{ marginTop: 3, fontSize: 11, color: "var(--text-dim)" }}>{children}</div>;
+  return <div style={{ marginTop: 3, fontSize: 11, color: "var(--dim)" }}>{children}</div>;
 }

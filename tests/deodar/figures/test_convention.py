@@ -15,7 +15,7 @@ from deodar.diagrams import wires
 from deodar.figures import _color, _style
 
 PAGE = Path(__file__).parents[3] / "studio" / "src"
-FIELD = ("activation", "above", "output", "input", "interaction", "level")
+FIELD = ("activation", "ember", "output", "input", "interaction", "level")
 
 
 def theme(scheme: str) -> dict[str, str]:
@@ -43,20 +43,20 @@ def test_plots_and_theme_of_the_studio_have_the_same_colours(scheme: str) -> Non
 def test_the_studio_has_the_colours_of_figures_on_a_light_page() -> None:
     palette = dd.figures.COLOR
     figures = {name: getattr(palette, name) for name in _style.PORTS}
-    assert plots("light") == {**figures, "level": palette.threshold, "above": plots("light")["above"]}
+    assert plots("light") == {**figures, "level": palette.threshold, "ember": plots("light")["ember"]}
     assert (theme("light")["inhibition"], theme("light")["mixed"]) == (palette.inhibition, palette.mixed)
     assert {"+": palette.excitation, "-": palette.inhibition, "±": palette.mixed} == wires.COLORS
 
 
-GROUNDS = ("surface", "surface-raised", "surface-hover")
+GROUNDS = ("page", "panel", "sunk")
 PAIRS = [
     *[("text", ground, 7.0) for ground in GROUNDS],
-    *[("text-dim", ground, 4.5) for ground in GROUNDS],
-    *[(name, "surface-raised", 4.5) for name in FIELD],
-    *[(name, "surface-raised", 3.0) for name in ("border-strong", "inhibition", "mixed")],
-    *[(name, "surface-raised", 4.5) for name in ("accent", "warn", "error")],
+    *[("dim", ground, 4.5) for ground in GROUNDS],
+    *[(name, "panel", 4.5) for name in FIELD],
+    *[(name, "panel", 3.0) for name in ("edge", "inhibition", "mixed")],
+    *[(name, "panel", 4.5) for name in ("accent", "warn", "error")],
     *[(name, f"{name}-soft", 4.5) for name in ("accent", "warn", "error")],
-    ("on-accent", "accent", 4.5),
+    ("accent-on", "accent", 4.5),
 ]
 """Colour, its ground, and the least contrast (WCAG 2: 3 for lines that carry a meaning, 4.5 for text; 7 for
 the text of the page).
@@ -126,3 +126,20 @@ def test_a_line_has_the_colour_of_its_port() -> None:
             [axes] = draw(record[path]).axes
             assert axes.get_lines()[0].get_color() == getattr(dd.figures.COLOR, port)
     assert _style.port_color("u.rate") == dd.figures.COLORS[0]
+
+
+def test_the_map_of_amounts_is_one_in_the_studio_and_in_figures() -> None:
+    """One hue, from the colour of nothing to that of the port, and to that of interaction for all others."""
+    text = (PAGE / "plots" / "colors" / "colors.ts").read_text()
+    sunk = re.search(r'SUNK = \{ light: "(#\w+)", dark: "(#\w+)" \}', text)
+    assert sunk is not None and sunk.groups() == (theme("light")["sunk"], theme("dark")["sunk"])
+    assert sunk[1] == _style.SUNK == to_hex(dd.figures.AMOUNTS(0.0))
+    assert to_hex(dd.figures.AMOUNTS(1.0)) == plots("light")["interaction"]
+
+
+def test_the_page_names_no_colour_that_it_does_not_have() -> None:
+    styles = [*PAGE.rglob("*.css"), *PAGE.rglob("*.ts"), *PAGE.rglob("*.tsx")]
+    text = "\n".join(path.read_text() for path in styles)
+    named = set(re.findall(r"var\((--(?!mantine|xy)[a-z][a-z-]*)\)", text))
+    stated = set(re.findall(r"(--[a-z][a-z-]*)\"?\]?\s*:", text)) | set(re.findall(r'"(--[a-z-]+)"', text))
+    assert named <= stated, sorted(named - stated)

@@ -17,7 +17,7 @@ import { useProblem, useWarning } from "../problem";
 import { useDetail } from "./useDetail";
 
 export const Box = memo(function Box({ data, height = BOX.title, isConnectable }: NodeProps<BoxNode>) {
-  const { element: id, path, name, title, family, inputs, outputs } = data;
+  const { element: id, path, name, title, inputs, outputs } = data;
   const level = useDetail();
   const selected = useStudio((state) => state.selected.includes(id));
   const port = useStudio((state) => shownPort(state.elements.get(id), state.document?.record?.ports[id]));
@@ -45,7 +45,7 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
     <div
       ref={holder}
       className="graph-box"
-      data-family={family}
+      data-source={inputs.length === 0 || undefined}
       data-reached={reached || undefined}
       data-selected={selected || undefined}
       data-tall={live > LIVE.number || undefined}

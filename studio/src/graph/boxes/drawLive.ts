@@ -2,7 +2,7 @@
 
 import type { Shade } from "../../draw/ink";
 import { type ColorTable, paintCurve, paintHeat, paintPicture } from "../../draw/paint";
-import { activationScale, FIELD_COLORS, portColor, scale, shade } from "../../plots/colors/colors";
+import { activationScale, amounts, FIELD_COLORS, portColor, shade } from "../../plots/colors/colors";
 import type { Live } from "../../streams";
 import { follow, open, type Span } from "../wires/span";
 import { LIVE } from "./boxes";
@@ -40,7 +40,9 @@ export function drawLive(canvas: Canvas, { form, frame }: Live): void {
   } else {
     squares(canvas, true);
     const map =
-      lower < 0 ? activationOf(canvas.element, { lower, upper }) : { lower, upper, table: scale("viridis") };
+      lower < 0
+        ? activationOf(canvas.element, { lower, upper })
+        : { lower, upper, table: amounts(canvas.port)[shade()] };
     const [nx = 1, ny = 1] = form.shape;
     paintHeat(canvas.element, values, nx, ny, [map.lower, map.upper], map.table);
   }
@@ -132,7 +134,7 @@ function drawNumber(canvas: Canvas, value: number, lower: number, upper: number)
 
 // The colour of a port above 0: activation has one of its own there.
 function aboveColor(port: string): string {
-  return port === "activation" ? FIELD_COLORS[shade()].above : portColor(port, [port], shade());
+  return port === "activation" ? FIELD_COLORS[shade()].ember : portColor(port, [port], shade());
 }
 
 // Digits that change slowly enough to be read.
@@ -174,9 +176,9 @@ function ink(): BoxInk {
     const style = getComputedStyle(document.documentElement);
     const read = (name: string) => style.getPropertyValue(name).trim();
     found = {
-      dim: read("--text-dim"),
-      line: read("--border-strong"),
-      ground: read("--border"),
+      dim: read("--dim"),
+      line: read("--edge"),
+      ground: read("--line"),
       text: read("--text"),
       font: `12px ${getComputedStyle(document.body).fontFamily}`,
     };

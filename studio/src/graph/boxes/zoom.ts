@@ -3,7 +3,7 @@
 
 import { create } from "zustand";
 
-// dot: the colour of the family; title: name and live picture; full: everything.
+// dot: a dot; title: name and live picture; full: everything.
 export type DetailLevel = "dot" | "title" | "full";
 
 // The smallest text of a full box is 11 px, that on a screen at least 10.

@@ -2,7 +2,7 @@
 // without hues too.
 
 import type { Shade } from "../../draw/ink";
-import type { ColorTable } from "../../draw/paint";
+import type { ColorTable, ColorTables } from "../../draw/paint";
 
 export type ScaleName = "cividis" | "viridis" | "diverging" | "gray";
 
@@ -57,15 +57,21 @@ export const SCALES: { name: ScaleName; label: string }[] = [
   { name: "gray", label: "Black to white" },
 ];
 
-const made = new Map<ScaleName, ColorTable>();
+const made = new Map<string, ColorTables>();
 
-export function scale(name: ScaleName): ColorTable {
-  let table = made.get(name);
-  if (table === undefined) {
-    table = interpolated(ANCHORS[name].map(parts));
-    made.set(name, table);
-  }
-  return table;
+export function scale(name: ScaleName): ColorTables {
+  return madeOnce(name, () => onBoth(interpolated(ANCHORS[name].map(parts))));
+}
+
+// The same colours on a light and on a dark ground.
+export function onBoth(table: ColorTable): ColorTables {
+  return { light: table, dark: table };
+}
+
+function madeOnce(name: string, make: () => ColorTables): ColorTables {
+  const tables = made.get(name) ?? make();
+  made.set(name, tables);
+  return tables;
 }
 
 // Okabe and Ito's colours, with the two that vanish on white or on black exchanged for their neighbours.
@@ -85,7 +91,7 @@ export function curveColor(n: number, shade: Shade): string {
 export const FIELD_COLORS = {
   light: {
     activation: "#0b6cb3",
-    above: "#c2410c",
+    ember: "#c2410c",
     output: "#00795a",
     input: "#96620a",
     interaction: "#a3487f",
@@ -93,7 +99,7 @@ export const FIELD_COLORS = {
   },
   dark: {
     activation: "#62b5f0",
-    above: "#ff8a4c",
+    ember: "#ff8a4c",
     output: "#35c795",
     input: "#e3ad3c",
     interaction: "#e29ac4",
@@ -137,6 +143,16 @@ export function activationScale(lower: number, upper: number, threshold: number)
     return 0.5 + (0.5 * distance) / (distance < 0 ? below : above);
   });
   return colored(ANCHORS.diverging.map(parts), places);
+}
+
+// The colour of nothing, in maps of amounts.
+const SUNK = { light: "#ededef", dark: "#0d0d0f" };
+
+// Amounts without a threshold have one hue, from the colour of nothing to that of the port's line.
+export function amounts(port: string): ColorTables {
+  const color = isFirst(port) ? port : "interaction";
+  const table = (shade: Shade) => interpolated([SUNK[shade], FIELD_COLORS[shade][color]].map(parts));
+  return madeOnce(`amounts of ${color}`, () => ({ light: table("light"), dark: table("dark") }));
 }
 
 function interpolated(anchors: number[][]): ColorTable {

@@ -9,9 +9,9 @@ export function pageInk(small = false): Ink {
   return {
     shade: shade(),
     text: variable("--text"),
-    dim: variable("--text-dim"),
+    dim: variable("--dim"),
     grid: variable("--grid"),
-    ground: variable("--surface-raised"),
+    ground: variable("--panel"),
     unit: 1,
     small,
   };

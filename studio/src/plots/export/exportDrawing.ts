@@ -72,7 +72,7 @@ function drawContent({ ctx, factor }: Sheet, { x, y, width, height, content }: P
   const raster = rasterOf(content);
   const image = raster === null ? null : document.createElement("canvas");
   if (raster !== null && image !== null) {
-    paintRaster(image, raster, content, { width, height });
+    paintRaster(image, raster, content, { width, height, shade: "light" });
   }
   const ink = paperInk(factor, isSmall(width, height));
   ctx.save();

@@ -1,15 +1,18 @@
 // Values over time: of nodes, and of arrays their maximum, mean, or value at a place. Several in one plot.
 
+import type { CurveLine } from "../../draw/content";
 import type { TraceSetting } from "../settings";
 import { timeWindows } from "../timeWindows";
 import { traceLabel, traceOf } from "../traces";
 import type { PlotDeclaration, Shown } from "./kind";
 import {
+  aboveThreshold,
   axesOf,
   courseLines,
   curvePaint,
   endsOf,
   extentOf,
+  levelsAt,
   momentMarks,
   pathOf,
   spanOf,
@@ -37,7 +40,8 @@ export const plot: PlotDeclaration = {
   content: (shown, lives, memory) => {
     const names = labels(shown);
     const span = spanOf(shown, endsOf(lives.map(({ history }) => history.times)));
-    const lines = courseLines(lives, span, (i) => [names[i] ?? "", curvePaint(i)]);
+    const courses = courseLines(lives, span, (i) => [names[i] ?? "", curvePaint(i)]);
+    const lines = courses.map((course) => ({ ...course, ...above(shown) }));
     return {
       x: { ...timeSide(shown, span), down: false },
       y: { along: null, range: memory.around(extentOf(lines), { fixed: shown.settings.range }) },
@@ -49,6 +53,14 @@ export const plot: PlotDeclaration = {
 function tracesOf(shown: Shown): TraceSetting[] {
   const { element, port, settings } = shown;
   return settings.traces.length > 0 ? settings.traces : [traceOf(element.id, port, axesOf(shown), "max")];
+}
+
+// Of several courses each has one colour, by which it is known; a mean says nothing about the threshold.
+function above(shown: Shown): Pick<CurveLine, "above"> {
+  const [trace, ...others] = tracesOf(shown);
+  return trace?.element === shown.element.id && trace.reduce !== "mean" && others.length === 0
+    ? aboveThreshold(trace.port, levelsAt(shown, trace.port))
+    : {};
 }
 
 function labels(shown: Shown): string[] {

@@ -6,7 +6,7 @@ import { isPicture, portsAlike } from "../../model/ports";
 import { inOrder } from "../colors/colors";
 import { curveLevel, firstCurves, LEVELS } from "../shownPorts";
 import type { LegendEntry, PlotDeclaration, Shown } from "./kind";
-import { axesOf, extentOf, LEVEL, levelMarks, levelsAt, line, portPaint } from "./parts";
+import { aboveThreshold, axesOf, extentOf, LEVEL, levelMarks, levelsAt, line, portPaint } from "./parts";
 
 const MOST = 600;
 const ROOM = 0.03;
@@ -59,7 +59,8 @@ export const plot: PlotDeclaration = {
       const values = lives[i]?.frame?.values;
       const made = line(port, portPaint(port, ports), xs, values ?? []);
       const right = levels.length > 0 && port === "output" && port !== level && curves.length > 1;
-      return values?.length === xs.length ? [{ ...made, right, width: port === level ? 2 : 1.5 }] : [];
+      const look = { right, width: port === level ? 2 : 1.5, ...aboveThreshold(port, levels) };
+      return values?.length === xs.length ? [{ ...made, ...look }] : [];
     });
     const shownLevels = chosen.includes(LEVELS) ? levels : [];
     const range = memory.around(extentOf(lines.filter(({ right }) => !right)), {

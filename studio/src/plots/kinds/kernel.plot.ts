@@ -3,6 +3,7 @@
 
 import { points } from "../../draw/axis";
 import { extent } from "../../draw/scale";
+import { chosenScale } from "../colors/mapColors";
 import type { PlotDeclaration } from "./kind";
 import { line, planeContent, portPaint } from "./parts";
 
@@ -25,7 +26,7 @@ export const plot: PlotDeclaration = {
       return null;
     }
     if (y !== undefined) {
-      const how = { name: "diverging", twoSided: true } as const;
+      const how = chosenScale("diverging");
       return planeContent(shown.document, live, "weight", () => memory.colors(values, how, [], range));
     }
     const curve = line("weight", portPaint("interaction", ["interaction"]), points(x, values.length), values);

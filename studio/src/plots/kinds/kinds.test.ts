@@ -108,6 +108,17 @@ describe("a time course", () => {
     expect(marks[0]).toEqual({ type: "windows", spans: [[20, 80]] });
   });
 
+  it("is ember above the threshold where it is the only one, and no mean", () => {
+    const above = (...reduces: ("max" | "mean")[]) => {
+      const traces = reduces.map((reduce) => ({ element: "u", port: "activation", reduce, at: [] }));
+      const made = content("course", shown(["x"], { settings: { traces } }), [course([0, 2], [-1, 2])]);
+      return made.marks.flatMap((mark) => (mark.type === "line" ? [mark.above?.value] : []));
+    };
+    expect(above("max")).toEqual([0]);
+    expect(above("mean")).toEqual([undefined]);
+    expect(above("max", "mean")).toEqual([undefined]);
+  });
+
   it("asks for all of its courses, which its legend removes", () => {
     const traces = ["activation", "input"].map((port) => ({
       element: "u",
@@ -133,6 +144,12 @@ describe("curves", () => {
     expect(made.y.range).toEqual([-5.5, 2.5]);
     expect(made.right?.range).toEqual([-0.03, 1.03]);
     expect(made.marks.map(({ type }) => type)).toEqual(["line", "line", "level", "level"]);
+    expect(made.marks.map((mark) => mark.type === "line" && mark.above?.value)).toEqual([
+      0,
+      undefined,
+      false,
+      false,
+    ]);
     expect(words(made, { x: 1.2, y: 0 })).toBe("x 1.000   activation 2.000   output 1.000");
     expect(head(made)).toBe("x (cm),activation,output\n0,-4,0\n1,2,1\n2,1,0.5\n");
   });

@@ -10,6 +10,7 @@ import { scaleOf } from "../colors/mapColors";
 import type { Memory } from "../memory";
 import type { PlotDeclaration, ControlName, Shown } from "./kind";
 import {
+  aboveThreshold,
   axesOf,
   courseLines,
   endsOf,
@@ -63,7 +64,8 @@ function courses(shown: Shown, lives: readonly Live[], memory: Memory): Content[
   const lines = courseLines(lives, span, () => [port, portPaint(port, [port])]);
   const range = memory.around(extentOf(lines), { fixed: settings.range });
   const x = { ...timeSide(shown, span), down: false };
-  return lines.map((mark) => ({ x, y: { along: null, range }, marks: [mark] }));
+  const above = aboveThreshold(port, levelsAt(shown, port));
+  return lines.map((mark) => ({ x, y: { along: null, range }, marks: [{ ...mark, ...above }] }));
 }
 
 function curves(shown: Shown, lives: readonly Live[], memory: Memory): (Content | null)[] {
@@ -77,13 +79,14 @@ function curves(shown: Shown, lives: readonly Live[], memory: Memory): (Content 
   });
   const all = extentOf(lines.flatMap((one) => one?.mark ?? []));
   const range = memory.around(all, { fixed: settings.range });
+  const above = aboveThreshold(port, levelsAt(shown, port));
   return lines.map((one) =>
     one === null
       ? null
       : {
           x: { along: one.x, range: [one.x.lower, one.x.upper] },
           y: { along: null, range },
-          marks: [one.mark],
+          marks: [{ ...one.mark, ...above }],
         },
   );
 }

@@ -17,7 +17,7 @@ import { portAxes, runsDown } from "../../model/ports";
 import type { AxisView, DocumentView } from "../../protocol";
 import type { Live } from "../../streams";
 import { curveColor, FIELD_COLORS, portColor } from "../colors/colors";
-import { type Level, levelsOf } from "../levels";
+import { type Level, levelsOf, thresholdOf } from "../levels";
 import { timeRange } from "../traces";
 import type { Shown } from "./kind";
 
@@ -34,6 +34,14 @@ export function levelsAt({ document, element, type }: Shown, port: string): Leve
 
 export function levelMarks(levels: readonly Level[]): LevelLine[] {
   return levels.map(({ label, value }) => ({ type: "level", label, value, color: LEVEL }));
+}
+
+// How activation is drawn above its threshold; of other values nothing is changed there.
+export function aboveThreshold(port: string, levels: readonly Level[]): Pick<CurveLine, "above"> {
+  const value = thresholdOf(levels);
+  return port === "activation" && value !== null
+    ? { above: { value, color: paint((shade) => FIELD_COLORS[shade].ember) } }
+    : {};
 }
 
 export function line(label: string, color: Paint, xs: ArrayLike<number>, ys: ArrayLike<number>): CurveLine {

@@ -2,6 +2,7 @@
 // at 0. Weights that learn are a port.
 
 import { weightsOf } from "../../model/ports";
+import { chosenScale } from "../colors/mapColors";
 import type { PlotDeclaration, Shown } from "./kind";
 import { axesOf, over, planeContent } from "./parts";
 
@@ -29,9 +30,9 @@ export const plot: PlotDeclaration = {
   },
   content: (shown, [live], memory) => {
     const { scale, range } = shown.settings;
-    const name = scale === "auto" ? "diverging" : scale;
+    const how = chosenScale(scale === "auto" ? "diverging" : scale);
     return planeContent(shown.document, live, parameter(shown).name, (values) =>
-      memory.colors(values, { name, twoSided: name === "diverging" }, [], range),
+      memory.colors(values, how, [], range),
     );
   },
 };

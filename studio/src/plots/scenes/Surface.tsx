@@ -28,9 +28,9 @@ export function Surface(props: PlotProps) {
   const { drawn, at } = settings;
   const kind = useStudio((state) => state.kinds.get(element.kind));
   const ports = usePorts(element, port, (axes) => axes.length > 1 && !isPicture(axes));
-  const { name, twoSided } = scaleOf(settings.scale, kind, port);
+  const scale = scaleOf(settings.scale, kind, port);
   const newest = useRef<Live | null>(null);
-  const colors = useRef(new FollowingColors(name));
+  const colors = useRef(new FollowingColors());
   const levels = useLevels(element.id, port, () => redraw());
   const wishes = useMemo<Wish[]>(
     () => [{ type: "watch", element: element.id, port, most: MOST, drawn, at }],
@@ -45,7 +45,7 @@ export function Surface(props: PlotProps) {
     if (frame == null || nx === undefined || ny === undefined || x === undefined || y === undefined) {
       return null;
     }
-    colors.current.follow(frame.values, name, middleOf(twoSided, levels.current), settings.range);
+    colors.current.follow(frame.values, scale, middleOf(scale.twoSided, levels.current), settings.range);
     const { range } = colors.current.now;
     const size = surfaceSize(x, y);
     stage.showSurface(frame.values, nx, ny, size, colors.current.now);

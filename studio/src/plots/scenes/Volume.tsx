@@ -8,6 +8,7 @@ import type { Live, Wish } from "../../streams";
 import { axisHeader, plane, type Table } from "../../draw/table";
 import { axisLabel, edges, points } from "../../draw/axis";
 import { isPicture, portAxes } from "../../model/ports";
+import { onBoth, shade } from "../colors/colors";
 import { FollowingColors, middleOf, scaleOf } from "../colors/mapColors";
 import { paintHeat } from "../../draw/paint";
 import { extent } from "../../draw/scale";
@@ -28,14 +29,14 @@ import { useStreams } from "../useStreams";
 
 const MOST = 128;
 const CUTS = [0, 1, 2] as const;
-const NO_COLORS: MapColors = { range: [0, 1], middle: null, table: new Uint8ClampedArray() };
+const NO_COLORS: MapColors = { range: [0, 1], middle: null, tables: onBoth(new Uint8ClampedArray()) };
 
 export function Volume(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
   const { at } = settings;
   const kind = useStudio((state) => state.kinds.get(element.kind));
   const ports = usePorts(element, port, (axes) => axes.length > 2 && !isPicture(axes));
-  const { name, twoSided } = scaleOf(settings.scale, kind, port);
+  const scale = scaleOf(settings.scale, kind, port);
   const stored = useStudio(({ document }) =>
     JSON.stringify((document && portAxes(document, element, port)) || []),
   );
@@ -46,7 +47,7 @@ export function Volume(props: PlotProps) {
   const drawn = axes.slice(0, 3);
   const canvases = useMemo(() => CUTS.map(() => document.createElement("canvas")), []);
   const newest = useRef<Live[]>([]);
-  const colors = useRef(new FollowingColors(name));
+  const colors = useRef(new FollowingColors());
   const levels = useLevels(element.id, port, () => redraw());
   // Each slice has the other two axes.
   const wishes = useMemo<Wish[]>(
@@ -77,14 +78,14 @@ export function Volume(props: PlotProps) {
       return null;
     }
     const ends = frames.flatMap((values) => [...(extent(values ?? []) ?? [])]);
-    colors.current.follow(ends, name, middleOf(twoSided, levels.current), settings.range);
-    const { range, table } = colors.current.now;
+    colors.current.follow(ends, scale, middleOf(scale.twoSided, levels.current), settings.range);
+    const { range, tables } = colors.current.now;
     const camera = cameraAt(view);
     const size = volumeSize(x, y, z);
     const slices = CUTS.map((axis) => {
       const canvas = canvases[axis] as HTMLCanvasElement;
       const [nx = 0, ny = 0] = newest.current[axis]?.form?.shape ?? [];
-      paintHeat(canvas, frames[axis] as Float32Array, nx, ny, range, table);
+      paintHeat(canvas, frames[axis] as Float32Array, nx, ny, range, tables[shade()]);
       const behind = camera[axis] < 0 ? 1 : 0;
       return { axis, canvas, place: place(drawn[axis] as AxisView) ?? behind };
     });

@@ -27,6 +27,7 @@ import {
 } from "three";
 import type { MapColors } from "../../draw/content";
 import { ANGLE, cameraAt, DISTANCE, magnification, type Point3, type Viewpoint } from "./sceneView";
+import { shade } from "../colors/colors";
 
 // A plane through the box at right angles to an axis, from its lower end (0) to its upper end (1). The canvas
 // has the first other axis to the right and the second one upwards.
@@ -217,7 +218,8 @@ class SurfaceMesh {
     this.mesh.frustumCulled = false;
   }
 
-  set(values: Float32Array, size: Point3, { range: [low, high], table }: MapColors): void {
+  set(values: Float32Array, size: Point3, { range: [low, high], tables }: MapColors): void {
+    const table = tables[shade()];
     const { nx, ny } = this;
     const [place, normal, color] = [this.positions, this.normals, this.colors].map(
       ({ array }) => array as Float32Array,
