@@ -92,7 +92,7 @@ test("a click on the count opens the report beside the architecture, with what w
     .getByText("behavior.json (cedar): 205 of 210 items were carried, 2 approximated, 3 dropped")
     .waitFor();
   expect(await report().getByRole("option").count()).toBe(5);
-  const groups = await report().getByRole("group").all();
+  const groups = await report().getByRole("listbox").getByRole("group").all();
   const names = await Promise.all(groups.map((group) => group.getAttribute("aria-label")));
   expect(names.sort()).toEqual([
     `${GROUP}.CoS field`,

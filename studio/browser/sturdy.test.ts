@@ -275,7 +275,9 @@ test("live pictures follow their boxes when a bar moves them", async () => {
   await expect.poll(async () => (await box(page, "left").boundingBox())?.y).not.toBe(there?.y);
   await page.waitForTimeout(1000);
   await shot(page, "live-layer");
-  expect(await curve(page, "left")).toEqual(before);
+  // the architecture is fitted again, so that a picture has other pixels
+  const after = await curve(page, "left");
+  after.forEach((share, i) => expect(share).toBeCloseTo(before[i] ?? NaN, 1));
 });
 
 test("unsaved edits are offered after a crash", async () => {

@@ -20,6 +20,10 @@ type WireTarget = { element: string; port: string | null };
 export async function finish(at: Point, to: WireTarget | null): Promise<void> {
   const known = await judged();
   end();
+  // the connection with the server may be lost meanwhile
+  if (!isEditable()) {
+    return;
+  }
   // a port may lead to another one of its element; the element as a whole is no target
   if (
     known === null ||

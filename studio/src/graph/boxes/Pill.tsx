@@ -33,15 +33,16 @@ export function Pill({ element: id }: { element: string }) {
       data-selected={selected || undefined}
       data-problem={problem !== "" || undefined}
       title={said || undefined}
-      aria-label={[path, number, said].filter((part) => part !== "").join(", ")}
+      aria-label={[path, path.endsWith(label) ? "" : label, number, said]
+        .filter((part) => part !== "")
+        .join(", ")}
       aria-pressed={selected}
       {...pressing(id)}
       onPointerEnter={(event) => enter(id, event.currentTarget)}
       onPointerLeave={leave}
     >
       {said !== "" && <MarkIcon problem={problem !== ""} size={12} />}
-      <span className="one-line">{label}</span>
-      {number !== "" && <b className="numbers">{number}</b>}
+      <span className="one-line">{label}</span> {number !== "" && <b className="numbers">{number}</b>}
     </button>
   );
 }
