@@ -2,6 +2,24 @@
 
 export type Press = Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
 
+export type Shortcut = {
+  keys: readonly string[];
+  does: string;
+  run: () => unknown;
+  // Also without an open document.
+  always?: boolean;
+  // Again and again while the key is held.
+  repeats?: boolean;
+  // Also while the user types; the typed value is committed first.
+  typing?: boolean;
+  // Only where the page shows the past, and no control has the focus that uses the key itself.
+  past?: boolean;
+  // Only where the canvas has the focus, or nothing.
+  canvas?: boolean;
+  // An event of the browser follows the keys, and it is what acts.
+  event?: boolean;
+};
+
 // Whether a key press is the one that is written, such as "Ctrl+Shift+Z". Ctrl is Command on a Mac. Of signs
 // such as "?" it does not matter whether a keyboard needs Shift for them.
 export function isPressed(keys: string, press: Press): boolean {

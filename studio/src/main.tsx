@@ -7,6 +7,8 @@ import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 
 import { App } from "./App";
+import { FORMS } from "./inspector/forms/forms";
+import { Forms } from "./inspector/forms/props";
 import { socket } from "./socket";
 import { theme, variables } from "./theme";
 import { TYPEFACE } from "./draw/typeface";
@@ -19,7 +21,9 @@ socket.open();
 const page = (
   <StrictMode>
     <MantineProvider theme={theme} cssVariablesResolver={variables} defaultColorScheme="auto">
-      <App />
+      <Forms value={FORMS}>
+        <App />
+      </Forms>
     </MantineProvider>
   </StrictMode>
 );

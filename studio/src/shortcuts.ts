@@ -15,31 +15,13 @@ import { ask, useDialogs } from "./dialogs/questions";
 import * as experiment from "./experiment/actions";
 import { open, save, saveAs } from "./files/flows";
 import { useView } from "./gallery/view";
-import { isPressed, isTyping, type Press } from "./keys";
+import { isPressed, isTyping, type Press, type Shortcut } from "./keys";
 import { isPast, seekFirst, seekFrames, seekLast } from "./replay/replay";
 import { request } from "./socket";
 import { undo } from "./state/undo";
 import { useStudio } from "./store";
 import { play, reset, step } from "./transport/run";
 import { stopRobot } from "./world/robotStop";
-
-export type Shortcut = {
-  keys: readonly string[];
-  does: string;
-  run: () => unknown;
-  // Also without an open document.
-  always?: boolean;
-  // Again and again while the key is held.
-  repeats?: boolean;
-  // Also while the user types; the typed value is committed first.
-  typing?: boolean;
-  // Only where the page shows the past, and no control has the focus that uses the key itself.
-  past?: boolean;
-  // Only where the canvas has the focus, or nothing.
-  canvas?: boolean;
-  // An event of the browser follows the keys, and it is what acts.
-  event?: boolean;
-};
 
 export const SHORTCUTS: readonly Shortcut[] = [
   { keys: ["Space"], does: "Play or pause", run: play },

@@ -1,6 +1,6 @@
 // Boxes side by side: alignment at an edge or a middle, and equal gaps.
 
-import type { Rect } from "../graph/layout/layout";
+import type { Rect } from "../graph/layout/rects";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { isEditable } from "./editable";

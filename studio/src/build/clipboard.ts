@@ -3,7 +3,7 @@
 // command does.
 
 import { isTooLarge } from "../files/flows";
-import type { Point } from "../graph/layout/layout";
+import type { Point } from "../graph/layout/rects";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { showMade } from "./made";

@@ -1,10 +1,10 @@
 // All commands, elements and kinds in one list (Ctrl+K), and those for the selection at a right click.
 
 import { exportScript } from "../files/exportScript";
-import type { Point } from "../graph/layout/layout";
+import type { Point } from "../graph/layout/rects";
 import { keysText } from "../keys";
 import { showGoal } from "../report/showGoal";
-import type { Shortcut } from "../shortcuts";
+import type { Shortcut } from "../keys";
 import { useStudio } from "../store";
 import { ALIGNMENTS, align } from "./aligning";
 import { useChooser } from "./palette/choice";

@@ -1,7 +1,8 @@
 // The size of a document that is pasted, from its text.
 
 import { readBoxes } from "../graph/boxes/boxes";
-import { FRAME, type Point, type Size } from "../graph/layout/layout";
+import { FRAME } from "../graph/layout/layout";
+import { type Point, type Size } from "../graph/layout/rects";
 import type { Kind } from "../protocol";
 import { sizeOfKind } from "./placing";
 

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 
 import { fakeDocument, fakeElement, kindsOf, fakeKind } from "../graph/fakes";
 import { scene } from "../graph/scene";
-import type { Point } from "../graph/layout/layout";
+import type { Point } from "../graph/layout/rects";
 import { extentOf } from "./extent";
 import {
   afterAll,

@@ -2,7 +2,8 @@
 // nearest place without a box, a frame or a gap that is too small.
 
 import { BOX, LIVE } from "../graph/boxes/boxes";
-import { FRAME, type Places, type Point, type Rect, type Size } from "../graph/layout/layout";
+import { FRAME, type Places } from "../graph/layout/layout";
+import { type Point, type Rect, type Size } from "../graph/layout/rects";
 import { type Branch, keyOf } from "../graph/layout/tree";
 import type { GraphScene } from "../graph/scene";
 import type { DocumentView, Kind } from "../protocol";

@@ -2,7 +2,7 @@
 
 import { create } from "zustand";
 
-import type { Rect } from "../graph/layout/layout";
+import type { Rect } from "../graph/layout/rects";
 import { keyOf } from "../graph/layout/tree";
 import { request } from "../socket";
 import { useStudio } from "../store";

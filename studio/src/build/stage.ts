@@ -1,6 +1,6 @@
 // The canvas on the screen, for what adds to it: the canvas passes on its interface when it is shown.
 
-import type { Point } from "../graph/layout/layout";
+import type { Point } from "../graph/layout/rects";
 import type { GraphScene } from "../graph/scene";
 
 export type Stage = {

@@ -5,7 +5,7 @@ import { useReactFlow } from "@xyflow/react";
 import { type DragEvent, type MouseEvent, type RefObject, useEffect, useMemo, useRef } from "react";
 
 import { glide } from "../graph/layout/glide";
-import type { Point } from "../graph/layout/layout";
+import type { Point } from "../graph/layout/rects";
 import type { GraphScene } from "../graph/scene";
 import { useStudio } from "../store";
 import { type Carried, carried, isCarried } from "./wiring/carried";

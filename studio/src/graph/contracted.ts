@@ -3,7 +3,8 @@
 import { dimensions } from "./boxes/boxes";
 import type { Contraction } from "./contract";
 import { gridPlaces } from "./grid";
-import { PANEL, type Point, type Size } from "./layout/layout";
+import { PANEL } from "./layout/layout";
+import { type Point, type Size } from "./layout/rects";
 import type { ElementView, Kind } from "../protocol";
 import type { SceneNode, Wire } from "./scene";
 

@@ -1,7 +1,7 @@
 // The grid of a large architecture: names are split at `_` into prefix and suffix. A prefix has a row, a
 // suffix a column, and the columns of one digit at the end of the suffix form a frame.
 
-import type { Point, Size } from "./layout/layout";
+import type { Point, Size } from "./layout/rects";
 
 // A wire between two boxes.
 export type GridWire = { source: string; target: string };

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { fakeConnections, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
 import { boxSize } from "./boxes/boxes";
 import { withCourses } from "./wires/courses";
-import type { Point } from "./layout/layout";
+import type { Point } from "./layout/rects";
 import type { ElementView } from "../protocol";
 import { differ, moved } from "./layout/moved";
 import { foldedAround, groupNode, PORT, scene } from "./scene";

@@ -2,7 +2,7 @@
 
 import { useReactFlow } from "@xyflow/react";
 import { useLayoutEffect, useRef } from "react";
-import type { Rect } from "./layout/layout";
+import type { Rect } from "./layout/rects";
 import type { GraphScene } from "./scene";
 
 export function useAnchor(now: GraphScene): void {

@@ -2,7 +2,7 @@
 
 import { create } from "zustand";
 
-import type { Point } from "../../graph/layout/layout";
+import type { Point } from "../../graph/layout/rects";
 import type { ListEntry } from "./entries";
 
 export type Choice = {

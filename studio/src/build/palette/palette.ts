@@ -1,6 +1,6 @@
 // The palette: every registered kind, to add elements at the pointer and parts to the selected element.
 
-import type { Point } from "../../graph/layout/layout";
+import type { Point } from "../../graph/layout/rects";
 import type { Kinds } from "../../inspector/parameters/leaf";
 import { axesOver } from "../../model/elementAxes";
 import type { Kind, TemplateView, WorldSignals } from "../../protocol";

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from "react";
 
-import type { Point } from "../../graph/layout/layout";
+import type { Point } from "../../graph/layout/rects";
 import { endAt } from "./ends";
 import { getStage } from "../stage";
 import { groupHintOf, type Hint, hintOf, useWiring } from "./wiring";

@@ -1,7 +1,7 @@
 // The end of a connection that was begun: at a port, at an element, or on the empty ground, where the palette
 // offers what fits.
 
-import type { Point } from "../../graph/layout/layout";
+import type { Point } from "../../graph/layout/rects";
 import type { FitView, Kind, OfferView } from "../../protocol";
 import { useStudio } from "../../store";
 import { useChooser } from "../palette/choice";

@@ -1,7 +1,7 @@
 // A box without connections that is dropped on a connection is inserted into it.
 
 import { positionsOf } from "../../graph/layout/arrange";
-import type { Point } from "../../graph/layout/layout";
+import type { Point } from "../../graph/layout/rects";
 import type { SceneNode } from "../../graph/scene";
 import { request } from "../../socket";
 import { useStudio } from "../../store";

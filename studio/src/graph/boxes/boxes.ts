@@ -1,7 +1,7 @@
 // The box of an element: its size, its content and the positions of its ports.
 
 import type { ElementView } from "../../protocol";
-import type { Point, Size } from "../layout/layout";
+import type { Point, Size } from "../layout/rects";
 
 export const BOX = { width: 156, title: 40, port: 24, pad: 8 };
 // Samples along each axis of a map.

@@ -1,6 +1,6 @@
 // The comments that the layout of a document holds; anything else in it is passed over.
 
-import type { Rect } from "../layout/layout";
+import type { Rect } from "../layout/rects";
 
 export type CanvasComment = Rect & { id: string; text: string };
 

@@ -1,6 +1,6 @@
 // The place on a wire of what is drawn there: its couplings, or the number of connections.
 
-import type { Point, Rect } from "../layout/layout";
+import type { Point, Rect } from "../layout/rects";
 import { meet } from "../layout/rects";
 import type { Turn } from "../wires/turns";
 

@@ -1,7 +1,7 @@
 // A layout that is much wider than the canvas, broken into lines, as text is: a long chain would otherwise be
 // too small to read. One that is much higher is broken into columns.
 
-import type { Point, Size } from "../layout/layout";
+import type { Point, Size } from "../layout/rects";
 
 const BETWEEN = 72;
 const MOST_LINES = 12;

@@ -6,7 +6,7 @@ import { useStudio } from "../../store";
 import { readBoxes } from "../boxes/boxes";
 import { everyElement } from "../contract";
 import { foldedNow, useOpening } from "./folding";
-import type { Point } from "./layout";
+import type { Point } from "./rects";
 
 // Fold a group, or open it. The document keeps it, without a step of undo.
 export function fold(key: string, closed: boolean): void {

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { fakeElement } from "../fakes";
-import { FOLDED, FRAME, places, type Point, type Rect } from "./layout";
+import { FOLDED, FRAME, places } from "./layout";
+import { type Point, type Rect } from "./rects";
 import { meet } from "./rects";
 import { tree } from "./tree";
 

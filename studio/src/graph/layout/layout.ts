@@ -3,13 +3,9 @@
 
 import { Graph, layout as arrange } from "@dagrejs/dagre";
 import type { Branch } from "./tree";
-import { meet } from "./rects";
+import { meet, type Point, type Rect, type Size } from "./rects";
 import { squeezed } from "./squeeze";
 import { wrapped } from "../boxes/wrap";
-
-export type Point = { x: number; y: number };
-export type Size = { width: number; height: number };
-export type Rect = Point & Size;
 
 // Two elements that belong side by side; `room` is the width that its pills need.
 export type Bond = { source: string; target: string; room: number };

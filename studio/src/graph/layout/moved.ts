@@ -1,7 +1,8 @@
 // Positions of boxes after something was dragged: everything shown keeps its position, so that
 // nothing else moves.
 
-import type { Places, Point } from "./layout";
+import type { Places } from "./layout";
+import type { Point } from "./rects";
 import { groupNode, type SceneNode } from "../scene";
 import { below, type Tree } from "./tree";
 

@@ -1,6 +1,8 @@
 // Rectangles of boxes.
 
-import type { Point, Rect, Size } from "./layout";
+export type Point = { x: number; y: number };
+export type Size = { width: number; height: number };
+export type Rect = Point & Size;
 
 // Whether two rectangles cover a part of each other.
 export function meet(a: Rect, b: Rect): boolean {

@@ -1,6 +1,6 @@
 // Empty bands across a layout are closed: a layout of edges with many bends leaves rows without any box.
 
-import type { Point, Size } from "./layout";
+import type { Point, Size } from "./rects";
 
 // Moves boxes up, so that no row without a box is higher than `most`.
 export function squeezed(

@@ -7,7 +7,7 @@ import { useStudio } from "../../store";
 import { useFocus } from "../focus";
 import { Pill } from "../boxes/Pill";
 import { markOf } from "./SignMarks";
-import type { Point } from "../layout/layout";
+import type { Point } from "../layout/rects";
 import type { Wire } from "../scene";
 import { type Course, direct } from "./wirePath";
 

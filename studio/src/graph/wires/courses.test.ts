@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 
 import { courses } from "./courses";
-import type { Point, Rect } from "../layout/layout";
+import type { Point, Rect } from "../layout/rects";
 import type { WireLine } from "./turns";
 import type { Course } from "./wirePath";
 

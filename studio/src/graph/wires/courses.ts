@@ -1,6 +1,6 @@
 // The courses of all wires of a scene: past the boxes, and across few other wires.
 
-import type { Rect } from "../layout/layout";
+import type { Rect } from "../layout/rects";
 import { labelPlaces } from "../boxes/labels";
 import { type GraphScene, PORT, type SceneNode, type Wire } from "../scene";
 import { type Route, Tracks } from "./tracks";

@@ -1,7 +1,7 @@
 // The grid on which wires are led past boxes: columns between the sides of boxes, and horizontal tracks. It
 // counts the wires in each cell, so that the next one crosses few of them.
 
-import type { Point, Rect } from "../layout/layout";
+import type { Point, Rect } from "../layout/rects";
 
 // The distance of tracks, and so of wires side by side.
 const TRACK = 6;

@@ -1,6 +1,6 @@
 // The turns of wires: where each goes from one height to another, side by side with those of other wires.
 
-import type { Point } from "../layout/layout";
+import type { Point } from "../layout/rects";
 import type { Route, Tracks } from "./tracks";
 
 // A wire on the canvas. Wires of the same `net`, which begin at the same port, may run on one another.

@@ -1,6 +1,6 @@
 // The path of a wire.
 
-import type { Point } from "../layout/layout";
+import type { Point } from "../layout/rects";
 import { places } from "../boxes/labels";
 import { BULGE, goesBack, type Turn } from "./turns";
 

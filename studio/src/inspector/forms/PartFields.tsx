@@ -1,12 +1,11 @@
 // The parameters of a kind, each by the form that fits its value.
 
-import { memo } from "react";
+import { memo, use } from "react";
 
 import type { ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
-import { FORMS } from "./forms";
-import type { FormProps } from "./props";
+import { type FormProps, Forms } from "./props";
 
 type PartFieldsProps = { kind: string; values: unknown; prefix?: string };
 
@@ -30,6 +29,6 @@ export function Fields({ forms, values, prefix }: FieldsProps) {
 
 // Only changed values are drawn again: unchanged values are the same objects.
 const Parameter = memo(function Parameter(props: FormProps) {
-  const Form = FORMS[props.form.form];
-  return <Form {...props} />;
+  const Form = use(Forms)?.[props.form.form];
+  return Form && <Form {...props} />;
 });

@@ -1,8 +1,5 @@
 // The component of each form. A new form of the protocol without a component is an error of the compiler.
 
-import type { ComponentType } from "react";
-
-import type { ParameterForm } from "../../protocol";
 import { ArrayForm } from "./ArrayForm";
 import { AxesForm } from "./AxesForm";
 import { AxisForm } from "./AxisForm";
@@ -14,12 +11,12 @@ import { PairsForm } from "./PairsForm";
 import { PartForm } from "./PartForm";
 import { PartsForm } from "./PartsForm";
 import { PerAxisForm } from "./PerAxisForm";
-import type { FormProps } from "./props";
+import type { FormTable } from "./props";
 import { TextForm } from "./TextForm";
 import { TextsForm } from "./TextsForm";
 import { ValueForm } from "./ValueForm";
 
-export const FORMS: Record<ParameterForm["form"], ComponentType<FormProps>> = {
+export const FORMS: FormTable = {
   array: ArrayForm,
   axes: AxesForm,
   axis: AxisForm,

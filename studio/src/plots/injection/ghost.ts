@@ -1,7 +1,6 @@
 // The outline of the injected input: the Gaussian above one axis, its one- and two-sigma lines over two axes,
 // a frame for a homogeneous input.
 
-import type { Drawing } from "../Drawing";
 import type { Injection } from "../spot";
 
 // Both black and white are needed on a map of all colours.
@@ -10,11 +9,18 @@ const ON_MAP = [
   [1.5, "#ffffff"],
 ] as const;
 
-type GhostSheet = { ctx: CanvasRenderingContext2D; drawing: Drawing; width: number; height: number };
+// Where values are on the page: pixels from the corner of what lies over a drawing.
+export type ValuePlane = Readonly<{
+  over: HTMLElement;
+  valuesAt: (pixels: readonly [number, number]) => [number, number];
+  placeOf: (values: readonly [number, number]) => [number, number];
+}>;
+
+type GhostSheet = { ctx: CanvasRenderingContext2D; drawing: ValuePlane; width: number; height: number };
 
 export function paintGhost(
   canvas: HTMLCanvasElement,
-  drawing: Drawing,
+  drawing: ValuePlane,
   how: Injection,
   place: number[] | null,
   color: string,

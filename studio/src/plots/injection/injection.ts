@@ -4,14 +4,16 @@
 import { socket } from "../../socket";
 import { useStudio } from "../../store";
 import { portColor, shade } from "../colors/colors";
-import type { Drawing } from "../Drawing";
-import { paintGhost } from "./ghost";
+import { paintGhost, type ValuePlane } from "./ghost";
 import { Pusher } from "./pusher";
 import { type Injection, spot } from "../spot";
 
+// A drawing into which a hand injects; `pointed` is the position under the pointer.
+type Pushed = ValuePlane & Readonly<{ host: HTMLElement; pointed: () => [number, number] }>;
+
 // Listens on a drawing; `given` returns the input to inject, or null if the element takes none. Returns a
 // function that ends it.
-export function attachInjection(drawing: Drawing, given: () => Injection | null): () => void {
+export function attachInjection(drawing: Pushed, given: () => Injection | null): () => void {
   const { host, over } = drawing;
   const ask = () => (useStudio.getState().connection === "open" ? given() : null);
   const pusher = new Pusher((message) => socket.post(message));
