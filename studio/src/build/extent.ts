@@ -2,7 +2,7 @@
 
 import { readBoxes } from "../graph/boxes/boxes";
 import { FRAME } from "../graph/layout/layout";
-import { type Point, type Size } from "../graph/layout/rects";
+import type { Point, Size } from "../graph/layout/rects";
 import type { Kind } from "../protocol";
 import { sizeOfKind } from "./placing";
 

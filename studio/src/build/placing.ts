@@ -3,7 +3,7 @@
 
 import { BOX, LIVE } from "../graph/boxes/boxes";
 import { FRAME, type Places } from "../graph/layout/layout";
-import { type Point, type Rect, type Size } from "../graph/layout/rects";
+import type { Point, Rect, Size } from "../graph/layout/rects";
 import { type Branch, keyOf } from "../graph/layout/tree";
 import type { GraphScene } from "../graph/scene";
 import type { DocumentView, Kind } from "../protocol";

@@ -4,7 +4,7 @@
 import { positionsOf } from "../graph/layout/arrange";
 import { boxSize } from "../graph/boxes/boxes";
 import { FRAME } from "../graph/layout/layout";
-import { type Point } from "../graph/layout/rects";
+import type { Point } from "../graph/layout/rects";
 import { type GraphScene, groupKey, type SceneNode } from "../graph/scene";
 import { below, type Branch } from "../graph/layout/tree";
 import { request } from "../socket";

@@ -4,7 +4,7 @@ import { dimensions } from "./boxes/boxes";
 import type { Contraction } from "./contract";
 import { gridPlaces } from "./grid";
 import { PANEL } from "./layout/layout";
-import { type Point, type Size } from "./layout/rects";
+import type { Point, Size } from "./layout/rects";
 import type { ElementView, Kind } from "../protocol";
 import type { SceneNode, Wire } from "./scene";
 

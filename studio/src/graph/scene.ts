@@ -9,7 +9,7 @@ import { CHIP, contractedWires, inGrid, linksOf, withParts } from "./contracted"
 import { chains, type Chain } from "./wires/chains";
 import { type CanvasComment, readComments } from "./boxes/comments";
 import { COUNT, FOLDED, places, type Places } from "./layout/layout";
-import { type Point, type Rect, type Size } from "./layout/rects";
+import type { Point, Rect, Size } from "./layout/rects";
 import { signText, together, type Sign } from "./wires/sign";
 import type { Course } from "./wires/wirePath";
 import { around, hiddenBy, outside, tree, type Branch, type Tree } from "./layout/tree";

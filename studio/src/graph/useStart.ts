@@ -9,7 +9,7 @@ import { useStudio } from "../store";
 import { FIT, ZOOM } from "./layout/fit";
 import { firstFolded, useOpening, withFolded } from "./layout/folding";
 import { PANEL } from "./layout/layout";
-import { type Rect, type Size } from "./layout/rects";
+import type { Rect, Size } from "./layout/rects";
 import { scene, type GraphScene, type Structure } from "./scene";
 
 // A panel that differs by less keeps its layout.

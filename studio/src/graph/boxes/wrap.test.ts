@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { PANEL } from "../layout/layout";
-import { type Point, type Size } from "../layout/rects";
+import type { Point, Size } from "../layout/rects";
 import { wrapped } from "./wrap";
 
 function chain(n: number): [Map<string, Point>, Map<string, Size>] {

@@ -6,7 +6,7 @@ import { BOX, LIVE, readBoxes, readFolded } from "../boxes/boxes";
 import { chains } from "../wires/chains";
 import { MARGIN } from "./fit";
 import { PANEL } from "./layout";
-import { type Point, type Size } from "./rects";
+import type { Point, Size } from "./rects";
 import { scene, type Structure } from "../scene";
 import type { Kind } from "../../protocol";
 import { tree, type Branch } from "./tree";

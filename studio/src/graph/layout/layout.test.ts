@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { fakeElement } from "../fakes";
 import { FOLDED, FRAME, places } from "./layout";
-import { type Point, type Rect } from "./rects";
+import type { Point, Rect } from "./rects";
 import { meet } from "./rects";
 import { tree } from "./tree";
 

@@ -196,8 +196,8 @@ export class SolidStage {
   hit(x: number, y: number): SolidHit | null {
     const ray = this.ray(x, y);
     const seen = this.meshes.filter(({ visible }) => visible);
-    const [first] = ray.intersectObjects(seen, false);
-    const index = this.meshes.findIndex((mesh) => mesh === first?.object);
+    const [first] = ray.intersectObjects<Mesh>(seen, false);
+    const index = first === undefined ? -1 : this.meshes.indexOf(first.object);
     const solid = this.solids[index];
     return first === undefined || solid === undefined ? null : { solid, index, point: first.point.toArray() };
   }
