@@ -38,12 +38,12 @@ export class FollowingColors {
   // Return whether the colours changed.
   follow(values: ArrayLike<number>, scale: ColorScale, middle: number | null, fixed: Range | null): boolean {
     const range = fixed ?? this.calm.next(extent(values), middle === null ? [] : [middle], performance.now());
-    const { now, followed } = this;
+    const { now } = this;
     if (
       now.range[0] === range[0] &&
       now.range[1] === range[1] &&
       now.middle === middle &&
-      followed?.tables === scale.tables
+      this.followed?.tables === scale.tables
     ) {
       return false;
     }
