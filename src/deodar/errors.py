@@ -57,8 +57,50 @@ class Fix(str):
 
     def then(self, text: str) -> Fix:
         """Return this fix and another one, at each place."""
-        second = text if isinstance(text, Fix) else Fix(text)
-        return Fix(*(joined(self.at(place), second.at(place)) for place in MEDIA))
+        return Fix(*(joined(self.at(place), worded(text).at(place)) for place in MEDIA))
+
+
+class ConnectionFix(Fix):
+    """A fix that is a connection of which the user chooses a part.
+
+    Args:
+        script: for readers of a script or a shell.
+        page: for readers of the page, which has a button for the choice; "": the button says it all.
+        ends: path of the source and its output port, path of the target and its input port. Both of an end
+            are empty where the user chooses it; with both ends the user chooses a coupling between them.
+    """
+
+    ends: tuple[str, str, str, str]
+
+    def __new__(cls, script: str, page: str, ends: tuple[str, str, str, str]) -> ConnectionFix:
+        fix = str.__new__(cls, script)
+        fix.shell, fix.page, fix.ends = script, page, ends
+        return fix
+
+    def __getnewargs__(self) -> Any:
+        """Return the arguments, for copies and pickles."""
+        return str(self), self.page, self.ends
+
+    @classmethod
+    def into(cls, path: str, port: str = "input", otherwise: str = "") -> ConnectionFix:
+        """Return the fix for an input port that nothing is connected to.
+
+        >>> ConnectionFix.into("u", otherwise="or remove it")
+        "Connect it: model.connect(..., 'u'); or remove it"
+        """
+        end = path if port == "input" else f"{path}.{port}"
+        script = f"Connect it: model.connect(..., {end!r}){f'; {otherwise}' if otherwise else ''}"
+        return cls(script, "", ("", "", path, port))
+
+    @classmethod
+    def out_of(cls, path: str, port: str, otherwise: str) -> ConnectionFix:
+        """Return the fix for an element that nothing reads."""
+        script = f"Connect it: model.connect({path!r}, ...); {otherwise}"
+        return cls(script, "", (path, port, "", ""))
+
+
+class WorldFix(Fix):
+    """A fix that is another world, or another sensor or motor of the world, which the user chooses."""
 
 
 class EditFix(Fix):
@@ -67,7 +109,7 @@ class EditFix(Fix):
     Args:
         advice: what the edit does.
         edits: the edits, made together.
-        otherwise: what else would help.
+        otherwise: what else would help; a `Fix` where that differs between readers.
 
     >>> fix = EditFix("Change the sign", [SetValues((("resting_level", -5),), "u")])
     >>> fix, fix.at("shell")
@@ -81,8 +123,9 @@ class EditFix(Fix):
     def __new__(cls, advice: str, edits: Iterable[ProposedEdit], otherwise: str = "") -> EditFix:
         edits = tuple(edits)
         texts = [f"{advice}: {' and '.join(edit.at(place) for edit in edits)}" for place in MEDIA]
-        fix = str.__new__(cls, joined(texts[0], otherwise))
-        fix.shell, fix.page = joined(texts[1], otherwise), joined(texts[2], otherwise)
+        texts = [joined(text, worded(otherwise).at(place)) for text, place in zip(texts, MEDIA, strict=True)]
+        fix = str.__new__(cls, texts[0])
+        fix.shell, fix.page = texts[1:]
         fix.advice, fix.edits, fix.otherwise = advice, edits, otherwise
         return fix
 
@@ -96,7 +139,12 @@ class EditFix(Fix):
 
     def then(self, text: str) -> EditFix:
         """Return this fix and another one, as text."""
-        return EditFix(self.advice, self.edits, joined(self.otherwise, text))
+        return EditFix(self.advice, self.edits, worded(self.otherwise).then(text))
+
+
+def worded(text: str) -> Fix:
+    """Return a text as a fix, with the words for each reader."""
+    return text if isinstance(text, Fix) else Fix(text)
 
 
 def assign(advice: str, values: Mapping[str, EditValue], otherwise: str = "") -> EditFix:
@@ -164,7 +212,7 @@ class Problem(Summarised):
 
     def fix_at(self, place: Medium) -> str:
         """Return what to do at a place."""
-        return self.fix.at(place) if isinstance(self.fix, Fix) else self.fix
+        return worded(self.fix).at(place)
 
     @property
     def edits(self) -> tuple[ProposedEdit, ...]:
@@ -194,8 +242,7 @@ class DeodarError(Exception):
     def advise(self, text: str) -> None:
         """Append a sentence to what the message says to do."""
         *others, last = self.problems
-        fix = last.fix.then(text) if isinstance(last.fix, Fix) else joined(last.fix, text)
-        self.problems = (*others, replace(last, fix=fix))
+        self.problems = (*others, replace(last, fix=worded(last.fix).then(text)))
         self.args = (self.at("script"),)
 
     def inside(self, place: object, mark: str = ":") -> list[Problem]:

@@ -223,9 +223,11 @@ class InsertCoupling(ProposedEdit):
         values = "".join(f", {name}={setting!r}" for name, setting in self.values().items())
         coupling = f"{self.kind}([{', '.join(self.axes)}]{values})"
         source, out, target, port = self.ends
-        if place != "script":
-            where = "in the file, " if place == "shell" else ""
-            return f"{where}put a {coupling} into the connection {source}.{out} -> {target}.{port}"
+        if place == "shell":
+            return f"in the file, put a {coupling} into the connection {source}.{out} -> {target}.{port}"
+        if place == "page":
+            renames = " and ".join(f"{name!r} to {new!r}" for name, new in self.rename)
+            return f"a new {self.kind} between {source} and {target} renames {renames}"
         gone = f"model.disconnect({f'{source}.{out}'!r}, {f'{target}.{port}'!r})"
         first, last = (path if path.isidentifier() else f"model[{path!r}]" for path in (source, target))
         first += "" if out == "output" else f"[{out!r}]"
@@ -246,5 +248,7 @@ def _written(setting: EditValue, shell: bool = False) -> str:
         return f"{setting:.12g}"
     if isinstance(setting, str):
         return setting if shell else f'"{setting}"'
+    if not isinstance(setting, tuple):
+        return str(setting)  # an axis
     items = [_written(v, shell) for v in setting]
     return f"[{','.join(items)}]" if shell else f"[{', '.join(items)}]"

@@ -739,8 +739,9 @@ export type ListSaved = {
 
 // A problem or a warning: what is wrong, where, what to type, and the element concerned, if any.
 //
-// A warning does not prevent a run. `repair` says what the request of that name does about it; empty: the
-// person has to decide.
+// A warning does not prevent a run. `repair` says what the request of that name does about it; empty:
+// nothing. `wire` is a connection of which the person has to choose a part: an empty end, or the coupling
+// between two ends. `world`: another world, or another sensor or motor of the world, may solve it.
 export type ListedProblem = {
   what: string;
   where?: string;
@@ -748,6 +749,8 @@ export type ListedProblem = {
   element?: string;
   severity?: "problem" | "warning";
   repair?: string;
+  wire?: EndsView | null;
+  world?: boolean;
 };
 
 // A stream without data, and the reason: the element was removed, or the port cannot be read.

@@ -4,6 +4,7 @@ import { addressed } from "./addressed";
 import { decode } from "./frames";
 import { saveFile } from "./plots/export/save";
 import type { Answer, Fits, Folder, ToPage, ToServer } from "./protocol";
+import { withoutNew } from "./problems/waiting";
 import { isRefused } from "./refused";
 import { type Offer, useStudio } from "./store";
 import { live } from "./world/live";
@@ -120,6 +121,11 @@ class Socket {
         store.take(message);
         this.post({ type: "drawn", frame: message.frame });
         break;
+      case "checked": {
+        const show = (later: ToPage) => useStudio.getState().session === store.session && store.take(later);
+        store.take(withoutNew(message, store.document?.problems ?? [], show));
+        break;
+      }
       case "opened":
         if (message.session !== store.session) {
           store.take(message);

@@ -89,6 +89,14 @@ def test_problems_name_each_signal_that_a_world_lacks() -> None:
     assert "8 samples" in shape.what and not problems(driving().document, Arena("blocks"))
 
 
+def test_a_world_that_lacks_a_sensor_offers_its_others_first() -> None:
+    model = dd.Model("m")
+    model.add(Sensor("eye", [dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 3, 4)], "picture"))
+    first, *others = Embodiment(Arena("blocks")).offered(model.document).worlds
+    assert "infrared" in {signal.name for signal in first.signals}
+    assert any("picture" in {signal.name for signal in world.signals} for world in others)
+
+
 def test_a_robot_drives_in_the_studio_s_session() -> None:
     session = dd.Session(driving(), world=Embodiment().world(driving().document))
     session.step(3)

@@ -316,7 +316,7 @@ class SteeredShift(Coupling):
         if len(self.along) > 1 and arriving != (len(self.along),):
             takes = f"one axis with {len(self.along)} samples, one for each of {', '.join(self.along)}"
             yield (
-                f"takes {takes} at its port `by`; its input has {list(arriving)} samples",
+                f"takes {takes} at its port 'by'; its input has {list(arriving)} samples",
                 "Connect such an input, or use several SteeredShifts in series",
             )
 

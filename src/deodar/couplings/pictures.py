@@ -289,7 +289,7 @@ class Homography(Coupling):
             yield (
                 f"maps a picture of two dimensions onto a plane of two; it has {len(self.axes)} axes, and its"
                 f" input {len(ins['input'])}",
-                "Give it axes=[x, y], and a picture over columns and rows",
+                "Give it two axes, and a picture over columns and rows",
             )
         for name in ("picture", "plane"):
             points = getattr(self, name)

@@ -14,6 +14,7 @@ from jax import Array
 from deodar.codec import composed
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, PortAxes, PortBounds, Setting
+from deodar.errors import Fix
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.convolution import along
@@ -81,9 +82,11 @@ class Project(Coupling):
                     f"shares no axis with its source: it keeps the {self.reduce} over {', '.join(there)}"
                     f" alone, and is uniform along {', '.join(here)}"
                 ),
-                (
+                Fix(
                     "Rename the axis that is meant (rename={...}), or use Weights; for one number for all"
-                    " places write Project([])"
+                    " places write Project([])",
+                    page="Rename the axis that is meant, or use Weights; for one number for all places use a"
+                    " Project without axes",
                 ),
             )
 

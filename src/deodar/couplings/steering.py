@@ -71,7 +71,7 @@ class AttractorVelocity(Coupling):
         if wanted and arriving != (wanted,) and not (wanted == 1 and arriving == ()):
             takes = "one number" if wanted == 1 else f"one axis with {wanted} samples"
             yield (
-                f"takes {takes} at its port `position`, one for each axis of its input; that has"
+                f"takes {takes} at its port 'position', one for each axis of its input; that has"
                 f" {list(arriving)} samples",
                 "Connect a position of that shape",
             )

@@ -149,7 +149,7 @@ class AxisWeights(Coupling):
             given = ", ".join(repr(a.name) for a in ins["input"]) or "none"
             yield (
                 f"acts along the axis {self._name!r}, which the input does not have; it has {given}",
-                "Write along='NAME'",
+                "Name one of these in 'along'",
             )
             return
         if self.axis.name != self._name and any(a.name == self.axis.name for a in ins["input"]):

@@ -287,7 +287,11 @@ class _Judge:
         place: tuple[str, str],
     ) -> Fit:
         if (source.id, port, target.id, name) in self.ends:
-            return Fit(*place, False, "they are connected already")
+            want = axes if axes is None else self.judged(source, port, axes, target, name)[1]
+            instead = (
+                () if axes is None or want is None or not misfit(axes, want) else offers(axes, want, self.key)
+            )
+            return Fit(*place, False, "they are connected already", instead)
         if (target.id, name) in ahead:
             return Fit(*place, False, "this would close a loop without a state in it")
         if axes is None:

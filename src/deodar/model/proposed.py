@@ -14,7 +14,6 @@ from deodar.errors import (
     Problem,
     UnknownName,
     did_you_mean,
-    joined,
 )
 from deodar.model import building, document_files, edit, find
 from deodar.model.document import Document, Leaf
@@ -122,7 +121,7 @@ def bound(checked: CheckedDocument, problem: Problem) -> Problem:
     fix = problem.fix.with_edits(edits)
     doc = checked.concerned(edits)
     if not _in_order(doc, edits):  # the lines of its text would change other axes than the edit
-        return dc.replace(problem, fix=joined(problem.fix.advice, problem.fix.otherwise))
+        return _advice(problem)
     refused = _refused(doc, edits)
     if refused:
         return dc.replace(problem, fix=_text(fix).then(f"First change {refused[0]}"))
@@ -157,7 +156,7 @@ def _advice(problem: Problem) -> Problem:
     fix = problem.fix
     if not isinstance(fix, EditFix):
         return problem
-    return dc.replace(problem, fix=joined(fix.advice, fix.otherwise))
+    return dc.replace(problem, fix=Fix(fix.advice).then(fix.otherwise))
 
 
 def _text(fix: EditFix) -> Fix:

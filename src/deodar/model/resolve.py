@@ -16,7 +16,7 @@ from typing import Any, Literal, TypeVar
 from deodar.couplings.delays import Delay
 from deodar.couplings.projections import Project
 from deodar.element import Element
-from deodar.errors import EditFix, KindError, Problem
+from deodar.errors import ConnectionFix, EditFix, KindError, Problem
 from deodar.kind_errors import errors_of_kind
 from deodar.leaves import leaves
 from deodar.model.document import Connection, Document, Entry
@@ -29,6 +29,9 @@ T = TypeVar("T")
 Instant = Literal[0, 1]
 Slot = tuple[str, str, Instant]
 """Element id, output port, and the time of reading: 0 at time t, 1 at t + dt."""
+
+BETWEEN = "Give both the same axes, or put a coupling between them"
+"""What helps where a source does not fit, for a reader of the page, which offers the couplings."""
 
 
 @dc.dataclass(frozen=True)
@@ -161,9 +164,9 @@ class _Resolver:
             ident = ring[0]
             if self.delayed & {*ring}:
                 fault = f"the axes of a loop follow only from themselves and are unknown: {loop}"
-                self.problem(
-                    ident, fault, "Connect something to it whose axes are known, or put a Project into it"
-                )
+                known = "Connect something to it whose axes are known, or put a Project into it"
+                path, ports = self.entries[ident].path, self.entries[ident].element.ports()
+                self.problem(ident, fault, ConnectionFix(known, known, ("", "", path, ports[0])))
             else:
                 self.problem(ident, f"a loop without a state in it: {loop}", self.delay(ring))
             return None
@@ -252,7 +255,7 @@ class _Resolver:
                         self.problem(
                             node.id,
                             f"nothing is connected to {node.path}.{port}, so its axes are unknown",
-                            f"Connect it: model.connect(..., {node.path!r})",
+                            ConnectionFix.into(node.path),
                         )
                         continue
                     axes = node.ins.get("input", ())
@@ -311,7 +314,7 @@ class _Resolver:
                 f"the connection {source.path}.{c.source_port} -> {node.path}.{c.target_port} says"
                 f" {c.reads!r}, but {source.path} shows no state: its output is of the same instant as its"
                 " input",
-                EditFix("Leave reads out", [self.reads(c, "")], "Or write reads='delayed'"),
+                EditFix("Leave reads out", [self.reads(c, "")], "Or let it read 'delayed'"),
             )
             return None
         return (source.id, c.source_port, 1 if c.reads == "current" else 0)
@@ -351,12 +354,13 @@ class _Resolver:
         """
         reason = misfit(axes, want)
         if reason:
+            ends = (source.path, self.stated(slot, node, port), node.path, port)
             self.problem(
                 node.id,
-                f"{source.path}.{self.stated(slot, node, port)} {describe(axes)} does not fit"
-                f" {node.path}.{port} {describe(want)}: {reason}",
-                self.renaming((source, slot, node, port), axes, want)
-                or f"Write: {_remedy(source.path, node.path, axes, want)}",
+                f"{ends[0]}.{ends[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}:"
+                f" {reason}",
+                _renaming(ends, axes, want)
+                or ConnectionFix(f"Write: {_remedy(source.path, node.path, axes, want)}", BETWEEN, ends),
             )
             return None
         key = ",".join(f"{a.name}:{a.samples}" for a in want)
@@ -374,23 +378,6 @@ class _Resolver:
                 declared=False,
             )
         return (ident, "output", 0)
-
-    def renaming(self, ends: tuple[Node, Slot, Node, str], axes: Axes, want: Axes) -> EditFix | None:
-        """Return the fix of two ports whose axes differ by the name of one axis; None: they differ more."""
-        missing, extra = _apart(want, axes), _apart(axes, want)
-        if _unlike(axes, want) or not len(missing) == len(extra) == 1:
-            return None
-        if not dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
-            return None
-        if extra[0].unit and missing[0].unit and extra[0].unit != missing[0].unit:
-            return None  # a position in degrees is none in millimetres: a person decides
-        source, slot, node, port = ends
-        renamed = ((extra[0].name, missing[0].name),)
-        between = (source.path, self.stated(slot, node, port), node.path, port)
-        return EditFix(
-            "Rename the axis by a coupling",
-            [InsertCoupling(between, "Project", tuple(a.name for a in want), renamed)],
-        )
 
     def stated(self, slot: Slot, node: Node, port: str) -> str:
         """Return the output port that the document states for a slot, also of a delay.
@@ -443,11 +430,13 @@ class _Resolver:
                 )
                 return (
                     ends,
-                    (
+                    ConnectionFix(
                         f"Give both the same axes, or write: {source} >> Resample([{names}]) >> {node.path}"
                         f" keeps the part they share and loses the rest; {source} >> Project([{names}]) >>"
                         f" {node.path} loses the places along every axis that is missing in it: it integrates"
-                        " over them"
+                        " over them",
+                        BETWEEN,
+                        (source, c.source_port, node.path, port),
                     ),
                 )
         return fault, ""
@@ -498,6 +487,20 @@ def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
     nodes = resolver.run()
     place = {e.path: k for k, e in enumerate(doc.entries)}
     return nodes, sorted(resolver.problems, key=lambda p: place.get(p.where, len(place)))
+
+
+def _renaming(ends: tuple[str, str, str, str], axes: Axes, want: Axes) -> EditFix | None:
+    """Return the fix of two ports whose axes differ by the name of one axis; None: they differ more."""
+    missing, extra = _apart(want, axes), _apart(axes, want)
+    if _unlike(axes, want) or not len(missing) == len(extra) == 1:
+        return None
+    if not dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
+        return None
+    if extra[0].unit and missing[0].unit and extra[0].unit != missing[0].unit:
+        return None  # a position in degrees is none in millimetres: a person decides
+    renamed = ((extra[0].name, missing[0].name),)
+    coupling = InsertCoupling(ends, "Project", tuple(a.name for a in want), renamed)
+    return EditFix("Rename the axis by a coupling", [coupling])
 
 
 def misfit(axes: Axes, want: Axes) -> str:

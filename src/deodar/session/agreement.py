@@ -14,7 +14,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 
 from deodar.element import Element
-from deodar.errors import Fix, Problem, RunWarning, option
+from deodar.errors import EditFix, Fix, Problem, RunWarning, option
 from deodar.model.checks.motionless import motionless
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
@@ -23,6 +23,7 @@ from deodar.numerics import units
 from deodar.numerics.axes import Axis, barely_overlap
 from deodar.numerics.positions import PositionCode, PositionUnit, PositionUnits
 from deodar.numerics.units import MetricUnit
+from deodar.proposed_edit import SetValues, rounded
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 
@@ -72,7 +73,10 @@ def _axes(path: str, sensor: Element, world: World) -> Iterator[Problem]:
                 f"its axis {axis.name!r} states the unit {axis.unit}, and the world gives {name!r}"
                 f" in {signal.unit}"
             )
-            yield Problem(path, problem, _choose(world, stated) or f"Write unit={signal.unit!r} for the axis")
+            write = Fix(
+                f"Write unit={signal.unit!r} for the axis", page=f"Give the axis the unit {signal.unit}"
+            )
+            yield Problem(path, problem, _choose(world, stated) or write)
 
 
 def _exchanges_positions(doc: Document, world: World) -> bool:
@@ -150,14 +154,12 @@ class _Tracer:
             f" {_times(ratio)}"
         )
         factors = [dict(wrong).get(a, 1.0) for a in code.axes]
-        new = [f"{g * f:.6g}" for g, f in zip(code.gains, factors, strict=True)]
-        gain = new[0] if len(set(new)) == 1 else f"[{', '.join(new)}]"
-        change = f"Set its {name}: model.set({f'{n.path}.{name}'!r}, {gain})"
+        new = tuple(rounded(g * f, 6) for g, f in zip(code.gains, factors, strict=True))
+        change = SetValues(((name, new[0] if len(set(new)) == 1 else new),), n.path)
         read = units.parse(signal.unit)
         fitting = None if read is None else units.of_size(read.quantity, read.size / ratio)
-        choose = None if fitting is None else _choose(self.world, fitting)
-        fix = choose.then(f"Or: {change[0].lower()}{change[1:]}") if choose else change
-        return Problem(n.path, problem, fix)
+        choose = None if fitting is None else _choose(self.world, fitting, "Or choose")
+        return Problem(n.path, problem, EditFix(f"Set its {name}", [change], choose or ""))
 
     def _commanded(self, n: Node, name: str) -> Iterator[Problem]:
         """Yield the problem of an element whose inputs are a command in another unit than the motor's."""
@@ -174,7 +176,9 @@ class _Tracer:
                         f"the motor {name!r} takes {unit.symbol}, and the position that {source.path} reads"
                         f" out makes all commands {_times(ratio)}"
                     )
-                    yield Problem(n.path, problem, f"Connect it through a gain: dd.Gain({ratio:.6g})")
+                    gain = f"Connect it through a gain: dd.Gain({ratio:.6g})"
+                    fix = Fix(gain, page=f"Connect it through a Gain of {ratio:.6g}")
+                    yield Problem(n.path, problem, fix)
                     return
 
     def _source(self, positions: PositionUnits) -> Node | None:
@@ -257,15 +261,16 @@ def _times(ratio: float) -> str:
     return f"{ratio:.4g} times too small" if ratio > 1 else f"{1 / ratio:.4g} times too large"
 
 
-def _choose(world: World, unit: MetricUnit) -> Fix | None:
+def _choose(world: World, unit: MetricUnit, verb: str = "Choose") -> Fix | None:
     """Return what to type for a world with lengths in another unit; None without such an argument."""
     kind = type(world).__name__
     if "unit" not in inspect.signature(type(world)).parameters:
         return None
     name = str(world.describe().get("file", "")) or "..."
     return option(
-        "Choose the unit of the world:",
+        f"{verb} the unit of the world:",
         "world",
         f'"{kind.lower()}:{name}, unit={unit.symbol}"',
         f'dd.{kind}("{name}", unit="{unit.symbol}")',
+        unit.symbol,
     )

@@ -16,11 +16,21 @@ MESSAGES = Family(Message)
 """All messages to the page; each class below is registered by a decorator."""
 
 
+class EndsView(Data, frozen=True):
+    """The ends of a connection."""
+
+    source: Id
+    source_port: str
+    target: Id
+    target_port: str
+
+
 class ListedProblem(Data, frozen=True):
     """A problem or a warning: what is wrong, where, what to type, and the element concerned, if any.
 
-    A warning does not prevent a run. `repair` says what the request of that name does about it; empty: the
-    person has to decide.
+    A warning does not prevent a run. `repair` says what the request of that name does about it; empty:
+    nothing. `wire` is a connection of which the person has to choose a part: an empty end, or the coupling
+    between two ends. `world`: another world, or another sensor or motor of the world, may solve it.
     """
 
     what: str
@@ -29,6 +39,8 @@ class ListedProblem(Data, frozen=True):
     element: Id = ""
     severity: Literal["problem", "warning"] = "problem"
     repair: str = ""
+    wire: EndsView | None = None
+    world: bool = False
 
 
 class ParameterForm(Data, frozen=True):
@@ -141,15 +153,6 @@ class ElementView(Data, frozen=True):
     pushable: bool
     kernel: bool
     effect: Sign
-
-
-class EndsView(Data, frozen=True):
-    """The ends of a connection."""
-
-    source: Id
-    source_port: str
-    target: Id
-    target_port: str
 
 
 class ConnectionView(EndsView, frozen=True):

@@ -10,7 +10,7 @@ from typing import Any
 from deodar.declarations import Cost
 from deodar.errors import DocumentError, ModelError
 from deodar.importers import stored_report
-from deodar.model import edit, plain_values, proposed
+from deodar.model import edit, plain_values
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar_studio.messages.message import made_of
@@ -19,7 +19,7 @@ from deodar_studio.project.change_queue import ChangeQueue
 from deodar_studio.project.checker import Checker
 from deodar_studio.project.conversions import Conversions
 from deodar_studio.project.recent_changes import DocumentChange, RecentChanges
-from deodar_studio.views import converted, view
+from deodar_studio.views import converted, repairs, view
 from deodar_studio.views.converted import Status
 
 
@@ -139,18 +139,20 @@ class DocumentHistory:
         return await self._commit(how(self.require_edited().document), gesture)
 
     async def repair(self, where: str, what: str) -> Cost:
-        """Make the edits that a problem of the document proposes, as one step of undo.
+        """Make the edit that a button of a problem stands for, as one step of undo.
 
         Raises:
-            ModelError: the document has no such problem, or its fix needs a decision.
+            ModelError: the document has no such problem, or it is not one of the document.
         """
-        problems = await asyncio.to_thread(self._conversions.check, self.require_edited().document)
+        doc = self.require_edited().document
+        problems = await asyncio.to_thread(self._conversions.check, doc)
         problem = next((p for p in problems if (p.where, p.what) == (where, what)), None)
         if problem is None:
             raise ModelError("this problem has no repair any more; the document has changed", where=where)
-        if not problem.edits:
-            raise ModelError("no edit alone solves this problem", where=where, fix=problem.fix_at("page"))
-        return await self.change(lambda doc: proposed.apply(doc, problem.edits))
+        repair = repairs.repair_of(doc, problem)
+        if repair is None:
+            raise ModelError("no edit solves this problem", where=where, fix=problem.fix_at("page"))
+        return await self.change(repair[1])
 
     async def describe(self, values: dict[str, Any]) -> None:
         """Change general properties of the document."""

@@ -6,6 +6,8 @@ import asyncio
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
+import msgspec
+
 from deodar.declarations import Cost
 from deodar.errors import DeodarError, DocumentError, Problem, problems_of
 from deodar.model.document import Document
@@ -77,7 +79,11 @@ class DocumentRun:
         """Return why the document does not run; an empty list if it does."""
         doc = None if self.model is None else self.model.document
         problems, paths = self._engine.failure
-        return [*view.problems(self.failure, doc), *view.problems(problems, doc, paths)]
+        ended = view.problems(problems, doc, paths)  # no edit alone continues the run
+        return [
+            *view.problems(self.failure, doc),
+            *(msgspec.structs.replace(p, repair="", wire=None) for p in ended),
+        ]
 
     def require(self) -> None:
         """Raise DocumentError if no session runs and none is being compiled."""

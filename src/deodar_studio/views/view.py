@@ -8,8 +8,8 @@ from typing import Any
 
 import msgspec
 
-from deodar.errors import EditFix
 from deodar.errors import Problem as Wrong
+from deodar.errors import WorldFix
 from deodar.experiments.design import KINDS, USUAL, Design, by_key
 from deodar.experiments.trial import TrialPlan
 from deodar.importers import stored_report
@@ -41,7 +41,7 @@ from deodar_studio.messages.to_page import (
     RecordView,
     ReportLineView,
 )
-from deodar_studio.views import converted
+from deodar_studio.views import converted, repairs
 from deodar_studio.views.converted import Converted
 
 
@@ -125,30 +125,21 @@ def problems(
     found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()
 ) -> list[ListedProblem]:
     """Convert problems, each once for every element concerned: those named in its `where`, or in `paths`."""
-    ids = {} if doc is None else _ids(doc)
+    ids = {} if doc is None else repairs.ids_of(doc)
     out: list[ListedProblem] = []
     for p in found:
-        concerned = [i for path in (p.where, *paths) for i in _named(path, ids)] or [""]
-        repair = p.fix.advice if doc is not None and isinstance(p.fix, EditFix) else ""
+        elements = [i for path in (p.where, *paths) for i in repairs.concerned(path, ids)] or [""]
+        repair = None if doc is None else repairs.repair_of(doc, p, ids)
+        buttons = {
+            "repair": "" if repair is None else repair[0],
+            "wire": repairs.wire_of(p, ids),
+            "world": isinstance(p.fix, WorldFix),
+        }
         out += [
-            made_of(ListedProblem, p, fix=p.fix_at("page"), element=ident, repair=repair)
-            for ident in dict.fromkeys(concerned)
+            made_of(ListedProblem, p, fix=p.fix_at("page"), element=ident, **buttons)
+            for ident in dict.fromkeys(elements)
         ]
     return out
-
-
-def _ids(doc: Document) -> Mapping[str, Sequence[tuple[int, str]]]:
-    """Return the ids of the elements by their paths, with their positions in the document."""
-    out: dict[str, list[tuple[int, str]]] = {}
-    for k, e in enumerate(doc.entries):
-        out.setdefault(e.path, []).append((k, e.id))
-    return out
-
-
-def _named(where: str, ids: Mapping[str, Sequence[tuple[int, str]]]) -> list[str]:
-    """Return the elements that the `where` of a problem names: `u`, `u.tau` or `u (script.py:3)`."""
-    ends = [k for k in range(len(where)) if where[k] == "." or where[k : k + 2] == " ("]
-    return [i for _, i in sorted(hit for end in [*ends, len(where)] for hit in ids.get(where[:end], ()))]
 
 
 def shown_value(doc: Document, element: str, parameter: str) -> Any:

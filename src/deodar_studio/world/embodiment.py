@@ -15,11 +15,13 @@ import numpy as np
 
 from deodar import registry
 from deodar.credentials import masked
+from deodar.element import Element
 from deodar.elements.world_ports import Motor, Sensor
-from deodar.errors import MissingExtra, Problem, WorldError, did_you_mean
+from deodar.errors import EditFix, MissingExtra, Problem, WorldError, WorldFix, did_you_mean
 from deodar.kinds.world_settings import require_settings
 from deodar.model.document import Document
-from deodar.numerics.axes import Axis
+from deodar.numerics.axes import Axis, shape
+from deodar.proposed_edit import SetValues
 from deodar.recording.opened import opened
 from deodar.recording.provenance import described
 from deodar.session import agreement
@@ -153,9 +155,12 @@ class Embodiment:
         """Return the world of a document, or those that may become it, with their titles."""
         names = signals(doc)
         world = present if present is not None and names else self.chosen
+        usable: list[tuple[str, World | type[World]]] = []
+        usable += [] if world is None else [(self.label(world), world)]
         if world is not None and not missing(world, doc):
-            return [(self.label(world), world)]
-        return [(name, cls) for name, cls in _standing().items() if names <= {*cls.sensors, *cls.motors}]
+            return usable
+        standing = _standing().items()
+        return [*usable, *((name, cls) for name, cls in standing if names <= {*cls.sensors, *cls.motors})]
 
     def kind(self, name: str) -> type[World]:
         """Return the class of a world."""
@@ -251,13 +256,34 @@ def problems(doc: Document, world: World | None) -> Sequence[Problem]:
     try:
         used(doc, world)
     except WorldError as error:
-        return error.problems
+        elements = {e.path: e.element for e in doc.entries}
+        return [_with_its_axes(p, elements.get(p.where), world) for p in error.problems]
     return ()
 
 
 def warnings(doc: Document, world: World | None) -> list[Problem]:
-    """Return the warnings about a document in a world."""
-    return [p for p in agreement.judge(doc, world) if p.severity == "warning"]
+    """Return the warnings about a document in a world; those of the world itself have no element."""
+    paths = {e.path for e in doc.entries}
+    return [
+        p if p.where in paths else dc.replace(p, fix=WorldFix(p.fix_at("page")))
+        for p in agreement.judge(doc, world)
+        if p.severity == "warning"
+    ]
+
+
+def _with_its_axes(problem: Problem, element: Element | None, world: World | None) -> Problem:
+    """Return a problem of a sensor or motor; where its samples are not those of the world, their axes are the
+    fix.
+    """
+    if world is None or not isinstance(element, (Sensor, Motor)) or problem.edits:
+        return problem
+    name = element.sensor if isinstance(element, Sensor) else element.motor
+    signal = offered.of_kind(type(element).__name__, world)[name]
+    axes = offered.axes(type(element).__name__, name, world, offered.ExampleAxes())
+    if signal.shape in (None, shape(element.axes)) or axes is None:
+        return problem
+    use = EditFix("Use its axes", [SetValues((("axes", axes),), problem.where)], problem.fix)
+    return dc.replace(problem, fix=use)
 
 
 def _lacks(element: Sensor | Motor, world: World | None) -> bool:
@@ -272,8 +298,7 @@ def _lacking(path: str, element: Sensor | Motor, world: World | None) -> Problem
     lacks = "no world was chosen that has" if world is None else f"the world {type(world).__name__} lacks"
     having = [kind for kind, cls in registry.kinds("worlds").items() if name in {**cls.sensors, **cls.motors}]
     such = f", such as {' or '.join(having)}" if having else ""
-    fix = f"Choose a world that has it{such}: the button World in the foot of the page"
-    return Problem(path, f"{lacks} the {what} {name!r}", fix)
+    return Problem(path, f"{lacks} the {what} {name!r}", WorldFix(f"Choose a world that has it{such}"))
 
 
 def preview(world: World, doc: Document | None) -> WorldPreview:

@@ -57,9 +57,9 @@ def values(kind: str, name: str, world: World | type[World], examples: ExampleAx
     """Return the values of an element for a signal of a world, axes by their properties; None: its axes are
     not known.
     """
-    axes = _axes(kind, name, world, examples)
+    its_axes = axes(kind, name, world, examples)
     key = "sensor" if kind == Sensor.__name__ else "motor"
-    return None if axes is None else {key: name, "axes": [dc.asdict(axis) for axis in axes]}
+    return None if its_axes is None else {key: name, "axes": [dc.asdict(axis) for axis in its_axes]}
 
 
 def _views(world: World | type[World], examples: ExampleAxes) -> Iterator[SignalView]:
@@ -79,7 +79,7 @@ def _title(name: str, signal: Signal, samples: list[int]) -> str:
     return f"{title}, {' x '.join(map(str, samples))} samples" if samples else title
 
 
-def _axes(kind: str, name: str, world: World | type[World], examples: ExampleAxes) -> Axes | None:
+def axes(kind: str, name: str, world: World | type[World], examples: ExampleAxes) -> Axes | None:
     """Return axes over which a signal can be read or driven: those of an example, or plain ones of its
     shape; None if there are none.
     """

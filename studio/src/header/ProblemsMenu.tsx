@@ -3,11 +3,11 @@
 import { Button, Popover, UnstyledButton } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";
 
+import { RepairButtons } from "../build/RepairButtons";
 import type { ListedProblem } from "../protocol";
 import { useStudio } from "../store";
 import { countText, isWarning } from "../problems/severity";
 import { ProblemText } from "../problems/ProblemText";
-import { RepairButton } from "../problems/RepairButton";
 import classes from "./ProblemsMenu.module.css";
 
 const NONE: ListedProblem[] = [];
@@ -41,7 +41,7 @@ export function ProblemsMenu() {
             <li key={i}>
               <Entry problem={problem} />
               <div className={classes.repair}>
-                <RepairButton problem={problem} />
+                <RepairButtons problem={problem} />
               </div>
             </li>
           ))}

@@ -47,8 +47,8 @@ def test_the_limit_shortens_the_vector_and_keeps_its_direction():
 @pytest.mark.parametrize(
     ("axes", "position", "says"),
     [
-        ([X, Y, HUE], [0.0, 0.0], "takes one axis with 3 samples at its port `position`"),
-        ([X], [0.0, 0.0], "takes one number at its port `position`"),
+        ([X, Y, HUE], [0.0, 0.0], "takes one axis with 3 samples at its port 'position'"),
+        ([X], [0.0, 0.0], "takes one number at its port 'position'"),
     ],
 )
 def test_axes_that_have_no_position_are_refused(axes, position, says):

@@ -183,7 +183,7 @@ CASES: dict[str, Case] = {
     "a boundary inside": (
         lambda: Shifted(dd.Gaussian(boundary=["zero"])),
         ParameterError,
-        ("Shifted.kernel.boundary", "Shifted(kernel, shift, boundary=...)"),
+        ("Shifted.kernel.boundary", "give it to Shifted itself"),
     ),
     "names for a table": (
         lambda: Project([X], rename="xy"),

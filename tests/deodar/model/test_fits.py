@@ -146,6 +146,15 @@ def test_a_loop_without_a_state_is_refused() -> None:
     assert by_element[u.id].reason == "they are connected already"
 
 
+def test_a_connection_that_does_not_fit_offers_couplings_in_its_place() -> None:
+    model = Model("m")
+    u, v = model.add(dd.Field("u", [X])), model.add(dd.Field("v", [dd.Axis("x", 0, 50, samples=51)]))
+    u >> v >> u
+    (fit,) = (f for f in fits.fits(model.document, u.id, "output")[0] if f.element == v.id)
+    assert fit.reason == "they are connected already" and not fit.fits
+    assert "Resample" in {offer.kind for offer in fit.offers}
+
+
 def test_unconnected_couplings_fit_everything() -> None:
     model = Model("m")
     u = model.add(dd.Field("u", [X]))

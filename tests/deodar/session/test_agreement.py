@@ -74,7 +74,7 @@ def test_positions_in_another_unit_are_refused_with_the_gain_to_type(
         dd.simulate(model, 64, world=dd.Arena(LAYOUT, unit=unit))
     (problem,) = caught.value.problems
     assert problem.where == "own place"
-    assert problem.fix.lower().endswith(f"set its gain: model.set('own place.gain', {gains}")
+    assert problem.fix.startswith(f'Set its gain: model.set("own place.gain", {gains}')
 
 
 def test_the_gain_and_the_unit_of_an_error_correct_it() -> None:
@@ -277,7 +277,7 @@ def test_a_kind_of_a_user_that_uses_positions_is_checked_and_its_parameter_named
     model.add(dd.Sensor("place", [PAIR], sensor="place")) >> model.add(Marking(1.0, name="mark"))
     (wrong,) = agreement.judge(model.document, dd.Arena(LAYOUT))
     assert wrong.where == "mark" and "with a scale of 1 on the axes 'x' and 'y' in cm" in wrong.what
-    assert wrong.fix.endswith("set its scale: model.set('mark.scale', 100)")
+    assert wrong.fix.startswith('Set its scale: model.set("mark.scale", 100)')
     model.set("mark.scale", 100.0)
     assert found(model, dd.Arena(LAYOUT)) == []
 

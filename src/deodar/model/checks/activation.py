@@ -13,7 +13,7 @@ from deodar.couplings.positions import PeakPosition, RateCode
 from deodar.elements.field import Field
 from deodar.elements.memories import MemoryTrace
 from deodar.elements.populations import RateNode
-from deodar.errors import EditFix, Problem, assign, joined
+from deodar.errors import ConnectionFix, EditFix, Fix, Problem, assign, joined
 from deodar.model.checks.resolution import fix_with_cells
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
@@ -112,7 +112,7 @@ def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> 
             f"nothing is connected to it, and its resting level {h:g} lies below its threshold {threshold:g}:"
             " it is never active"
         )
-        yield warning(n, sentence, f"Connect an input: model.connect(..., {n.path!r}); or remove it")
+        yield warning(n, sentence, ConnectionFix.into(n.path, otherwise="or remove it"))
     elif n.id in wiring.driven and at.high <= 0 and at.low < 0:
         sentence = (
             f"gets only inhibition (at most {at.high:g}), and its resting level {h:g} lies below its"
@@ -130,7 +130,7 @@ def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> 
         values = _levels(e, at)
         fix = assign("Raise its resting level", values, f"Or m{stronger[1:]}") if values else ""
         if at.low == at.high:
-            yield warning(n, sentence, f"{stronger}, in a window of time: {WINDOWS}")
+            yield warning(n, sentence, _in_a_window(f"{stronger},"))
         else:
             yield warning(n, sentence, fix or f"{stronger}, or {raised}")
 
@@ -151,7 +151,7 @@ def _excite(wiring: Wiring, n: Node, at: InputLevels) -> str:
             if isinstance(strength, float) and strength < 0:
                 return EditFix(advice, [SetValues(((name, -strength),), sources[0].path)], connect)
     if sources and at.low == at.high:
-        return f"{advice}, and let it be on in a window of time: {WINDOWS}"
+        return _in_a_window(f"{advice}, and let it be on")
     return joined(advice, connect)
 
 
@@ -167,7 +167,7 @@ def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) ->
         )
         fix = f"Use a resting_level below {at.threshold - at.low:g}; resting levels are usually negative (-5)"
         if at.low == at.high:
-            yield warning(n, sentence, f"Let its input be on in a window of time: {WINDOWS}")
+            yield warning(n, sentence, _in_a_window("Let its input be on"))
         else:
             yield warning(n, sentence, assign(_lower(at), values) if values else fix)
     elif at.rest > at.threshold + CLEAR and at.rest + at.low > at.threshold + CLEAR and n.reads["input"]:
@@ -177,6 +177,11 @@ def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) ->
         )
         lower = f"Use a resting_level below {at.threshold:g}"
         yield warning(n, sentence, assign(_lower(at), values) if values else lower)
+
+
+def _in_a_window(advice: str) -> Fix:
+    text = f"{advice} in a window of time"
+    return Fix(f"{text}: {WINDOWS}", page=text)
 
 
 def _lower(at: InputLevels) -> str:

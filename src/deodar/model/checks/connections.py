@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from deodar.couplings.arithmetic import Gain
 from deodar.elements.placeholder import Placeholder
 from deodar.elements.world_ports import Motor
-from deodar.errors import EditFix, Problem
+from deodar.errors import ConnectionFix, EditFix, Fix, Problem
 from deodar.model.paths import quote
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
@@ -42,7 +42,8 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             yield warning(n, sentence, "Name another motor, or connect both signals to one element")
     for shared in wiring.doc.parameters:
         if not shared.links and wiring.driven:
-            fix = f"Link it: model.link('element.parameter', {shared.name!r}); or remove it"
+            link = f"Link it: model.link('element.parameter', {shared.name!r}); or remove it"
+            fix = Fix(link, page="Let it drive a parameter, or remove it")
             yield Problem(shared.name, "the document parameter drives nothing", fix, "warning")
 
 
@@ -53,17 +54,18 @@ def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
             yield warning(
                 n,
                 f"nothing is connected to its port {port!r}, so {NEEDED[port]}",
-                f"Connect it: model.connect(..., '{n.path}.{port}')",
+                ConnectionFix.into(n.path, port),
             )
     if type(e).__name__ in IDLE and not n.reads.get("input"):
         yield warning(
             n,
             "nothing is connected to it, so it does nothing",
-            f"Connect it: model.connect(..., {n.path!r}); or remove it",
+            ConnectionFix.into(n.path, otherwise="or remove it"),
         )
     # a model may have a sensor only to record it
     if not e.ports() and not e.external and not wiring.readers[n.id]:
-        yield warning(n, "nothing reads it", f"Connect it: model.connect({n.path!r}, ...); or remove it")
+        fix = ConnectionFix.out_of(n.path, next(iter(n.outs)), "or remove it")
+        yield warning(n, "nothing reads it", fix)
     if isinstance(e, Placeholder) and wiring.readers[n.id]:
         yield warning(
             n,

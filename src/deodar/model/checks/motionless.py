@@ -54,7 +54,8 @@ def _motionless(wiring: Wiring, step: float) -> Iterator[Problem]:
                 f"does not move in single precision: a step changes it by at most {change:.2g}, and numbers"
                 f" near {_begin(n):g} lie {spacing:.2g} apart"
             )
-            fix = option("Compute in double precision:", "precision", "float64", '"float64"')
+            precision = ("precision", "float64", '"float64"', "with a script or a command")
+            fix = option("Compute in double precision:", *precision)
             yield Problem(n.path, sentence, fix, "warning")
 
 

@@ -35,7 +35,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
                 "its noise is white in space, which has no limit on a grid: with more samples drift and rates"
                 " change, whatever the quadrature"
             )
-            advice = "Give it a length of one step, and the strength that keeps the integral of the noise"
+            advice = "Give it a length of one step, and keep its integral"
             yield warning(n, sentence, assign(advice, values))
 
 

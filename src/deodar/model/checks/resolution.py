@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from deodar.elements.field import Field
-from deodar.errors import DeodarError, EditFix, Problem
+from deodar.errors import DeodarError, EditFix, Fix, Problem
 from deodar.leaves import per_axis, replace
 from deodar.model import document_files
 from deodar.model.checks._grid_errors import QUADRATURES, REST, STEEPEST, coarsest, percent
@@ -69,15 +69,19 @@ def _finer(wiring: Wiring, field: Field) -> str:
     samples, advice = _samples(field), "Use more samples"
     if field.quadrature == "cell":
         return EditFix(advice, _axis_edits(wiring, samples)) if samples else advice
-    lines = " and ".join(f"samples={count} on {axis.name!r}" for axis, count in samples)
+    script, page = (
+        " and ".join(f"{text.format(count)} on {axis.name!r}" for axis, count in samples)
+        for text in ("samples={}", "{} samples")
+    )
     factor = math.prod(count / axis.samples for axis, count in samples)
     if samples and factor <= CHEAPER[min(len(field.axes), len(CHEAPER)) - 1]:
-        cells = 'Or write quadrature="cell", which costs more here'
+        costs = "which costs more here"
+        cells = Fix(f'Or write quadrature="cell", {costs}', page=f"Or average the output over cells, {costs}")
         return EditFix(advice, _axis_edits(wiring, samples), cells)
     needed = _samples(dc.replace(field, quadrature="cell"))  # of a grid that is too coarse for both
     advice = "Average the output over cells" + (" of a finer grid" if needed else "")
     edits = [_over_cells(field, {}), *_axis_edits(wiring, needed)]
-    return EditFix(advice, edits, f"Or write {lines}" if lines else "")
+    return EditFix(advice, edits, Fix(f"Or write {script}", page=f"Or take {page}") if samples else "")
 
 
 def _samples(field: Field) -> list[tuple[Axis, int]]:

@@ -83,7 +83,7 @@ def _growing(wiring: Wiring, start: Node) -> list[tuple[Node, float]]:
 def _weaker(loop: list[tuple[Node, float]], gain: float) -> str:
     """Return the fix for a loop that grows: a smaller factor of one of its elements."""
     advice = "Make the product of its gains smaller than 1"
-    saturate = "Or take a sigmoid that saturates: Logistic()"
+    saturate = "Or take a sigmoid that saturates, such as Logistic"
     for n, _ in loop:
         e = n.element
         path, factor = (

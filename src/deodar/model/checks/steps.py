@@ -124,7 +124,9 @@ def _learning(n: Node) -> Iterator[Problem]:
         return
     if e.rate == 0 and e.start is None and e.initial == 0:
         sentence = "its rate is 0 and its weights begin at 0: it learns nothing, and gives 0"
-        yield warning(n, sentence, assign("Give it a rate", {"rate": 0.01}, "Or give it weights: start=..."))
+        yield warning(
+            n, sentence, assign("Give it a rate", {"rate": 0.01}, "Or give it weights to start with")
+        )
     if isinstance(e, Hebbian) and 0 < e.saturation < e.initial and e.start is None:
         sentence = (
             f"its initial weights of {e.initial:g} lie above its saturation {e.saturation:g}: the first"

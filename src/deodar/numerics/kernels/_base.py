@@ -127,7 +127,7 @@ class Kernel(Part):
                         f"{p.name} is {v:g}, more than {WIDEST:g} times the axis {axis.name!r}"
                         f" ({axis.range:g}): a kernel this wide is constant. Give at most"
                         f" {WIDEST * axis.range:g}; for an input that is the same everywhere take a"
-                        " Project([]) and a Gain"
+                        " Project without axes and a Gain"
                     )
                     break
 

@@ -342,7 +342,7 @@ class Shifted(Kernel):
         if self.kernel.boundary is not None:
             yield (
                 "kernel.boundary",
-                "belongs to the shifted kernel: write Shifted(kernel, shift, boundary=...)",
+                "belongs to the shifted kernel: give it to Shifted itself",
             )
 
     def validate_axes(self, axes: Axes) -> Iterator[str]:

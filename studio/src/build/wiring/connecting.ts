@@ -53,16 +53,33 @@ export async function finish(at: Point, to: WireTarget | null): Promise<void> {
     const ends = between(known.from, known.side, fit);
     await (moved === undefined ? connect(ends) : reconnect(moved, ends));
   } else {
-    useChooser.getState().open({
-      label: "Choose a coupling",
-      placeholder: "Coupling",
-      hint: fit.reason,
-      at,
-      entries: fit.offers.map((offer) =>
-        offerEntry("Couplings that fit", known.from, known.side, fit, offer, moved),
-      ),
-      empty: "No coupling matches",
-    });
+    offerCouplings(at, known.from, known.side, fit, moved);
+  }
+}
+
+function offerCouplings(at: Point | null, from: End, side: Side, fit: FitView, replaces?: WireEnds): void {
+  useChooser.getState().open({
+    label: "Choose a coupling",
+    placeholder: "Coupling",
+    hint: fit.reason,
+    at,
+    entries: fit.offers.map((offer) => offerEntry("Couplings that fit", from, side, fit, offer, replaces)),
+    empty: "No coupling matches",
+  });
+}
+
+// A connection of which a problem says what is missing: an end, or the coupling between its ends.
+export async function complete(wire: WireEnds): Promise<void> {
+  if (wire.source === "" || wire.target === "") {
+    useStudio.getState().select([wire.source || wire.target]);
+    return connectByKeys(wire.source_port || wire.target_port);
+  }
+  const from = { element: wire.source, port: wire.source_port };
+  const fits = await begin(from, "source");
+  end();
+  const fit = fits === null ? undefined : fitOf(fits, wire.target, wire.target_port);
+  if (fit !== undefined) {
+    offerCouplings(besideOnScreen(wire.target), from, "source", fit, wire);
   }
 }
 
@@ -217,7 +234,7 @@ function called({ element, port }: End): string {
   return ports.length > 1 ? `${found?.path ?? ""}.${port}` : (found?.path ?? "");
 }
 
-function besideOnScreen(element: string): Point | null {
+export function besideOnScreen(element: string): Point | null {
   const box = getStage()?.around.querySelector(
     `.react-flow__node[data-id="${CSS.escape(element)}"], [data-element="${CSS.escape(element)}"]`,
   );

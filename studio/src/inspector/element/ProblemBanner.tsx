@@ -2,7 +2,7 @@
 
 import { IconAlertOctagon, IconAlertTriangle } from "@tabler/icons-react";
 
-import { RepairButton } from "../../problems/RepairButton";
+import { RepairButtons } from "../../build/RepairButtons";
 import { isWarning } from "../../problems/severity";
 import type { ListedProblem } from "../../protocol";
 import { useStudio } from "../../store";
@@ -33,7 +33,7 @@ export function ProblemBanner({ element }: { element: string }) {
             {problem.fix !== undefined && problem.fix !== "" && (
               <div className="problem-fix">{problem.fix}</div>
             )}
-            <RepairButton problem={problem} />
+            <RepairButtons problem={problem} />
           </li>
         ))}
       </ul>

@@ -1,0 +1,79 @@
+// What a person can do about a problem: choose what is missing, or make the edit that solves it, as one step
+// of undo.
+
+import { Button, Group } from "@mantine/core";
+import { useState } from "react";
+
+import { ask } from "../dialogs/questions";
+import { newGesture } from "../gesture";
+import type { ListedProblem } from "../protocol";
+import { request } from "../socket";
+import { useStudio } from "../store";
+import { useChooser } from "./palette/choice";
+import { signalEntries } from "./palette/palette";
+import { besideOnScreen, complete } from "./wiring/connecting";
+
+type Action = { label: string; run: () => unknown };
+
+export function RepairButtons({ problem }: { problem: ListedProblem }) {
+  const [busy, setBusy] = useState("");
+  const actions = actionsOf(problem);
+  if (actions.length === 0) {
+    return null;
+  }
+  return (
+    <Group gap={6} mt={6}>
+      {actions.map(({ label, run }) => (
+        <Button
+          key={label}
+          size="compact-xs"
+          variant="default"
+          loading={busy === label}
+          onClick={() => {
+            setBusy(label);
+            void Promise.resolve(run()).finally(() => setBusy(""));
+          }}
+        >
+          {label}
+        </Button>
+      ))}
+    </Group>
+  );
+}
+
+function actionsOf({ what, where = "", element = "", repair = "", wire, world }: ListedProblem): Action[] {
+  const actions: Action[] = [];
+  if (wire != null) {
+    const label = wire.source === "" || wire.target === "" ? "Connect…" : "Choose a coupling…";
+    actions.push({ label, run: () => complete(wire) });
+  }
+  if (world === true) {
+    const kind = useStudio.getState().elements.get(element)?.kind;
+    if (kind !== undefined) {
+      actions.push({ label: `Choose a ${kind.toLowerCase()}…`, run: () => chooseSignal(element, kind) });
+    }
+    actions.push({ label: "Other world…", run: () => void ask("world", null) });
+  }
+  if (repair !== "") {
+    actions.push({ label: repair, run: () => request({ type: "repair", where, what }) });
+  }
+  return actions;
+}
+
+// Another sensor or motor of the world for an element, with its axes.
+function chooseSignal(element: string, kind: string): void {
+  const { kinds, offered } = useStudio.getState();
+  const entries = signalEntries(offered, kinds, (_, values) => {
+    const gesture = newGesture();
+    for (const [parameter, value] of Object.entries(values ?? {})) {
+      void request({ type: "set", element, parameter, value, gesture });
+    }
+  });
+  useChooser.getState().open({
+    label: `Choose a ${kind.toLowerCase()}`,
+    placeholder: "Name",
+    at: besideOnScreen(element),
+    entries: entries.filter((entry) => entry.kind?.name === kind),
+    empty: "The world has none",
+  });
+}

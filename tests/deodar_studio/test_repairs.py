@@ -1,0 +1,195 @@
+"""Every problem of a document has words for the page, and a button whose press removes it."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses as dc
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+import pytest
+
+import deodar as dd
+from deodar.couplings.arithmetic import Product
+from deodar.couplings.projections import Resample
+from deodar.element import PortAxes
+from deodar.elements.stimuli import Boost
+from deodar.errors import Problem
+from deodar.model.check import check
+from deodar.model.document import Document
+from deodar_studio.views import view
+from deodar_studio.views.repairs import repair_of
+from deodar_studio.world import embodiment
+from tests.deodar.model.proven_fix import finding
+from tests.deodar.model.test_fixes import DECISIONS, DOCUMENTS, FURTHER, STRUCTURAL
+from tests.deodar.session.test_agreement import coding
+
+SOURCES = Path(dd.__file__).parent
+X, Y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 10, samples=11)
+
+CODE = re.compile(r"\bmodel\.\w|\bdd\.|--|`|\w\(|\w=[\w\"'\[{]|\.\.\.")
+"""What only a script or a shell can use."""
+
+
+@dataclass(frozen=True)
+class Twofold(Boost):
+    """A kind whose output has the name of a parameter."""
+
+    def outputs(self, ins: PortAxes) -> PortAxes:
+        return {"amplitude": tuple(self.axes)}
+
+
+@dataclass(frozen=True)
+class Failing(Boost):
+    """A kind that raises."""
+
+    def outputs(self, ins: PortAxes) -> PortAxes:
+        raise ValueError("no outputs")
+
+
+def _fields(*axes: Sequence[dd.Axis]) -> dd.Model:
+    model = dd.Model("m")
+    for name, its_axes in zip("uv", axes, strict=False):
+        model.add(dd.Field(name, its_axes))
+    return model
+
+
+def _structures() -> Iterator[tuple[str, Document]]:
+    """Yield documents with the problems of a structure that have no document elsewhere."""
+    model = _fields([X])
+    model.add(dd.Field("wide", [X], kernel=[dd.Gaussian(1, [1, 2])]))
+    model.add(dd.Field("one name", [X, dd.Axis("x", 0, 5, samples=6)]))
+    model.add(Twofold("twofold", [X]))
+    yield "an element of its own", model.document
+    model = _fields([X])
+    model.add(Failing("failing", [X]))
+    yield "a kind that fails", model.document
+    model = _fields([X], [X])
+    model["u"] >> model["v"]
+    wires = tuple(dc.replace(c, source_port="nothing") for c in model.document.connections)
+    yield "a port that is not there", dc.replace(model.document, connections=wires)
+    model = _fields([X], [X, Y])
+    product = model.add(Product(name="product"))
+    model.connect("u", product)
+    model.connect("v", product["factor"])
+    yield "a factor with more axes", model.document
+    model = _fields([Y])
+    model["u"] >> Resample([X], name="resample")
+    yield "a coupling of other axes", model.document
+
+
+MODELS = FURTHER | STRUCTURAL | {name: model for name, (model, _) in DECISIONS.items()}
+ALL = DOCUMENTS | {name: model.document for name, model in MODELS.items()} | dict(_structures())
+PROBLEMS = [
+    pytest.param(doc, problem, id=f"{name}: {problem.what[:40]}")
+    for name, doc in ALL.items()
+    for problem in check(doc)
+]
+
+
+@pytest.mark.parametrize(("doc", "problem"), PROBLEMS)
+def test_a_problem_has_words_and_a_button_that_removes_it(doc: Document, problem: Problem) -> None:
+    (listed, *_) = view.problems([problem], doc)
+    assert not CODE.search(f"{listed.where} {listed.what} {listed.fix} {listed.repair}"), listed
+    repair = repair_of(doc, problem)
+    assert repair is not None and listed.repair == repair[0] and len(listed.repair) < 80
+    assert finding(problem) not in map(finding, check(repair[1](doc)))
+
+
+def reports(path: Path) -> Iterator[int]:
+    """Yield the lines of a file that report a problem of the structure."""
+    for n in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(n, ast.Call) and ast.unparse(n.func) in ("self.problem", "Problem"):
+            yield n.lineno
+
+
+def test_every_line_that_reports_a_structure_reports_it_in_one_of_the_documents() -> None:
+    """So a new problem needs a document, and with it words and a button."""
+    files = [SOURCES / "model" / name for name in ("resolve.py", "order.py")]
+    lines = {(str(path), line) for path in files for line in reports(path)}
+    seen = set[tuple[str, int]]()
+
+    def trace(frame: FrameType, event: str, _: Any) -> Any:
+        if frame.f_code.co_filename not in map(str, files):
+            return None
+        seen.add((frame.f_code.co_filename, frame.f_lineno))
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        for doc in ALL.values():
+            check(dc.replace(doc))  # the graph of a document is known
+    finally:
+        sys.settrace(before)
+    assert lines - seen == set()
+
+
+REPORTS = ("warning", "Problem", "self.problem", "EditFix", "assign")
+READERS = ("Fix", "ConnectionFix", "option")
+"""What states a text for each reader."""
+
+
+def texts(node: ast.AST) -> Iterator[str]:
+    """Yield the texts in a part of a program that all readers get."""
+    if isinstance(node, ast.Call) and ast.unparse(node.func).partition(".")[0] in READERS:
+        return
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    for inner in ast.iter_child_nodes(node):
+        yield from texts(inner)
+
+
+def test_no_line_that_reports_a_mistake_writes_code_for_all_readers() -> None:
+    """Those of kinds state no fix, or one in words."""
+    paths = [
+        p
+        for folder in ("model/checks", "elements", "couplings", "numerics")
+        for p in (SOURCES / folder).rglob("*.py")
+    ]
+    code: list[str] = []
+    for path in [*paths, SOURCES / "session" / "agreement.py", SOURCES / "model" / "resolve.py"]:
+        for n in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(n, ast.Yield) or (isinstance(n, ast.Call) and ast.unparse(n.func) in REPORTS):
+                code += [f"{path.name}:{n.lineno}: {text}" for text in texts(n) if CODE.search(text)]
+    assert code == []
+
+
+def _in_a_world(sort: str) -> tuple[dd.World, dd.Model]:
+    """Return a world, and a model that has one problem or warning in it."""
+    if sort == "another unit":
+        return dd.Arena("blocks"), coding()
+    model = dd.Model("m", dt=64)
+    if sort == "another number of samples":
+        model.add(dd.Sensor("eyes", [dd.Axis("of", 0, 8, 9)], "infrared"))
+    elif sort == "no such motor":
+        model.add(dd.Motor("arm", motor="arm"))
+    else:
+        model.add(dd.Sensor("eye", [X, Y], sensor="picture"))
+    return dd.Arena("blocks"), model
+
+
+@pytest.mark.parametrize(
+    ("sort", "repair", "world"),
+    [
+        ("no such sensor", "Remove it", True),
+        ("no such motor", "Remove it", True),
+        ("another number of samples", "Use its axes", False),
+        ("another unit", "Set its gain", False),
+    ],
+)
+def test_a_problem_of_a_world_has_words_and_a_button_that_removes_it(
+    sort: str, repair: str, world: bool
+) -> None:
+    arena, model = _in_a_world(sort)
+    (problem,) = embodiment.problems(model.document, arena)
+    (listed,) = view.problems([problem], model.document)
+    assert not CODE.search(f"{listed.where} {listed.what} {listed.fix} {listed.repair}"), listed
+    assert (listed.repair, listed.world) == (repair, world)
+    button = repair_of(model.document, problem)
+    assert button is not None and not embodiment.problems(button[1](model.document), arena)
