@@ -159,8 +159,8 @@ class Embodiment:
         usable += [] if world is None else [(self.label(world), world)]
         if world is not None and not missing(world, doc):
             return usable
-        standing = _standing().items()
-        return [*usable, *((name, cls) for name, cls in standing if names <= {*cls.sensors, *cls.motors})]
+        usable += [(name, cls) for name, cls in _standing().items() if names <= {*cls.sensors, *cls.motors}]
+        return usable or [*_standing().items()]  # no world has all: another sensor or motor is to be chosen
 
     def kind(self, name: str) -> type[World]:
         """Return the class of a world."""
