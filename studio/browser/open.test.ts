@@ -120,12 +120,14 @@ test("a dropped file of 200 MB is refused by the page, and so is a long text in 
     const carried = new DataTransfer();
     carried.items.add(new File([new Uint8Array(200 * 2 ** 20)], "large.json"));
     document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: carried, bubbles: true }));
+  });
+  const messages = page.getByRole("region", { name: "Messages" });
+  await messages.getByText("large.json is larger than 40 MB.").waitFor();
+  await page.evaluate(() => {
     const text = new DataTransfer();
     text.setData("text/plain", " {".repeat(21 * 2 ** 20));
     document.dispatchEvent(new ClipboardEvent("paste", { clipboardData: text, bubbles: true }));
   });
-  const messages = page.getByRole("region", { name: "Messages" });
-  await messages.getByText("large.json is larger than 40 MB.").waitFor();
   await messages.getByText("The text in the clipboard is larger than 40 MB.").waitFor();
   expect((await observer.ask({ type: "export_script" })).text).toContain("dd.Model");
 });

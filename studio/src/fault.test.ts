@@ -10,22 +10,40 @@ import { useStudio } from "./store";
 vi.mock("./plots/export/save", () => ({ saveFile: vi.fn() }));
 beforeEach(fresh);
 
-const offer = () => useStudio.getState().notices[0]?.offer;
+const offers = () => useStudio.getState().notice?.offers ?? [];
+const press = (label: string) =>
+  offers()
+    .find((offer) => offer.label === label)
+    ?.run();
+const what = "This is an error of deodar itself (KeyError: 'x').";
+const text = "deodar 0.2.0 on Python 3.11";
 
-test("an error of deodar itself offers the text of a fault report", async () => {
-  const what = "This is an error of deodar itself (KeyError: 'x').";
-  server({ problems: [{ what }], fault: true }, { text: "deodar 0.2.0 on Python 3.11" });
-  await request({ type: "undo" });
+test("an error of deodar itself says what failed, and has the details and a report", async () => {
+  const writeText = vi.fn();
+  vi.stubGlobal("navigator", { clipboard: { writeText } });
+  server({ problems: [{ what }], fault: true }, { text });
+  await request({ type: "apply_preset", path: "a.json" });
+  expect(notices()).toEqual(["error: Apply preset failed."]);
+  expect(offers().map(({ label }) => label)).toEqual(["Copy the report", "Details"]);
+  press("Details");
   expect(notices()).toEqual([`error: ${what}`]);
-  expect(offer()?.label).toBe("Save a fault report");
-  await offer()?.run();
-  expect(sent.map((message) => message.type)).toEqual(["undo", "fault_report"]);
-  const [blob, title, suffix] = vi.mocked(saveFile).mock.calls[0] ?? [];
-  expect([await blob?.text(), title, suffix]).toEqual(["deodar 0.2.0 on Python 3.11", "fault-report", "txt"]);
+  await press("Copy the report");
+  expect(writeText).toHaveBeenCalledExactlyOnceWith(text);
+  expect(sent.map((message) => message.type)).toEqual(["apply_preset", "fault_report"]);
 });
 
-test("a refusal offers no report", async () => {
-  server({ problems: [{ what: "There is nothing to undo." }] });
+test("a page that may not write to the clipboard saves the report", async () => {
+  vi.stubGlobal("navigator", {});
+  server({ problems: [{ what }], fault: true }, { text });
   await request({ type: "undo" });
-  expect(offer()).toBeUndefined();
+  await press("Copy the report");
+  const [blob, title, suffix] = vi.mocked(saveFile).mock.calls[0] ?? [];
+  expect([await blob?.text(), title, suffix]).toEqual([text, "fault-report", "txt"]);
+});
+
+test("a refusal offers no report, and all its problems are one message", async () => {
+  server({ problems: [{ what: "no tau" }, { what: "no axes" }] });
+  await request({ type: "undo" });
+  expect(notices()).toEqual(["error: no tau", "error: no axes"]);
+  expect(offers()).toEqual([]);
 });

@@ -1,9 +1,10 @@
 // The one connection to the server: it reconnects after a loss, and then requests everything again.
 
 import { addressed } from "./addressed";
+import { timeText } from "./draw/text";
 import { decode } from "./frames";
 import { saveFile } from "./plots/export/save";
-import type { Answer, Fits, Folder, ToPage, ToServer } from "./protocol";
+import type { Answer, Fits, Folder, ListedProblem, ToPage, ToServer } from "./protocol";
 import { withoutNew } from "./problems/waiting";
 import { isRefused } from "./refused";
 import { type Offer, useStudio } from "./store";
@@ -142,21 +143,41 @@ class Socket {
 
 export const socket = new Socket();
 
-// Ask; problems become notices. True where it was done.
+// Ask; problems become a notice.
 export async function request(message: ToServer): Promise<Answer> {
   const { answer } = await socket.ask(message);
-  for (const problem of answer.problems ?? []) {
-    useStudio.getState().notify(problem, "error", answer.fault ? REPORT : undefined);
+  const { problems = [], fault } = answer;
+  if (fault === true) {
+    tellFault(message, problems);
+  } else if (problems.length > 0) {
+    useStudio.getState().notify(problems);
   }
   return answer;
 }
 
-// The text that `deodar doctor --report` writes, to the folder of downloads.
-async function saveReport(): Promise<void> {
+// deodar itself failed: what was asked for has no effect.
+function tellFault({ type }: ToServer, problems: readonly ListedProblem[]): void {
+  const { clock, document, notify } = useStudio.getState();
+  const asked = type.charAt(0).toUpperCase() + type.slice(1).replaceAll("_", " ");
+  const stands =
+    clock === null || document === null
+      ? ""
+      : ` The run is as it was at ${timeText(clock.time, document.time_unit)}.`;
+  const copy: Offer = { label: "Copy the report", run: copyReport };
+  const details: Offer = { label: "Details", run: () => notify(problems, "error", copy) };
+  notify({ what: `${asked} failed.${stands}` }, "error", copy, details);
+}
+
+// The text that `deodar doctor --report` writes; a page that may not write to the clipboard saves it.
+async function copyReport(): Promise<void> {
   const { text = "" } = await request({ type: "fault_report" });
-  if (text !== "") {
+  if (text === "") {
+    return;
+  }
+  try {
+    await navigator.clipboard.writeText(text);
+    useStudio.getState().notify({ what: "The report is in the clipboard." }, "info");
+  } catch {
     saveFile(new Blob([text], { type: "text/plain" }), "fault-report", "txt");
   }
 }
-
-const REPORT: Offer = { label: "Save a fault report", run: saveReport };

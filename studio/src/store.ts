@@ -32,7 +32,12 @@ export type Connection = "connecting" | "open" | "lost" | "refused";
 // What can be done about a notice, by a button.
 export type Offer = { label: string; run: () => unknown };
 
-export type Notice = { id: number; problem: ListedProblem; level: "error" | "info"; offer?: Offer };
+export type Notice = {
+  id: number;
+  problems: readonly ListedProblem[];
+  level: "error" | "info";
+  offers: readonly Offer[];
+};
 
 export type Studio = {
   connection: Connection;
@@ -65,15 +70,18 @@ export type Studio = {
   // The sensors and motors of worlds that the document can use.
   offered: WorldSignals[];
   selected: string[];
-  notices: Notice[];
+  notice: Notice | null; // at most one: it would cover more of the page
   take: (message: ToPage) => void;
   connect: (connection: Connection) => void;
   select: (ids: string[]) => void;
-  notify: (problem: ListedProblem, level?: Notice["level"], offer?: Offer) => void;
-  dismiss: (id: number) => void;
+  notify: (
+    problem: ListedProblem | readonly ListedProblem[],
+    level?: Notice["level"],
+    ...offers: Offer[]
+  ) => void;
+  dismiss: () => void;
 };
 
-const MOST_NOTICES = 5;
 let lastNotice = 0;
 
 export const useStudio = create<Studio>((set) => ({
@@ -98,7 +106,7 @@ export const useStudio = create<Studio>((set) => ({
   report: null,
   offered: [],
   selected: [],
-  notices: [],
+  notice: null,
   take: (message) => set((state) => taken(state, message)),
   connect: (connection) =>
     set((state) => ({
@@ -106,11 +114,9 @@ export const useStudio = create<Studio>((set) => ({
       losses: state.losses + (state.connection === "open" && connection !== "open" ? 1 : 0),
     })),
   select: (selected) => set({ selected }),
-  notify: (problem, level = "error", offer) =>
-    set((state) => ({
-      notices: [...state.notices, { id: ++lastNotice, problem, level, offer }].slice(-MOST_NOTICES),
-    })),
-  dismiss: (id) => set((state) => ({ notices: state.notices.filter((n) => n.id !== id) })),
+  notify: (problem, level = "error", ...offers) =>
+    set({ notice: { id: ++lastNotice, problems: [problem].flat(), level, offers } }),
+  dismiss: () => set({ notice: null }),
 }));
 
 function taken(state: Studio, message: ToPage): Partial<Studio> {
@@ -128,8 +134,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
         document: message.document,
         elements,
         selected: fresh ? [] : state.selected.filter((id) => elements.has(id)),
-        // messages on the previous document no longer apply
-        notices: fresh ? [] : state.notices,
+        // a message on the previous document no longer applies
+        notice: fresh ? null : state.notice,
       };
     }
     case "changed":

@@ -161,7 +161,7 @@ describe("opening", () => {
     server({ imported: "Imported from a.json (another tool): 1 element." });
     expect(await takeFile(new File(["{}"], "a.json"))).toBe(true);
     expect(notices()).toEqual(["info: Imported from a.json (another tool): 1 element."]);
-    useStudio.getState().notices[0]?.offer?.run();
+    useStudio.getState().notice?.offers[0]?.run();
     expect(openTool).toHaveBeenCalledWith("report");
   });
 
@@ -201,7 +201,7 @@ describe("saving", () => {
     ]);
     expect(sent[1]).toEqual({ type: "save", path: "", replace: true });
     expect(sent[3]).toEqual({ type: "save", path: "models/b.json", replace: true });
-    expect(notices()).toEqual(["info: Saved as a.json", "info: Saved as models/b.json"]);
+    expect(notices()).toEqual(["info: Saved as models/b.json"]);
   });
 
   it("writes to another file if the user chooses so", async () => {
@@ -249,7 +249,7 @@ describe("a dropped record", () => {
     expect(notices()).toEqual([
       "error: The folder of the studio, /data/models, contains no record other.nc.",
     ]);
-    expect(useStudio.getState().notices[0]?.problem.fix).toMatch(/deodar studio PATH\/other\.nc$/);
+    expect(useStudio.getState().notice?.problems[0]?.fix).toMatch(/deodar studio PATH\/other\.nc$/);
     expect(sent).toEqual([{ type: "list_folder", path: "" }]);
   });
 
@@ -266,7 +266,7 @@ describe("a dropped record", () => {
   it("is refused as a zip file", async () => {
     server();
     expect(await takeDropped({ file: new File([], "night.zarr.zip"), folder: false })).toBe(false);
-    expect(useStudio.getState().notices[0]?.problem.fix).toMatch(/^Unpack it/);
+    expect(useStudio.getState().notice?.problems[0]?.fix).toMatch(/^Unpack it/);
     expect(sent).toEqual([]);
   });
 });
@@ -286,12 +286,17 @@ describe("a dropped file", () => {
   it("is refused without a sensor, or if its type is unknown", async () => {
     useStudio.setState({ kinds: worlds });
     server();
-    expect(await takeFile(new File([], "a.png", { type: "image/png" }))).toBe(false);
-    expect(await takeFile(new File([], "a.txt", { type: "text/plain" }))).toBe(false);
+    for (const file of [
+      new File([], "a.png", { type: "image/png" }),
+      new File([], "a.txt", { type: "text/plain" }),
+    ]) {
+      expect(await takeFile(file)).toBe(false);
+      expect(notices()).toEqual([expect.stringContaining(file.name)]);
+    }
     const large = new File([], "a.json");
     Object.defineProperty(large, "size", { value: 2 ** 30 });
     expect(await takeFile(large)).toBe(false);
     expect(sent).toEqual([]);
-    expect(notices()).toHaveLength(3);
+    expect(notices()).toEqual([expect.stringContaining("a.json is larger than")]);
   });
 });

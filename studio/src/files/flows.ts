@@ -250,11 +250,11 @@ function arrived({ imported = "", text = "" }: Answer): boolean {
   return true;
 }
 
-// Problems become notices.
+// Problems become a notice.
 export function done(answer: Answer): boolean {
   const problems = answer.problems ?? [];
-  for (const problem of problems) {
-    useStudio.getState().notify(problem);
+  if (problems.length > 0) {
+    useStudio.getState().notify(problems);
   }
   return problems.length === 0;
 }

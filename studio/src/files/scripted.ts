@@ -31,7 +31,11 @@ export function person(...answers: unknown[]): Asked[] {
   return questions;
 }
 
-export const notices = () => useStudio.getState().notices.map((n) => `${n.level}: ${n.problem.what}`);
+// What the page says.
+export function notices(): string[] {
+  const { notice } = useStudio.getState();
+  return notice?.problems.map(({ what }) => `${notice.level}: ${what}`) ?? [];
+}
 
 // Resets questions and answers, as before the first test.
 export function fresh(): void {

@@ -1,6 +1,7 @@
-// Notices at the lower right. Errors and offers stay until dismissed, others disappear after some time.
+// What happened last, at the lower left. An error or an offer stays until dismissed, or until something else
+// happens; anything else disappears after some time.
 
-import { Button, CloseButton } from "@mantine/core";
+import { Button, CloseButton, Group } from "@mantine/core";
 import { IconAlertTriangle, IconCircleCheck } from "@tabler/icons-react";
 import { useEffect } from "react";
 
@@ -11,46 +12,50 @@ import classes from "./Notices.module.css";
 const INFO_MS = 6000;
 
 export function Notices() {
-  const notices = useStudio((state) => state.notices);
+  const notice = useStudio((state) => state.notice);
   return (
-    <section className={classes.stack} aria-label="Messages" aria-live="polite">
-      {notices.map((notice) => (
-        <NoticeCard key={notice.id} notice={notice} />
-      ))}
+    <section className={classes.corner} aria-label="Messages" aria-live="polite">
+      {notice !== null && <NoticeCard key={notice.id} notice={notice} />}
     </section>
   );
 }
 
-function NoticeCard({ notice: { id, level, problem, offer } }: { notice: Notice }) {
+function NoticeCard({ notice: { level, problems, offers } }: { notice: Notice }) {
   const dismiss = useStudio((state) => state.dismiss);
+  const stays = level === "error" || offers.length > 0;
   useEffect(() => {
-    if (level === "error" || offer !== undefined) {
+    if (stays) {
       return;
     }
-    const timer = setTimeout(() => dismiss(id), INFO_MS);
+    const timer = setTimeout(dismiss, INFO_MS);
     return () => clearTimeout(timer);
-  }, [id, level, offer, dismiss]);
+  }, [stays, dismiss]);
   const Icon = level === "error" ? IconAlertTriangle : IconCircleCheck;
   return (
     <div className={classes.notice} data-level={level}>
       <Icon size={18} className={classes.icon} aria-label={level === "error" ? "Problem" : "Done"} />
       <div className={classes.text}>
-        <ProblemText problem={problem} />
-        {offer !== undefined && (
-          <Button
-            size="compact-xs"
-            variant="light"
-            mt={6}
-            onClick={() => {
-              dismiss(id);
-              offer.run();
-            }}
-          >
-            {offer.label}
-          </Button>
-        )}
+        {problems.map((problem, i) => (
+          <ProblemText key={i} problem={problem} />
+        ))}
+        <Group gap={6}>
+          {offers.map(({ label, run }) => (
+            <Button
+              key={label}
+              size="compact-xs"
+              variant="light"
+              mt={6}
+              onClick={() => {
+                dismiss();
+                run();
+              }}
+            >
+              {label}
+            </Button>
+          ))}
+        </Group>
       </div>
-      <CloseButton size="sm" aria-label="Dismiss" onClick={() => dismiss(id)} />
+      <CloseButton size="sm" aria-label="Dismiss" onClick={dismiss} />
     </div>
   );
 }

@@ -37,8 +37,8 @@ export function askFits({ element, port }: End): Promise<Fits | null> {
   const key = [session, version, element, port].join(" ");
   if (asked?.key !== key) {
     const answer = socket.ask({ type: "fits", element, port }).then(({ answer: { problems = [] }, fits }) => {
-      for (const problem of problems) {
-        useStudio.getState().notify(problem);
+      if (problems.length > 0) {
+        useStudio.getState().notify(problems);
       }
       return fits;
     });
