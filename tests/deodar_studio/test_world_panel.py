@@ -235,7 +235,7 @@ def test_a_world_in_another_unit_of_length_is_refused_and_its_warnings_are_shown
     async def story(one: Page) -> None:
         await one.runs()
         (problem,) = one.document["problems"]
-        assert "100 times too small" in problem["what"] and "unit=" in problem["fix"], problem
+        assert "100 times too small" in problem["what"] and problem["repair"] == "Set its gain", problem
         assert problem["element"], "the box of the element shows it"
         await one.do("use_world", kind="Arena", path="blocks", settings={"unit": "cm"})
         await one.runs()
