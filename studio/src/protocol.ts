@@ -476,7 +476,7 @@ export type Edited = {
 //
 // `axes` lists for each port the keys of its axes, if they are known. `pushable`: whether an input can be
 // injected; `kernel`: whether the element has an interaction kernel; `effect`: the sign that it gives to its
-// connections, for their marks.
+// connections, for their marks; `strength`: the path of the number that is the strength of a coupling.
 export type ElementView = {
   id: string;
   path: string;
@@ -491,6 +491,7 @@ export type ElementView = {
   pushable: boolean;
   kernel: boolean;
   effect: "+" | "-" | "±";
+  strength: string;
 };
 
 // Show the open record alone again.
@@ -1517,6 +1518,20 @@ export type SetParameter = {
   gesture?: number;
 };
 
+// Change the strength of a connection; a Gain inside it is made, and removed at strength 1.
+//
+// `wire` is a plain connection or the one into its Gain, whose id the answer has in `made`. Changes with the
+// same `gesture` (not 0) are one step of undo; while `dragging` the Gain stays at strength 1.
+export type SetStrength = {
+  type: "set_strength";
+  request?: number;
+  session?: number;
+  wire: Ends;
+  value: number;
+  gesture?: number;
+  dragging?: boolean;
+};
+
 // A sensor or motor of a world as a new element: its kind, name, title, meaning and values.
 export type SignalView = {
   kind: string;
@@ -1731,6 +1746,7 @@ export type ToServer =
   | SeekFrames
   | SetMany
   | SetParameter
+  | SetStrength
   | Speed
   | StartRecord
   | StopExperiment
@@ -2054,6 +2070,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "save_snapshot",
   "set",
   "set_many",
+  "set_strength",
   "undo",
   "undo_experiment",
   "ungroup",

@@ -599,3 +599,46 @@ def test_the_script_of_the_open_document_makes_the_same_document(root: Path) -> 
 
     with studio(root, root / "selection.json") as address:
         play(address, scene)
+
+
+def test_a_drag_of_a_strength_is_one_step_of_undo_and_1_leaves_the_document_as_it_was(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u, left_id = p.element("u"), p.element("left")
+        before = p.document["connections"]
+        (gain,) = await made(
+            p, "set_strength", wire={"source": left_id, "target": u}, value=1.5, gesture=7, dragging=True
+        )
+        wire = {"source": left_id, "target": gain}
+        for factor, dragging in ((1.0, True), (-3.0, True), (3.0, False)):
+            assert await made(p, "set_strength", wire=wire, value=factor, gesture=7, dragging=dragging) == [
+                gain
+            ]
+        assert p.document["undo"] == 1 and names(p) == {"u", "left", "right", "left>Gain"}
+        assert next(e for e in p.document["elements"] if e["id"] == gain)["strength"] == "factor"
+        await p.do("undo")
+        assert p.document["connections"] == before and not p.document["unsaved"]
+        await p.do("redo")
+        assert await made(p, "set_strength", wire=wire, value=1.0) == []
+        assert p.document["connections"] == before and not p.document["unsaved"]
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_a_slider_that_changes_the_sign_of_a_coupling_changes_what_the_page_draws(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        wire = {"source": p.element("left"), "target": p.element("u")}
+        (gain,) = await made(p, "set_strength", wire=wire, value=2.0)
+
+        def effect() -> str:
+            return next(e for e in p.document["elements"] if e["id"] == gain)["effect"]
+
+        await p.do("set", element=gain, parameter="factor", value=-2.0, gesture=1)
+        assert effect() == "-"
+        await p.do("set", element=gain, parameter="factor", value=2.0, gesture=1)
+        assert effect() == "+" and p.document["undo"] == 2
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)

@@ -49,14 +49,25 @@ def add(
     is its id; empty: the one that follows from its path.
     """
     if isinstance(element, Element) and not element.name:
-        group, base = (group or after.group, f"{after.names[-1]}>") if after else (group, "")
-        base += type(element).__name__
+        base = name_after(after, element) if after else type(element).__name__
+        group = group or after.group if after else group
         taken = doc.by_names()
         element = dc.replace(element, name=_free(base, lambda name: (*group, name) in taken))
     if ident:
         require_id(ident, doc.by_id())
     doc, entries = add_all(doc, [(element, group, every)], ident)
     return doc, entries[0]
+
+
+def name_after(source: Entry, element: Element) -> str:
+    """Return the name of an element without a name of its own that reads `source`; a number may follow."""
+    return f"{source.names[-1]}>{type(element).__name__}"
+
+
+def is_name_after(name: str, source: Entry, element: Element) -> bool:
+    """Return whether a name is the one that `add` gives to an element without a name that reads `source`."""
+    base = name_after(source, element)
+    return name.startswith(base) and re.fullmatch(r"\d*", name[len(base) :]) is not None
 
 
 def add_all(
@@ -298,6 +309,13 @@ def disconnect(doc: Document, source: str, source_port: str, target: str, target
             f"{by[source].path}.{source_port} is not connected to {by[target].path}.{target_port}"
         )
     return dc.replace(doc, connections=tuple(c for c in doc.connections if c.ends != ends))
+
+
+def replace_connections(doc: Document, old: Collection[Connection], new: Iterable[Connection]) -> Document:
+    """Return a document with other connections in the place of some, where the first of these was."""
+    first = next(k for k, c in enumerate(doc.connections) if c in old)
+    before, after = doc.connections[:first], [c for c in doc.connections[first:] if c not in old]
+    return dc.replace(doc, connections=(*before, *new, *after))
 
 
 def set_reads(doc: Document, ends: tuple[str, str, str, str], reads: str) -> Document:

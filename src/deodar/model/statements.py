@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Literal
 
-from deodar.model import find
+from deodar.model import edit, find
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.paths import PathNames, stored_id
 
@@ -83,7 +83,7 @@ class _Statements:
             into = self._plain(k + 1)
             if into is not None and into.target == e.id and e.every == 1:
                 source = self.by[into.source]
-                base = f"{source.names[-1]}>{type(e.element).__name__}"
+                base = edit.name_after(source, e.element)
                 if e.group == source.group and e.names[-1].startswith(base):
                     name, n = base, 1
                     while (*e.group, name) in names:

@@ -137,7 +137,7 @@ class ElementView(Data, frozen=True):
 
     `axes` lists for each port the keys of its axes, if they are known. `pushable`: whether an input can be
     injected; `kernel`: whether the element has an interaction kernel; `effect`: the sign that it gives to its
-    connections, for their marks.
+    connections, for their marks; `strength`: the path of the number that is the strength of a coupling.
     """
 
     id: Id
@@ -153,6 +153,7 @@ class ElementView(Data, frozen=True):
     pushable: bool
     kernel: bool
     effect: Sign
+    strength: str
 
 
 class ConnectionView(EndsView, frozen=True):

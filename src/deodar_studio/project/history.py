@@ -13,6 +13,8 @@ from deodar.importers import stored_report
 from deodar.model import edit, plain_values
 from deodar.model.document import Document
 from deodar.model.model import Model
+from deodar.model.sketch import effect
+from deodar.numerics.signs import Sign
 from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import Changed, ImportReportView
 from deodar_studio.project.change_queue import ChangeQueue
@@ -239,7 +241,7 @@ class DocumentHistory:
         else:
             model.history.commit(doc)
         self._gesture = gesture
-        if leaf is None or cost == "recompile":
+        if leaf is None or cost == "recompile" or _effect(before, leaf[0]) != _effect(doc, leaf[0]):
             self._edited(before, cost)
         else:
             element, parameter, value = leaf
@@ -280,3 +282,8 @@ class DocumentHistory:
         self.checker.found = None
         self._recent.clear()
         self._changed()
+
+
+def _effect(doc: Document, element: str) -> Sign:
+    """Return the sign that an element gives to its connections, which the page draws."""
+    return effect(doc.by_id()[element].element)

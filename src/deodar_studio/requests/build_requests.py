@@ -11,7 +11,7 @@ import msgspec
 
 from deodar.errors import DeodarError, DocumentError
 from deodar.importers import stored_report
-from deodar.model import building, clipboard, edit, fits, plain_values, proposed, script
+from deodar.model import building, clipboard, edit, fits, plain_values, proposed, script, strength
 from deodar.model.building import Around, BoxPosition, ElementPort, EndPorts
 from deodar.model.document import Document
 from deodar_studio.catalogue import templates
@@ -65,7 +65,7 @@ class Ends(Data, frozen=True, kw_only=True):
         return self.source, self.source_port, self.target, self.target_port
 
 
-async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]]) -> T:
+async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]], gesture: object = None) -> T:
     """Change the document by a function that also returns a result, and return the result."""
     found: list[T] = []
 
@@ -74,7 +74,7 @@ async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]]) -> T
         found.append(result)
         return new
 
-    await hub.project.history.change(change)
+    await hub.project.history.change(change, gesture)
     return found[0]
 
 
@@ -132,6 +132,22 @@ def connect(
 ) -> Document:
     """Connect an output port to an input port; `reads` is previous, current, delayed, or empty."""
     return building.connect(doc, (source, source_port, target, target_port), reads)
+
+
+@changes()
+async def set_strength(
+    hub: Hub, page: Page, *, wire: Ends, value: float, gesture: Count = 0, dragging: bool = False
+) -> Answer:
+    """Change the strength of a connection; a Gain inside it is made, and removed at strength 1.
+
+    `wire` is a plain connection or the one into its Gain, whose id the answer has in `made`. Changes with the
+    same `gesture` (not 0) are one step of undo; while `dragging` the Gain stays at strength 1.
+    """
+    drag = (page.number, gesture) if gesture else None
+    gain = await _changed(
+        hub, lambda doc: strength.set_strength(doc, wire.ports, value, keeps=dragging), drag
+    )
+    return answer(made=[] if gain is None else [gain])
 
 
 @edits()

@@ -21,6 +21,7 @@ from deodar.model.document_graph import graph
 from deodar.model.parts import to_json
 from deodar.model.resolve import Node
 from deodar.model.sketch import effect
+from deodar.model.strength import strength_path
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import FrozenArray
 from deodar_studio.messages.message import made_of
@@ -270,6 +271,7 @@ def _element(
         pushable=e.every == 1 and type(e.element).inject is not Element.inject,
         kernel=e.element.convolution is not None and len(e.element.kernels()) > 0,
         effect=effect(e.element),
+        strength=strength_path(e.element),
     )
 
 

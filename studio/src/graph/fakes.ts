@@ -21,6 +21,7 @@ export function fakeElement(path: string, kind = "Field", more: Partial<ElementV
     pushable: false,
     kernel: false,
     effect: "+",
+    strength: "",
     ...more,
   };
 }

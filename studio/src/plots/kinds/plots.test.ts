@@ -53,6 +53,7 @@ const element = (
   pushable: false,
   kernel: false,
   effect: "+",
+  strength: "",
 });
 
 const documentOf = (...elements: ElementView[]) => ({ axes: AXES, elements }) as unknown as DocumentView;

@@ -1,0 +1,175 @@
+"""The strength of a connection: a Gain that is made and removed with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.element import Element
+from deodar.errors import ParameterError, UnknownName
+from deodar.model import document_files, edit
+from deodar.model.building import EndPorts, placed
+from deodar.model.document import Document
+from deodar.model.model import Model
+from deodar.model.strength import set_strength, strength_path
+
+X = dd.Axis("x", 0, 100, samples=101)
+
+
+def triple() -> Model:
+    """Return three fields in a group, with the connection u -> v between two others."""
+    model = Model("triple")
+    u, v, w = (model.add(dd.Field(name, [X]), group="maps") for name in "uvw")
+    model.connect(w, u)
+    model.connect(u, v, reads="delayed")
+    model.connect(v, w)
+    return model
+
+
+def plain(model: Model, source: str = "maps.u", target: str = "maps.v") -> EndPorts:
+    return (model[source].id, "", model[target].id, "")
+
+
+def stored(doc: Document) -> str:
+    return document_files.dumps(doc, "d")[0]
+
+
+def into(ident: str | None, model: Model) -> EndPorts:
+    assert ident is not None
+    return (model["maps.u"].id, "", ident, "")
+
+
+def wires(doc: Document) -> list[tuple[str, str, str]]:
+    by = doc.by_id()
+    return [(by[c.source].path, by[c.target].path, c.reads) for c in doc.connections]
+
+
+@pytest.mark.parametrize("factor", [3.0, -4.0, 0.0])
+def test_another_strength_is_a_gain_in_the_connection_and_1_gives_the_same_bytes(factor: float) -> None:
+    model = triple()
+    before = model.document
+    doc, gain = set_strength(before, plain(model), factor)
+    assert wires(doc) == [
+        ("maps.w", "maps.u", ""),
+        ("maps.u", "maps.u>Gain", "delayed"),
+        ("maps.u>Gain", "maps.v", ""),
+        ("maps.v", "maps.w", ""),
+    ]
+    assert gain is not None and doc.by_id()[gain].element == dd.Gain(factor, name="u>Gain")
+    weaker, same = set_strength(doc, into(gain, model), 2.5)
+    assert same == gain and weaker.by_id()[gain].element == dd.Gain(2.5, name="u>Gain")
+    back, none = set_strength(weaker, into(gain, model), 1)
+    assert none is None and stored(back) == stored(before) and back == before
+
+
+def test_strength_1_of_a_plain_connection_is_the_same_document() -> None:
+    model = triple()
+    assert set_strength(model.document, plain(model), 1.0) == (model.document, None)
+
+
+def test_a_gain_of_a_script_without_a_name_is_the_strength_of_its_connection() -> None:
+    model = triple()
+    model["maps.v"] >> dd.Gain(2.0) >> model["maps.u"]
+    gain = model["maps.v>Gain"].id
+    doc, none = set_strength(model.document, (model["maps.v"].id, "", gain, ""), 1)
+    assert none is None and ("maps.v", "maps.u", "") in wires(doc)
+
+
+def test_a_drag_through_1_keeps_the_gain_until_it_ends() -> None:
+    model = triple()
+    doc, gain = set_strength(model.document, plain(model), 1.05)
+    doc, same = set_strength(doc, into(gain, model), 1, keeps=True)
+    assert same == gain and gain in doc.by_id()
+    assert set_strength(doc, into(gain, model), 1)[0] == model.document
+
+
+def _named(doc: Document, gain: str) -> Document:
+    return edit.move(doc, gain, ("maps", "boost"))
+
+
+def _slow(doc: Document, gain: str) -> Document:
+    return edit.every(doc, gain, 10)
+
+
+def _placed(doc: Document, gain: str) -> Document:
+    return placed(doc, {gain: (0.0, 0.0)})
+
+
+def _pinned(doc: Document, gain: str) -> Document:
+    return edit.arrange(doc, {"pins": [{"element": gain, "parameter": "factor"}]})
+
+
+def _beside(doc: Document, gain: str) -> Document:
+    u, v = (doc.by_names()["maps", name] for name in "uv")
+    return edit.connect(doc, u, "", v, "")
+
+
+@pytest.mark.parametrize("change", [_named, _slow, _placed, _pinned, _beside])
+def test_a_gain_that_is_more_than_a_number_stays_at_1(change: Callable[[Document, str], Document]) -> None:
+    model = triple()
+    doc, gain = set_strength(model.document, plain(model), 3)
+    assert gain is not None
+    after, last = set_strength(change(doc, gain), into(gain, model), 1)
+    assert last == gain and after.by_id()[gain].element in (
+        dd.Gain(1, name="u>Gain"),
+        dd.Gain(1, name="boost"),
+    )
+
+
+def test_a_gain_that_another_element_reads_too_keeps_its_factor() -> None:
+    model = triple()
+    doc, gain = set_strength(model.document, plain(model), 3)
+    assert gain is not None
+    doc = edit.connect(doc, doc.by_id()[gain], "", doc.by_names()["maps", "w"], "")
+    after, second = set_strength(doc, into(gain, model), 2)
+    assert second not in (gain, None) and after.by_id()[gain].element == doc.by_id()[gain].element
+
+
+def test_what_is_no_strength_or_no_connection_is_refused() -> None:
+    model = triple()
+    with pytest.raises(UnknownName, match="is not connected"):
+        set_strength(model.document, plain(model, "maps.u", "maps.w"), 2)
+    with pytest.raises(ParameterError, match="finite"):
+        set_strength(model.document, plain(model), float("nan"))
+    doc, gain = set_strength(model.document, plain(model), 3)
+    assert gain is not None
+    linked = edit.link(edit.document_parameter(doc, "drive", 3), gain, "factor", "drive")
+    with pytest.raises(ParameterError, match="driven by the document parameter"):
+        set_strength(linked, into(gain, model), 1)
+
+
+@pytest.mark.parametrize(
+    ("element", "path"),
+    [
+        (dd.Gain(2), "factor"),
+        (dd.Convolve([dd.Gaussian(amplitude=-3)]), "kernel.0.amplitude"),
+        (dd.Convolve([dd.Gaussian(), dd.Gaussian(amplitude=-1)]), ""),
+        (dd.Convolve([dd.MexicanHat()]), ""),
+        (dd.Weights(np.eye(101), [X]), ""),
+        (dd.GaussianStimulus("s", [X], amplitude=3), ""),
+        (dd.Field("u", [X]), ""),
+    ],
+)
+def test_the_number_that_is_the_strength_of_a_coupling(element: Element, path: str) -> None:
+    assert strength_path(element) == path
+
+
+def test_a_running_session_keeps_its_activation_and_follows_the_new_strength() -> None:
+    model = Model("pair")
+    u, v = model.add(dd.Field("u", [X], resting_level=2.0)), model.add(dd.Field("v", [X], resting_level=-5.0))
+    u >> v
+    session = dd.Session(model)
+    session.step(200)
+    before = session.read("v.activation")
+    doc, gain = set_strength(model.document, (u.id, "", v.id, ""), -2.0)
+    session.edit(doc)
+    assert np.array_equal(session.read("v.activation"), before)
+    session.step(400)
+    inhibited = session.read("v.activation")
+    assert inhibited.max() < before.min()
+    assert gain is not None
+    session.edit(set_strength(doc, (u.id, "", gain, ""), 1.0)[0])
+    assert np.array_equal(session.read("v.activation"), inhibited) and session.document == model.document
