@@ -64,10 +64,9 @@ def name_after(source: Entry, element: Element) -> str:
     return f"{source.names[-1]}>{type(element).__name__}"
 
 
-def is_name_after(name: str, source: Entry, element: Element) -> bool:
-    """Return whether a name is the one that `add` gives to an element without a name that reads `source`."""
-    base = name_after(source, element)
-    return name.startswith(base) and re.fullmatch(r"\d*", name[len(base) :]) is not None
+def is_unnamed(name: str, element: Element) -> bool:
+    """Return whether a name is one that `add` gives to an element without a name, after what it reads."""
+    return ">" in name and name.rsplit(">", 1)[1].rstrip("0123456789") == type(element).__name__
 
 
 def add_all(

@@ -15,7 +15,7 @@ from deodar.diagrams.graph import Graph, GroupPath, Item, ItemForm, Wire
 from deodar.element import Coupling, Element
 from deodar.elements.placeholder import Placeholder
 from deodar.elements.world_ports import Motor, Sensor
-from deodar.model import find
+from deodar.model import edit, find
 from deodar.model.building import positions
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.document_graph import graph
@@ -126,9 +126,7 @@ class _Sketch:
         plain = type(element).__name__ == "Field" or form in ("source", "sensor", "motor")
         kind = "" if plain else caption(element) if form == "coupling" else title(element)
         name = entry.names[-1]
-        if form == "coupling" and (
-            ">" in name and name.rsplit(">", 1)[1].rstrip("0123456789") == type(element).__name__
-        ):
+        if form == "coupling" and edit.is_unnamed(name, element):
             name, kind = kind, ""  # a name made from the connection adds no information to the kind
         recurrence = tuple(element.recurrence().values())
         drawn = axes if form != "coupling" else ()

@@ -88,10 +88,10 @@ def _with_gain(doc: Document, wire: Connection, strength: float) -> tuple[Docume
 
 def _is_only_number(doc: Document, wire: Connection) -> bool:
     """Return whether the `Gain` that a connection leads to is nothing but the strength of this wire."""
-    gain, source = find.entry(doc, wire.target), find.entry(doc, wire.source)
+    gain = find.entry(doc, wire.target)
     out = next(c for c in doc.connections if c.source == gain.id)
-    is_unnamed = gain.group == source.group and edit.is_name_after(gain.names[-1], source, gain.element)
+    unnamed = edit.is_unnamed(gain.names[-1], gain.element)
     alone = gain.every == 1 and not out.reads and (gain.id, FACTOR) not in doc.links()
     beside = (wire.source, wire.source_port, out.target, out.target_port) in doc.ends()
     used = any(gain.id == ident for use in doc.uses for _, ident in use.elements)
-    return is_unnamed and alone and not beside and not used and gain.id not in codec.line(doc.layout)
+    return unnamed and alone and not beside and not used and gain.id not in codec.line(doc.layout)

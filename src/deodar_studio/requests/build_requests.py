@@ -65,7 +65,7 @@ class Ends(Data, frozen=True, kw_only=True):
         return self.source, self.source_port, self.target, self.target_port
 
 
-async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]], gesture: object = None) -> T:
+async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]]) -> T:
     """Change the document by a function that also returns a result, and return the result."""
     found: list[T] = []
 
@@ -74,7 +74,7 @@ async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]], gest
         found.append(result)
         return new
 
-    await hub.project.history.change(change, gesture)
+    await hub.project.history.change(change)
     return found[0]
 
 
@@ -143,10 +143,12 @@ async def set_strength(
     `wire` is a plain connection or the one into its Gain, whose id the answer has in `made`. Changes with the
     same `gesture` (not 0) are one step of undo; while `dragging` the Gain stays at strength 1.
     """
-    drag = (page.number, gesture) if gesture else None
-    gain = await _changed(
-        hub, lambda doc: strength.set_strength(doc, wire.ports, value, keeps=dragging), drag
-    )
+    drag, history = (page.number, gesture) if gesture else None, hub.project.history
+    new, gain = strength.set_strength(history.document(), wire.ports, value, dragging)
+    if gain == wire.target:  # a number alone, which pages receive as one
+        await history.set(wire.target, strength.FACTOR, value, drag)
+    else:
+        await history.change(lambda _: new, drag)
     return answer(made=[] if gain is None else [gain])
 
 

@@ -6,7 +6,7 @@ import type { ConnectionView, ElementView, Kind } from "../protocol";
 import { readBoxes } from "./boxes/boxes";
 import { isGrid } from "./grid";
 import type { Structure } from "./scene";
-import { by, type Chain, isWeight, later } from "./wires/chains";
+import { by, type Chain, gainOf, isWeight, later } from "./wires/chains";
 import { product, together, type Sign } from "./wires/sign";
 
 type WireEnding = Pick<ConnectionView, "source" | "source_port" | "target" | "target_port">;
@@ -196,6 +196,7 @@ function link(net: Net, source: string, target: string, couplings: string[]): Ba
     target,
     target_port: ways.findLast((c) => c.target === target)?.target_port ?? "",
     couplings,
+    gain: gainOf(couplings, net.elements),
     ...weight(net, source, target, ways),
   };
 }

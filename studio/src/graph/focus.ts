@@ -6,11 +6,39 @@ import { create } from "zustand";
 import { usePicked } from "../build/picked";
 import { useStudio } from "../store";
 import type { GraphScene } from "./scene";
+import type { Chain } from "./wires/chains";
 
-// `near` is null where nothing is brought to the fore.
-type Focus = { hovered: string | null; near: ReadonlySet<string> | null };
+// `near` is null where nothing is brought to the fore. `wire`: the one below the pointer; `changed`: the one
+// whose strength has the focus.
+type Focus = {
+  hovered: string | null;
+  near: ReadonlySet<string> | null;
+  wire: string | null;
+  changed: string | null;
+  // The connections on the canvas that are one chain, by the ids of their wires.
+  chains: ReadonlyMap<string, Chain>;
+};
 
-export const useFocus = create<Focus>(() => ({ hovered: null, near: null }));
+export const useFocus = create<Focus>(() => ({
+  hovered: null,
+  near: null,
+  wire: null,
+  changed: null,
+  chains: new Map(),
+}));
+
+// The pointer goes from a wire to what is drawn on it.
+const LEAVE_MS = 120;
+let leaving = 0;
+
+export function overWire(wire: string | null): void {
+  clearTimeout(leaving);
+  if (wire === null) {
+    leaving = window.setTimeout(() => useFocus.setState({ wire }), LEAVE_MS);
+  } else {
+    useFocus.setState({ wire });
+  }
+}
 
 export function unhover(id: string): void {
   if (useFocus.getState().hovered === id) {
@@ -23,9 +51,16 @@ export function nearOf(links: ReadonlyMap<string, ReadonlySet<string>>, ids: str
   return new Set(ids.flatMap((id) => [id, ...(links.get(id) ?? [])]));
 }
 
-// Keeps `near`. It follows the stores past React, which would draw the whole canvas again for each box below
-// the pointer.
-export function useNear({ links }: GraphScene, changed: () => void): void {
+// Keeps `near` and `chains`. It follows the stores past React, which would draw the whole canvas again for
+// each box below the pointer.
+export function useNear({ links, wires }: GraphScene, changed: () => void): void {
+  useEffect(() => {
+    const single = wires.flatMap(({ id, data }) => {
+      const [chain, ...others] = data?.chains ?? [];
+      return chain === undefined || others.length > 0 ? [] : [[id, chain] as const];
+    });
+    useFocus.setState({ chains: new Map(single) });
+  }, [wires]);
   useEffect(() => {
     if (links === null) {
       return;

@@ -128,8 +128,9 @@ export function pillsWidth(names: string[]): number {
   );
 }
 
-function widthOf({ couplings }: Chain, names: Map<string, ElementView>): number {
-  return pillsWidth(couplings.map((id) => names.get(id)?.name ?? ""));
+// The boxes stay apart as they are where a connection gets a strength.
+function widthOf({ couplings, gain }: Chain, names: Map<string, ElementView>): number {
+  return gain !== null ? 0 : pillsWidth(couplings.map((id) => names.get(id)?.name ?? ""));
 }
 
 // Folded groups hide their elements; an open group is a frame and precedes its elements, because xyflow

@@ -1,11 +1,15 @@
-// The inspector of the selected element, of several together, or of the document without a selection.
+// The inspector of the selected element, of several together, of a selected connection, or of the document
+// without a selection.
 
 import "./inspector.css";
 
+import { usePicked } from "../build/picked";
+import { useFocus } from "../graph/focus";
 import { useStudio } from "../store";
 import { DocumentInspector } from "./document/DocumentInspector";
 import { ElementInspector } from "./element/ElementInspector";
 import { ManyInspector } from "./element/ManyInspector";
+import { WireInspector } from "./wire/WireInspector";
 
 export function Inspector() {
   const selected = useStudio((state) => state.selected);
@@ -13,16 +17,22 @@ export function Inspector() {
   const record = useStudio((state) => state.document?.record != null);
   const session = useStudio((state) => state.session);
   const [only] = selected;
+  const wire = usePicked(({ wires, groups }) =>
+    wires.length === 1 && groups.length === 0 ? (wires[0] ?? "") : "",
+  );
+  const chain = useFocus((state) => state.chains.get(wire));
   if (!open) {
     return <div className="inspector inspector-empty">No document is open.</div>;
   }
   return (
     // another element begins at its top: the key makes another scrolled box of it
-    <div className="inspector" inert={record} key={selected.join()}>
+    <div className="inspector" inert={record} key={`${selected.join()} ${wire}`}>
       {record && (
         <p className="inspector-record">Parameters of the record; its model can be run and changed.</p>
       )}
-      {only === undefined ? (
+      {only === undefined && chain !== undefined ? (
+        <WireInspector key={wire} wire={wire} chain={chain} />
+      ) : only === undefined ? (
         <DocumentInspector key={session} />
       ) : selected.length > 1 ? (
         <ManyInspector key={selected.join()} ids={selected} />

@@ -78,6 +78,14 @@ def test_a_gain_of_a_script_without_a_name_is_the_strength_of_its_connection() -
     assert none is None and ("maps.v", "maps.u", "") in wires(doc)
 
 
+def test_the_strength_belongs_to_its_connection_also_after_the_source_has_another_name() -> None:
+    model = triple()
+    doc, gain = set_strength(model.document, plain(model), 3)
+    renamed = edit.move(doc, model["maps.u"].id, ("maps", "saccade"))
+    back, none = set_strength(renamed, into(gain, model), 1)
+    assert none is None and back == edit.move(model.document, model["maps.u"].id, ("maps", "saccade"))
+
+
 def test_a_drag_through_1_keeps_the_gain_until_it_ends() -> None:
     model = triple()
     doc, gain = set_strength(model.document, plain(model), 1.05)

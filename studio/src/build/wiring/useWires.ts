@@ -1,8 +1,9 @@
 // What the pointer does with ports and connections, as properties of the canvas.
 
 import { type Edge, type ReactFlowProps, useStoreApi } from "@xyflow/react";
-import { useEffect, useMemo, useState } from "react";
+import { useEffect, useMemo } from "react";
 
+import { overWire, useFocus } from "../../graph/focus";
 import { useHover } from "../../graph/hover";
 import type { SceneNode, Wire } from "../../graph/scene";
 import { useStudio } from "../../store";
@@ -34,7 +35,7 @@ function useMovable(wires: Wire[], editable: boolean, near: string | null): Edge
 
 export function useWires(wires: Wire[]): Props {
   const flow = useStoreApi();
-  const [near, setNear] = useState<string | null>(null);
+  const near = useFocus((state) => state.wire);
   const editable = useStudio((state) => state.document?.record == null && state.connection === "open");
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
@@ -85,8 +86,8 @@ export function useWires(wires: Wire[]): Props {
       },
       // onConnectEnd moves the end
       onReconnect: () => {},
-      onEdgeMouseEnter: (_, { id }) => useWiring.getState().wiring === null && setNear(id),
-      onEdgeMouseLeave: () => useWiring.getState().wiring === null && setNear(null),
+      onEdgeMouseEnter: (_, { id }) => useWiring.getState().wiring === null && overWire(id),
+      onEdgeMouseLeave: () => useWiring.getState().wiring === null && overWire(null),
       onClickConnectStart: start,
       onClickConnectEnd: stop,
       isValidConnection: ({ source, sourceHandle, target, targetHandle }) => {

@@ -1,6 +1,7 @@
 // The connections on the canvas, and their meaning in the document.
 
 import type { WireContent } from "../../graph/contract";
+import type { Point } from "../../graph/layout/layout";
 import type { WireData } from "../../graph/scene";
 import type { Chain } from "../../graph/wires/chains";
 import { useStudio } from "../../store";
@@ -16,6 +17,13 @@ const dataOf = (wire: string): WireData | undefined =>
 export const isDrawn = (wire: string): boolean => dataOf(wire) !== undefined;
 
 const chainsOf = (wire: string): Chain[] => dataOf(wire)?.chains ?? [];
+
+// The middle of a connection on the screen; null: it is not drawn.
+export function middleOf(wire: string): Point | null {
+  const drawn = getStage()?.around.querySelector(`.react-flow__edge[data-id="${CSS.escape(wire)}"]`);
+  const rect = drawn?.getBoundingClientRect();
+  return rect === undefined ? null : { x: rect.x + rect.width / 2, y: rect.y + rect.height / 2 };
+}
 
 // What is removed with a connection on the canvas: the couplings on it, or else the connection.
 export function contentOf(wire: string): WireContent {

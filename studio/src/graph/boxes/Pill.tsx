@@ -7,6 +7,9 @@ import { labelOf } from "./label";
 import { MarkIcon } from "./Mark";
 import { pressing } from "./pressing";
 import { useProblem, useWarning } from "../problem";
+import { useSetting } from "../../inspector/parameters/setting";
+import { numberAt } from "../wires/strength";
+import { StrengthControl } from "../wires/StrengthControl";
 
 export function Pill({ element: id }: { element: string }) {
   const path = useStudio((state) => state.elements.get(id)?.path ?? "");
@@ -24,25 +27,41 @@ export function Pill({ element: id }: { element: string }) {
       ? ""
       : mainNumber(element, kinds.get(element.kind), document);
   });
+  const strength = useStudio((state) => state.elements.get(id)?.strength ?? "");
   const { enter, leave } = useHover.getState();
   return (
-    <button
-      type="button"
-      className="graph-pill nodrag nopan"
+    <div
+      className="graph-pill"
       data-element={id}
       data-selected={selected || undefined}
       data-problem={problem !== "" || undefined}
-      title={said || undefined}
-      aria-label={[path, path.endsWith(label) ? "" : label, number, said]
-        .filter((part) => part !== "")
-        .join(", ")}
-      aria-pressed={selected}
-      {...pressing(id)}
-      onPointerEnter={(event) => enter(id, event.currentTarget)}
-      onPointerLeave={leave}
     >
-      {said !== "" && <MarkIcon problem={problem !== ""} size={12} />}
-      <span className="one-line">{label}</span> {number !== "" && <b className="numbers">{number}</b>}
-    </button>
+      <button
+        type="button"
+        className="graph-pill-name nodrag nopan"
+        title={said || undefined}
+        aria-label={[path, path.endsWith(label) ? "" : label, number, said]
+          .filter((part) => part !== "")
+          .join(", ")}
+        aria-pressed={selected}
+        {...pressing(id)}
+        onPointerEnter={(event) => enter(id, event.currentTarget)}
+        onPointerLeave={leave}
+      >
+        {said !== "" && <MarkIcon problem={problem !== ""} size={12} />}
+        <span className="one-line">{label}</span>{" "}
+        {number !== "" && strength === "" && <b className="numbers">{number}</b>}
+      </button>
+      {strength !== "" && <PillStrength element={id} path={strength} />}
+    </div>
   );
+}
+
+function PillStrength({ element, path }: { element: string; path: string }) {
+  const stored = useStudio(({ elements, document }) => {
+    const known = elements.get(element);
+    return known === undefined || document === null ? 0 : (numberAt(known, path, document) ?? 0);
+  });
+  const label = useStudio(({ elements }) => `Strength of ${elements.get(element)?.path ?? ""}`);
+  return <StrengthControl label={label} setting={useSetting(element, path, stored, "live")} />;
 }

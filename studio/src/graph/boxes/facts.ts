@@ -2,6 +2,7 @@
 
 import { unitText } from "../../inspector/numbers/unit";
 import type { DocumentView, ElementView, Kind, ParameterForm } from "../../protocol";
+import { valueAt } from "../../values";
 
 export type Fact = { name: string; label: string; symbol: string; value: string };
 
@@ -51,11 +52,15 @@ export function short(value: number): string {
 }
 
 // The value that counts: a driven parameter has the value of its document parameter.
-function current(element: ElementView, name: string, { parameters }: Context): unknown {
+export function current(
+  element: ElementView,
+  path: string,
+  { parameters }: Pick<Context, "parameters">,
+): unknown {
   const driver = parameters.find((k) =>
-    k.links.some((link) => link.element === element.id && link.parameter === name),
+    k.links.some((link) => link.element === element.id && link.parameter === path),
   );
-  return driver?.value ?? element.values[name];
+  return driver?.value ?? valueAt(element.values, path);
 }
 
 function said(

@@ -13,8 +13,8 @@ type Piece = { id: string; from: Point; to: Point };
 const HEIGHT = { near: 22, far: 44 };
 const FRACTIONS = [0.5, 0.3, 0.7, 0.15, 0.85];
 
-// Each label is at the first place of its wire that covers no box and no other label, and that its wire has
-// for itself.
+// The widest first, each label is at the first place of its wire that covers no box and no other label, and
+// that its wire has for itself.
 export function labelPlaces(wires: LabelledWire[], boxes: Rect[]): Map<string, Point> {
   const lines = new Map<number, Piece[]>();
   for (const piece of wires.flatMap(pieces).filter(isStraight)) {
@@ -28,6 +28,7 @@ export function labelPlaces(wires: LabelledWire[], boxes: Rect[]): Map<string, P
   return new Map(
     wires
       .filter(({ room }) => room > 0)
+      .sort((one, other) => other.room - one.room)
       .map((wire) => {
         const free = (place: Point, height: number) => {
           const own = around(place, wire.room, height);

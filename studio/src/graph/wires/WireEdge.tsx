@@ -1,14 +1,19 @@
 // A connection on the canvas, with the couplings that are drawn on it.
 
 import { BaseEdge, EdgeLabelRenderer, type EdgeProps } from "@xyflow/react";
-import { memo } from "react";
+import { type CSSProperties, memo } from "react";
 import { pickWire, usePicked } from "../../build/picked";
 import { useStudio } from "../../store";
-import { useFocus } from "../focus";
+import { overWire, useFocus } from "../focus";
+import { useProblem } from "../problem";
 import { Pill } from "../boxes/Pill";
 import { markOf } from "./SignMarks";
 import type { Point } from "../layout/rects";
 import type { Wire } from "../scene";
+import type { Chain } from "./chains";
+import { StrengthControl } from "./StrengthControl";
+import { strengthOf, useStrength, widthOf, wireText } from "./strength";
+import { WireCard } from "./WireCard";
 import { type Course, direct } from "./wirePath";
 
 export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
@@ -22,13 +27,19 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   const revealed = useStudio(({ selected }) => data?.revealed.some((p) => selected.includes(p)) ?? false);
   const hovered = useFocus((state) => state.hovered === source || state.hovered === target);
   const picked = usePicked((state) => state.wires.includes(id));
+  const alone = usePicked((state) => state.wires.length === 1 && state.wires[0] === id);
   const over = usePicked((state) => state.over === id);
+  const chain = data?.chains.length === 1 ? data.chains[0] : undefined;
+  const strength = useStudio((state) => (chain === undefined ? null : strengthOf(chain, state)));
+  const near = useFocus((state) => state.wire === id || state.changed === id);
   if (data === undefined) {
     return null;
   }
   const { path, middle } = courseNow(data.course, { x: sourceX, y: sourceY }, { x: targetX, y: targetY });
   const several = data.count > 1;
   const contracted = data.content !== null;
+  const isPlain = chain !== undefined && (chain.gain !== null || chain.couplings.length === 0);
+  const shown = contracted ? touched || picked : data.pills.length > 0 || several;
   return (
     <>
       <BaseEdge
@@ -42,15 +53,21 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
         data-touched={touched || (contracted && hovered) || undefined}
         data-faint={contracted || undefined}
         data-picked={picked || over || undefined}
+        style={strength === null ? undefined : ({ "--wire-width": widthOf(strength) } as CSSProperties)}
       />
-      {(data.pills.length > 0 || several) && (!contracted || touched || picked) && (
+      {(isPlain
+        ? near || picked || (shown && chain.gain !== null)
+        : shown && (data.pills.length > 0 || several)) && (
         <EdgeLabelRenderer>
           <div
             className="graph-pills"
             data-listed={contracted || undefined}
             style={{ transform: `translate(-50%, -50%) translate(${middle.x}px, ${middle.y}px)` }}
           >
-            {contracted && !picked && !revealed ? (
+            {chain !== undefined && alone && strength !== null && <WireCard chain={chain} />}
+            {isPlain ? (
+              <WireStrength wire={id} chain={chain} />
+            ) : contracted && !picked && !revealed ? (
               <Chip wire={id} pills={data.pills} />
             ) : several ? (
               <span className="graph-count" title={`${data.count} connections`}>
@@ -65,6 +82,24 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
     </>
   );
 });
+
+function WireStrength({ wire, chain }: { wire: string; chain: Chain }) {
+  const problem = useProblem(chain.gain ?? "");
+  const label = useStudio(({ elements }) => `Strength, ${wireText(chain, elements)}`);
+  return (
+    <div
+      className="graph-pill graph-chip-strength"
+      data-element={chain.gain ?? undefined}
+      data-problem={problem !== "" || undefined}
+      onPointerEnter={() => overWire(wire)}
+      onPointerLeave={() => overWire(null)}
+      onFocus={() => useFocus.setState({ changed: wire })}
+      onBlur={() => useFocus.setState({ changed: null })}
+    >
+      <StrengthControl label={label} setting={useStrength(chain)} onClick={() => pickWire(wire, false)} />
+    </div>
+  );
+}
 
 // The number of couplings on a wire of a contracted document. A click shows them, or selects a single one.
 function Chip({ wire, pills }: { wire: string; pills: string[] }) {

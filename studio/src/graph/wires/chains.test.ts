@@ -35,6 +35,22 @@ test("couplings in a chain are drawn on one edge, in their order", () => {
   expect([...couplings].sort()).toEqual(["a", "b"]);
 });
 
+test("a Gain without a name of its own is the strength of its edge, whose id stays", () => {
+  const named = (name: string) => fakeElement("g", "Gain", { name });
+  const edgesOf = (one: ElementView, ...paths: string[]) =>
+    chains(
+      fakeDocument([fakeElement("u"), fakeElement("v"), one, gain("k")], fakeConnections(...paths)),
+      KINDS,
+    ).edges;
+  const [plain] = of([], "u v").edges;
+  expect(edgesOf(named("u>Gain2"), "u g v")).toMatchObject([{ id: plain?.id, gain: "g", couplings: ["g"] }]);
+  expect(edgesOf(named("boost"), "u g v")).toMatchObject([{ gain: null }]);
+  expect(edgesOf(named("u>Gain"), "u g k v")).toMatchObject([{ gain: null }]);
+  const beside = edgesOf(named("u>Gain"), "u v", "u g v");
+  expect(beside.map((edge) => edge.gain)).toEqual([null, "g"]);
+  expect(new Set(beside.map(({ id }) => id)).size).toBe(2);
+});
+
 test("a coupling from a node to itself is drawn on a loop", () => {
   expect(of(["a"], "u a u").edges).toMatchObject([{ source: "u", target: "u", couplings: ["a"] }]);
 });

@@ -1,9 +1,11 @@
 // Couplings that are drawn on an edge: those in a chain, with one connection in and one out.
 
 import type { ConnectionView, DocumentView, ElementView, Kind } from "../../protocol";
+import { isUnnamed } from "../boxes/label";
 import { product, type Sign } from "./sign";
 
-// A connection as it is drawn: from a node to a node, with the couplings on the way in their order.
+// A connection as it is drawn: from a node to a node, with the couplings on the way in their order. `gain`:
+// the only one, which is the strength of the connection; the id is the same without it.
 export type Chain = {
   id: string;
   source: string;
@@ -11,11 +13,12 @@ export type Chain = {
   target: string;
   target_port: string;
   couplings: string[];
+  gain: string | null;
   reads: string;
   sign: Sign;
 };
 
-type Unsigned = Omit<Chain, "sign">;
+type Unsigned = Omit<Chain, "sign" | "gain">;
 
 export type Chains = { edges: Chain[]; couplings: Set<string> };
 
@@ -50,7 +53,23 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
   for (const lone of connections.filter((c) => links.has(c.source) && !couplings.has(c.source))) {
     edges.push(edge(lone, lone, [], lone.reads));
   }
-  return { edges: edges.map((edge) => ({ ...edge, sign: signOf(edge, known, kinds) })), couplings };
+  const ids = new Set(edges.map(({ id }) => id));
+  return {
+    edges: edges.map((edge) => {
+      const gain = gainOf(edge.couplings, known);
+      const whole = endsId(edge);
+      const id = gain === null || ids.has(whole) ? edge.id : whole;
+      ids.add(id);
+      return { ...edge, id, gain, sign: signOf(edge, known, kinds) };
+    }),
+    couplings,
+  };
+}
+
+// The Gain without a name of its own that is all that a connection has.
+export function gainOf([only, ...others]: string[], elements: Map<string, ElementView>): string | null {
+  const { name = "", kind = "" } = elements.get(only ?? "") ?? {};
+  return only !== undefined && others.length === 0 && kind === "Gain" && isUnnamed(name, kind) ? only : null;
 }
 
 // An input of a coupling with a box is a number, which inhibits nothing.
@@ -88,9 +107,12 @@ function follow(
 function edge(first: ConnectionView, last: ConnectionView, couplings: string[], reads: string): Unsigned {
   const { source, source_port } = first;
   const { target, target_port } = last;
-  const id = [source, source_port, target, target_port, ...couplings].join(" ");
-  return { id, source, source_port, target, target_port, couplings, reads };
+  const ends = { source, source_port, target, target_port };
+  return { id: [endsId(ends), ...couplings].join(" "), ...ends, couplings, reads };
 }
+
+const endsId = (ends: Omit<Unsigned, "id" | "couplings" | "reads">): string =>
+  [ends.source, ends.source_port, ends.target, ends.target_port].join(" ");
 
 // Kinds of other packages do not declare whether they are couplings: one with its own axes or levels gets a
 // box.

@@ -2,7 +2,7 @@
 
 import type { Rect } from "../layout/rects";
 import { labelPlaces } from "../boxes/labels";
-import { type GraphScene, PORT, type SceneNode, type Wire } from "../scene";
+import { type GraphScene, PORT, type SceneNode, type Wire, type WireData } from "../scene";
 import { type Route, Tracks } from "./tracks";
 import { goesBack, turns, type WireLine } from "./turns";
 import { type Course, courseOf } from "./wirePath";
@@ -14,11 +14,20 @@ const ROUNDS = 2;
 export function withCourses({ nodes, wires }: GraphScene): Wire[] {
   const rects = rectsOf(nodes);
   const boxes = nodes.flatMap(({ id, type }) => (type === "frame" ? [] : [rects.get(id) as Rect]));
-  const rooms = new Map(wires.map(({ id, data }) => [id, data?.room ?? 0]));
+  const rooms = new Map(wires.map(({ id, data }) => [id, roomOf(data)]));
   const found = courses(endsOf(wires, nodes, rects), boxes, rooms);
   return wires.map((wire) =>
     wire.data === undefined ? wire : { ...wire, data: { ...wire.data, course: found.get(wire.id) ?? null } },
   );
+}
+
+// A wire of one connection has a strength: 1 is shown below the pointer alone, and takes what others leave.
+const STRENGTH = { stated: 40, plain: 20 };
+
+function roomOf(data: WireData | undefined): number {
+  const [chain, ...others] = data?.chains ?? [];
+  const isSingle = chain !== undefined && others.length === 0 && data?.room === 0;
+  return !isSingle ? (data?.room ?? 0) : chain.gain === null ? STRENGTH.plain : STRENGTH.stated;
 }
 
 // `rooms` are the widths of what is drawn on wires.

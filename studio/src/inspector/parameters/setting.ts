@@ -22,19 +22,23 @@ export type Setting<T = unknown> = {
   forget: () => void;
 };
 
+export type SendSetting = (path: string, value: unknown, gesture: number) => Promise<Answer>;
+
 // `element` is empty for a document parameter. A value that recompiles the program is sent when the drag
-// ends, not on the way.
+// ends, not on the way. `sendTo`: where a number goes that is none of these.
 export function useSetting<T>(
   element: string,
   parameter: string,
   stored: T,
   cost: ParameterForm["cost"],
+  sendTo?: SendSetting,
 ): Setting<T> {
   const [own, setOwn] = useState<{ value: T } | null>(null);
   const [problem, setProblem] = useState<ListedProblem | null>(null);
   const latest = useRef<{ value: T } | null>(null);
 
-  const { send: place } = usePlace();
+  const { send: placed } = usePlace();
+  const place = sendTo ?? placed;
   const send = useCallback(
     async (value: T, gesture: number): Promise<Answer> => {
       if (place !== undefined) {

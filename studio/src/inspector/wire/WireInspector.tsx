@@ -1,0 +1,104 @@
+// A connection: its ends, its strength, what is on it, and what it reads.
+
+import { Button, UnstyledButton } from "@mantine/core";
+import type { ReactNode } from "react";
+
+import { isEditable } from "../../build/editable";
+import { openPalette } from "../../build/palette/palette";
+import { firstOf, middleOf } from "../../build/wiring/wires";
+import { labelOf } from "../../graph/boxes/label";
+import type { Chain } from "../../graph/wires/chains";
+import { RANGE, strengthOf, useStrength, wireText } from "../../graph/wires/strength";
+import { useStudio } from "../../store";
+import { NumberControl } from "../numbers/NumberControl";
+import type { Setting } from "../parameters/setting";
+
+const READS: Record<string, string> = {
+  current: "this step",
+  previous: "the previous step",
+  delayed: "one step later",
+};
+
+export function WireInspector({ wire, chain }: { wire: string; chain: Chain }) {
+  const { source, source_port, target, target_port, couplings, gain, reads } = chain;
+  const text = useStudio(({ elements }) => wireText(chain, elements));
+  const elements = useStudio((state) => state.elements);
+  const hasStrength = useStudio((state) => strengthOf(chain, state) !== null);
+  const setting = useStrength(chain);
+  const several = (ports: string[] | undefined, port: string) => ((ports?.length ?? 0) > 1 ? `.${port}` : "");
+  const others = couplings.filter((id) => id !== gain);
+  const [ends, does] = text.split(", ");
+  const insert = () => {
+    const [at, into] = [middleOf(wire), firstOf(wire)];
+    if (at !== null && into !== null) {
+      openPalette(at, into);
+    }
+  };
+  return (
+    <>
+      <header className="inspector-header">
+        <h2 className="one-line" title={ends}>
+          {ends}
+        </h2>
+        <span className="kind-title">Connection, {does}</span>
+      </header>
+      <section className="parameters" aria-label="Connection">
+        <Line name="from">
+          <ElementLink id={source} port={several(elements.get(source)?.outputs, source_port)} />
+        </Line>
+        <Line name="to">
+          <ElementLink id={target} port={several(elements.get(target)?.inputs, target_port)} />
+        </Line>
+        {hasStrength && (
+          <div className="row" role="group" aria-label="strength">
+            <div className="row-label">strength</div>
+            <div className="row-control">
+              <NumberControl
+                label="strength"
+                // a number that is not optional is never null
+                setting={setting as Setting<number | null>}
+                range={RANGE}
+                rangeKey={wire}
+                unit=""
+              />
+            </div>
+          </div>
+        )}
+        {others.map((id) => (
+          <Line key={id} name={couplingOf(elements.get(id)?.kernel)}>
+            <ElementLink id={id} port="" />
+          </Line>
+        ))}
+        {reads !== "" && <Line name="reads">{READS[reads] ?? reads}</Line>}
+      </section>
+      <Button size="compact-xs" variant="default" disabled={!isEditable()} onClick={insert}>
+        Insert an element
+      </Button>
+    </>
+  );
+}
+
+const couplingOf = (isKernel: boolean | undefined): string => (isKernel === true ? "kernel" : "through");
+
+function Line({ name, children }: { name: string; children: ReactNode }) {
+  return (
+    <div className="row row-inline">
+      <div className="row-label">{name}</div>
+      <div className="row-control">{children}</div>
+    </div>
+  );
+}
+
+function ElementLink({ id, port }: { id: string; port: string }) {
+  const label = useStudio(({ elements, kinds }) => {
+    const { path = "", name = "", kind = "" } = elements.get(id) ?? {};
+    const called = labelOf(name, kind, kinds.get(kind)?.title ?? "");
+    return called === name ? path : called;
+  });
+  return (
+    <UnstyledButton className="link-path" onClick={() => useStudio.getState().select([id])}>
+      {label}
+      {port}
+    </UnstyledButton>
+  );
+}
