@@ -5,7 +5,7 @@ import type { Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
-import { button, choose, panel } from "./hands";
+import { button, choose, panel, typed } from "./hands";
 import { shot, startStudio, type Studio } from "./studio";
 import { writeTwoTargets } from "./twoTargets";
 
@@ -31,11 +31,6 @@ async function open(name: string): Promise<void> {
   const dialog = page.getByRole("dialog");
   await dialog.getByRole("button", { name, exact: true }).click();
   await dialog.waitFor({ state: "detached" });
-}
-
-async function fill(box: Locator, text: string): Promise<void> {
-  await box.fill(text);
-  await box.press("Enter");
 }
 
 /** Choose one of the names that a field lists. */
@@ -101,35 +96,35 @@ test("an experiment is built with the mouse, and its file is the one that Python
   const delay = await delayed(page);
   await choose(page, "More for the experiment", "New");
   await status(/^20 trials$/);
-  await fill(field("limit"), "600");
-  await fill(field("trials"), "25");
+  await typed(field("limit"), "600");
+  await typed(field("trials"), "25");
 
   await button(page, "Add to Factors").click();
-  await fill(field("Name of factor"), "distance");
+  await typed(field("Name of factor"), "distance");
   await shown().getByRole("region", { name: "Factor distance" }).getByText("Named levels").click();
-  await fill(field("Name of level 1 of distance"), "near");
+  await typed(field("Name of level 1 of distance"), "near");
   for (const path of ["left.center", "right.center", "preshape.center"])
     await pick(field("Add a parameter to distance"), path);
   await button(page, "Add a level to distance").click();
   const values = { left: ["46", "35"], right: ["54", "65"], preshape: ["46", "35"] };
   await field("left.center at level").waitFor();
-  await fill(field("Name of level 2 of distance"), "far");
+  await typed(field("Name of level 2 of distance"), "far");
   await field("left.center at far").waitFor();
   delay(100);
   for (const [name, [near, far]] of Object.entries(values)) {
-    await fill(field(`${name}.center at near`), near as string);
-    await fill(field(`${name}.center at far`), far as string);
+    await typed(field(`${name}.center at near`), near as string);
+    await typed(field(`${name}.center at far`), far as string);
   }
   delay(0);
   await button(page, "Add to Factors").click();
-  await fill(field("Name of factor"), "preshape");
+  await typed(field("Name of factor"), "preshape");
   await pick(field("Parameter of preshape"), "preshape.amplitude");
-  await fill(field("Level 1 of preshape"), "0");
+  await typed(field("Level 1 of preshape"), "0");
   await button(page, "Add a level to preshape").click();
   expect(await field("Level 2 of preshape").inputValue()).toBe("1");
 
   await choose(page, "Add to Conditions", "Appears");
-  await fill(field("Name of appears"), "detected");
+  await typed(field("Name of appears"), "detected");
   const card = shown().getByRole("region", { name: "Appears detected" });
   await card.getByText("an Appears needs 'field'", { exact: false }).waitFor();
   await status(/^cannot run yet$/);
@@ -137,10 +132,10 @@ test("an experiment is built with the mouse, and its file is the one that Python
   await shot(page, "experiment-problem");
   await pick(field("detected.field"), "u");
   await button(page, "Add to Measures").click();
-  await fill(field("Name of measure"), "place");
+  await typed(field("Name of measure"), "place");
   await pick(field("place.of"), "u.activation");
   await pick(field("place.reduce"), "place");
-  await fill(field("place.threshold"), "-2.5");
+  await typed(field("place.threshold"), "-2.5");
   await status(/^100 trials$/);
   await button(page, "Undo in the experiment").click();
   await expect.poll(() => field("place.threshold").inputValue()).not.toBe("-2.5");
@@ -161,7 +156,7 @@ test("an experiment is built with the mouse, and its file is the one that Python
   await dialog.getByRole("button", { name: "Cancel" }).click();
   await dialog.waitFor({ state: "detached" });
   await button(page, "Save the experiment").click();
-  await fill(dialog.getByRole("textbox", { name: "Name" }), "built");
+  await typed(dialog.getByRole("textbox", { name: "Name" }), "built");
   await expect.poll(() => button(page, "Save the experiment").isDisabled()).toBe(true);
   expect(await page.getByText("changed on another page").count()).toBe(0);
   expect(written("built.json")).toBe(written("two-targets.json"));
@@ -171,13 +166,13 @@ test("an action is added as a card, and the bars of each condition grow while th
   await open("two-targets.json");
   await shown().getByText("Design", { exact: true }).click();
   const { page } = studio;
-  await fill(field("trials"), "500");
+  await typed(field("trials"), "500");
   await choose(page, "Add to Actions", "Push");
   const card = shown().getByRole("region", { name: "Push 1" });
-  await fill(card.getByRole("textbox", { name: "0.at", exact: true }), "100");
+  await typed(card.getByRole("textbox", { name: "0.at", exact: true }), "100");
   await pick(card.getByRole("combobox", { name: "0.element", exact: true }), "u");
-  await fill(card.getByRole("textbox", { name: "0.amount", exact: true }), "-20");
-  await fill(card.getByRole("textbox", { name: "0.lasting", exact: true }), "600");
+  await typed(card.getByRole("textbox", { name: "0.amount", exact: true }), "-20");
+  await typed(card.getByRole("textbox", { name: "0.lasting", exact: true }), "600");
   await status(/^2000 trials$/);
   await card.scrollIntoViewIfNeeded();
   await shot(page, "experiment-action");

@@ -107,6 +107,12 @@ export async function beside(
   await opened.waitFor({ state: "detached" });
 }
 
+/** Type into a field, and take it with Enter. */
+export async function typed(field: Locator, text: string): Promise<void> {
+  await field.fill(text);
+  await field.press("Enter");
+}
+
 /** Choose an entry of the menu of files. */
 export const file = (page: Page, item: string | RegExp): Promise<void> => choose(page, "File menu", item);
 

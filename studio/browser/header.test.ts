@@ -83,7 +83,7 @@ test("while it compiles the page shows the step, the phase and the time", async 
   await shot(page, "compiling");
   await beside(page, "Run settings", async (settings) => {
     const dt = settings.getByRole("textbox", { name: "Time step dt" });
-    expect(await dt.inputValue()).toBe("4 ms");
+    expect(await dt.inputValue()).toBe("4");
   });
   await page.setViewportSize({ width: 390, height: 800 });
   expect(await overlapping()).toEqual([]);

@@ -1,6 +1,6 @@
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { beside, button, select, slider } from "./hands";
+import { beside, button, select, slider, typed } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -61,12 +61,12 @@ test("the buttons take single steps and several steps", async () => {
   expect(observer.running).toBe(false);
 
   await beside(page, "Run settings", (settings) =>
-    settings.getByRole("textbox", { name: "Steps at a time" }).fill("50"),
+    typed(settings.getByRole("textbox", { name: "Steps at a time" }), "50"),
   );
   await button(page, "50 steps").click();
   await observer.until(() => observer.clock?.tick === 52);
   await beside(page, "Run settings", (settings) =>
-    settings.getByRole("textbox", { name: "Steps at a time" }).fill("1"),
+    typed(settings.getByRole("textbox", { name: "Steps at a time" }), "1"),
   );
   await button(page, "Step").waitFor();
 });
@@ -85,7 +85,7 @@ test("reset returns to the start; another seed gives another run, the same seed 
   expect(await run()).toEqual(first);
 
   await beside(page, "Run settings", async (settings) => {
-    await settings.getByRole("textbox", { name: "Seed of the noise" }).fill("7");
+    await typed(settings.getByRole("textbox", { name: "Seed of the noise" }), "7");
     await settings.getByText("Takes effect with the next reset.").waitFor();
     await settings.getByRole("button", { name: "Reset" }).click();
   });
@@ -94,7 +94,7 @@ test("reset returns to the start; another seed gives another run, the same seed 
 
   await beside(page, "Run settings", async (settings) => {
     await settings.getByRole("button", { name: "New seed" }).click();
-    await settings.getByRole("textbox", { name: "Seed of the noise" }).fill("0");
+    await typed(settings.getByRole("textbox", { name: "Seed of the noise" }), "0");
   });
   await page.keyboard.press("Shift+R");
   await observer.until(() => observer.clock?.seed === 0 && observer.time === 0);
@@ -128,9 +128,10 @@ test("another time step is stored in the document and keeps the state", async ()
     expect(observer.time).toBe(20);
     await step.fill("50");
     await step.press("Enter");
-    await page.getByRole("region", { name: "Messages" }).getByText("longer than the time constant").waitFor();
+    await settings.getByRole("alert").getByText("longer than the time constant").waitFor();
+    await shot(page, "run-settings-refused");
   });
-  await button(page, "Dismiss").click();
+  expect(observer.clock?.dt).toBe(0.5);
   await observer.ask({ type: "step", n: 2 });
   await observer.until(() => observer.time === 21);
   await page.keyboard.press("Control+z");

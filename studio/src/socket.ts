@@ -11,7 +11,7 @@ import { type Offer, useStudio } from "./store";
 import { live } from "./world/live";
 import { Streams } from "./streams";
 
-type Reply = { answer: Answer; folder: Folder | null; fits: Fits | null };
+export type Reply = { answer: Answer; folder: Folder | null; fits: Fits | null };
 
 const AGAIN_MS = [200, 500, 1000, 2000];
 

@@ -61,8 +61,6 @@ export const theme = createTheme({
       defaultProps: { openDelay: 400, fz: "xs", withArrow: true, arrowSize: 6, multiline: true, maw: 280 },
     },
     ActionIcon: { defaultProps: { variant: "subtle", color: "gray" } },
-    // the arrow keys step a number; its two buttons are too small for a finger
-    NumberInput: { defaultProps: { hideControls: true } },
     // the placeholder for the first focus is no entry, and a menu may contain only entries
     Menu: { defaultProps: { withInitialFocusPlaceholder: false } },
   },

@@ -1,6 +1,6 @@
 // The distribution of a column in each combination of levels: a histogram of numbers, bars of texts.
 
-import { numberText } from "../inspector/numbers/number";
+import { numberText } from "../widgets/number";
 import { bins, type Column, conditionsOf, median, rangeOf, shares, type TrialRow } from "./trialRows";
 
 // Of a drawing, which is stretched to the width that it has.

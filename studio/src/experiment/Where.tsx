@@ -1,8 +1,9 @@
 // Where the next run computes its trials: processes of this machine, or the workers of a cluster.
 
-import { Checkbox, NumberInput, SegmentedControl, TextInput } from "@mantine/core";
+import { Checkbox, SegmentedControl, TextInput } from "@mantine/core";
 
 import { useStudio } from "../store";
+import { NumberField } from "../widgets/NumberField";
 import { PATIENCE, placeText, useRunPlace } from "./runPlace";
 
 export function Where() {
@@ -34,19 +35,16 @@ function Processes() {
   const usual = useStudio((state) => state.welcome?.usual_workers) ?? 1;
   const most = useStudio((state) => state.welcome?.most_workers) ?? usual;
   return (
-    <NumberInput
+    <NumberField
       label="Processes"
       description="Each uses one core; at most one for each batch of trials."
-      size="xs"
-      min={1}
-      max={most}
-      allowDecimal={false}
-      clampBehavior="blur"
+      lower={1}
+      upper={most}
+      whole
       placeholder={String(usual)}
-      value={workers ?? ""}
-      onChange={(value) =>
-        useRunPlace.setState({ workers: typeof value === "number" && value >= 1 ? value : null })
-      }
+      value={workers}
+      set={(value) => useRunPlace.setState({ workers: value })}
+      clear={() => useRunPlace.setState({ workers: null })}
     />
   );
 }
@@ -66,18 +64,15 @@ function ClusterForm() {
         value={address}
         onChange={(event) => useRunPlace.setState({ address: event.currentTarget.value })}
       />
-      <NumberInput
+      <NumberField
         label="Patience"
         description="Time without any worker after which the run ends; a day in a queue is 86400 s."
-        size="xs"
-        min={1}
-        max={1e7}
-        suffix=" s"
-        placeholder={`${PATIENCE} s`}
+        lower={1}
+        upper={1e7}
+        unit="s"
         value={patience}
-        onChange={(value) =>
-          useRunPlace.setState({ patience: typeof value === "number" && value > 0 ? value : PATIENCE })
-        }
+        set={(value) => useRunPlace.setState({ patience: value })}
+        clear={() => useRunPlace.setState({ patience: PATIENCE })}
       />
       <Checkbox
         label="Trust the network"

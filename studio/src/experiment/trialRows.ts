@@ -1,6 +1,6 @@
 // The rows of trials as columns, and the distribution of a column in each combination of levels.
 
-import { numberText } from "../inspector/numbers/number";
+import { numberText } from "../widgets/number";
 
 export type TrialRow = {
   trial: number;

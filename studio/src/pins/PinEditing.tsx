@@ -4,7 +4,7 @@ import { Button, TextInput } from "@mantine/core";
 import { useState, type FormEvent } from "react";
 
 import { useLateFocus } from "../widgets/lateFocus";
-import { numberText, typedNumber } from "../inspector/numbers/number";
+import { numberText, typedNumber } from "../widgets/number";
 import { ProblemLine } from "../widgets/ProblemLine";
 import type { SliderRange } from "../inspector/numbers/sliderRange";
 import { changedPin, keepPins, type Pin } from "./pin";

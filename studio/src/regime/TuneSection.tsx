@@ -1,6 +1,6 @@
 // Tune a field to a regime: what it is to do, the parameters that may change, and what was found.
 
-import { Button, Checkbox, NativeSelect, NumberInput } from "@mantine/core";
+import { Button, Checkbox, NativeSelect } from "@mantine/core";
 import { IconCheck, IconPlayerStop, IconTarget } from "@tabler/icons-react";
 import { useState } from "react";
 
@@ -8,6 +8,7 @@ import { ProblemText } from "../problems/ProblemText";
 import type { ElementView, Tuning } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { NumberField } from "../widgets/NumberField";
 import { FIRST_GOALS, type ToleratedValue, requirements, tunable } from "./goals";
 
 export function TuneSection({ field }: { field: ElementView }) {
@@ -113,14 +114,13 @@ function ToleratedGoal({
   change: (value: ToleratedValue) => void;
 }) {
   const number = (name: "at" | "within", text: string) => (
-    <NumberInput
-      size="xs"
+    <NumberField
       className="tune-number"
-      aria-label={`${label}, ${text}`}
-      hideControls
+      label={`${label}, ${text}`}
+      labelled={false}
       disabled={!value.on}
       value={value[name]}
-      onChange={(given) => typeof given === "number" && change({ ...value, [name]: given })}
+      set={(typed) => change({ ...value, [name]: typed })}
     />
   );
   return (

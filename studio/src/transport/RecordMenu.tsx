@@ -1,22 +1,14 @@
 // The choice of what the next record holds: ports to tick, the plotted ones at first, and how often they are
 // sampled.
 
-import {
-  ActionIcon,
-  Button,
-  Checkbox,
-  NumberInput,
-  Popover,
-  ScrollArea,
-  TextInput,
-  Tooltip,
-} from "@mantine/core";
+import { ActionIcon, Button, Checkbox, Popover, ScrollArea, TextInput, Tooltip } from "@mantine/core";
 import { IconChevronDown } from "@tabler/icons-react";
 import { useState } from "react";
 
 import { plottedPorts } from "../panels/openPlot";
 import type { RecordedPort } from "../protocol";
 import { useStudio } from "../store";
+import { NumberField } from "../widgets/NumberField";
 import { countText, unitText } from "./format";
 import { choiceFor, findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
 import classes from "./RecordMenu.module.css";
@@ -73,6 +65,7 @@ function Choice() {
   const paths = new Map(elements.map((element) => [element.id, element]));
   const count = ticked.filter(({ element }) => paths.has(element)).length;
   const choose = (next: RecordedPort[] | null) => useRecordChoice.setState({ session, ports: next, every });
+  const sample = (next: number | null) => useRecordChoice.setState({ session, ports, every: next });
   return (
     <div className={classes.choice}>
       {findPorts(elements, [], "").length > MANY && (
@@ -113,22 +106,16 @@ function Choice() {
       <Button size="compact-xs" variant="default" onClick={() => choose(null)}>
         Tick what is plotted
       </Button>
-      <NumberInput
+      <NumberField
         label="Sampling interval"
-        size="xs"
-        value={every ?? ""}
-        onChange={(value) =>
-          useRecordChoice.setState({
-            session,
-            ports,
-            every: typeof value === "number" && value > 0 ? value : null,
-          })
-        }
-        min={0}
+        description="A multiple of the time step. Empty: every step."
+        value={every}
+        lower={0}
+        unit={unit}
         placeholder="every step"
-        suffix={unit === "" ? "" : ` ${unit}`}
+        set={(value) => sample(value === 0 ? null : value)}
+        clear={() => sample(null)}
       />
-      <p className={classes.hint}>A multiple of the time step. Empty: every step.</p>
     </div>
   );
 }

@@ -1,5 +1,7 @@
 // What is wrong with the last try, beside the field.
 
+import "./fields.css";
+
 import type { ListedProblem } from "../protocol";
 
 export function ProblemLine({ problem }: { problem: ListedProblem | null }) {

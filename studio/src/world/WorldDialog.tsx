@@ -2,7 +2,7 @@
 
 import "./world.css";
 
-import { Button, Checkbox, FileButton, Group, NativeSelect, NumberInput, TextInput } from "@mantine/core";
+import { Button, Checkbox, FileButton, Group, NativeSelect, TextInput } from "@mantine/core";
 import { useEffect, useRef, useState } from "react";
 
 import { FolderBrowser } from "../dialogs/FolderBrowser";
@@ -16,6 +16,7 @@ import { paintBytes } from "../draw/paint";
 import type { Answer, Kind, ListedProblem, WorldPreview, WorldSettingView } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
+import { NumberField } from "../widgets/NumberField";
 import { bytesOf } from "./base64";
 import { draw } from "./draw";
 import { NOTHING_SEEN } from "./live";
@@ -106,6 +107,7 @@ function WorldForm({ kind, done }: { kind: Kind; done: () => void }) {
             <SettingInput
               key={setting.name}
               setting={setting}
+              value={values[setting.name]}
               set={(value) =>
                 setValues(({ [setting.name]: _, ...rest }) =>
                   value === undefined ? rest : { ...rest, [setting.name]: value },
@@ -204,8 +206,10 @@ function Source({ kind, setting, argument, choose }: SourceProps) {
   );
 }
 
+type SettingInputProps = { setting: WorldSettingView; value: unknown; set: (value: unknown) => void };
+
 // One setting; `undefined` is its default.
-function SettingInput({ setting, set }: { setting: WorldSettingView; set: (value: unknown) => void }) {
+function SettingInput({ setting, value, set }: SettingInputProps) {
   const { name, form, meaning } = setting;
   const common = { label: name, description: meaning, size: "xs", mt: 6 } as const;
   const standard = setting.default;
@@ -220,10 +224,12 @@ function SettingInput({ setting, set }: { setting: WorldSettingView; set: (value
   }
   if (form === "number") {
     return (
-      <NumberInput
-        {...common}
-        defaultValue={standard as number}
-        onChange={(value) => set(typeof value === "number" ? value : undefined)}
+      <NumberField
+        label={name}
+        description={meaning}
+        value={(value ?? standard) as number | null}
+        set={set}
+        clear={() => set(undefined)}
       />
     );
   }

@@ -9,7 +9,7 @@ import { socket } from "../../socket";
 import { useStudio } from "../../store";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { TextBox } from "../forms/TextBox";
-import { NumberBox } from "../numbers/NumberBox";
+import { NumberBox } from "../../widgets/NumberBox";
 
 export function AxisFields({ axis }: { axis: AxisView }) {
   const [problem, setProblem] = useState<ListedProblem | null>(null);

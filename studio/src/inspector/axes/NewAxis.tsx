@@ -8,7 +8,7 @@ import type { AxisView, ListedProblem } from "../../protocol";
 import { socket } from "../../socket";
 import { useLateFocus } from "../../widgets/lateFocus";
 import { ProblemLine } from "../../widgets/ProblemLine";
-import { typedNumber } from "../numbers/number";
+import { typedNumber } from "../../widgets/number";
 
 type NewAxisProps = {
   // The axes of the document: the new one has another name at first.

@@ -12,8 +12,8 @@ import { AxisLines } from "../forms/AxisLines";
 import { ChoiceBox } from "../forms/ChoiceBox";
 import { TextBox } from "../forms/TextBox";
 import { DocumentParameterList } from "./DocumentParameterList";
-import { NumberBox } from "../numbers/NumberBox";
-import { numberText } from "../numbers/number";
+import { NumberField } from "../../widgets/NumberField";
+import { numberText } from "../../widgets/number";
 import { ProblemBanner } from "../element/ProblemBanner";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { timeText } from "../numbers/unit";
@@ -60,15 +60,13 @@ export function DocumentInspector() {
         <div className="row row-inline">
           <div className="row-label">step dt</div>
           <div className="row-control">
-            <NumberBox
+            <NumberField
               label="Step dt"
+              labelled={false}
               value={document.dt}
               unit={unit}
               placeholder={dt === undefined ? "" : `${numberText(dt)} (default)`}
-              rejected={problem !== null}
-              onCommit={(value) => describe({ dt: value })}
-              onForget={() => setProblem(null)}
-              onComplain={setProblem}
+              set={(value) => socket.ask({ type: "describe", dt: value })}
             />
           </div>
         </div>

@@ -6,7 +6,7 @@ import { IconChartGridDots } from "@tabler/icons-react";
 import { openPlot } from "../../panels/openPlot";
 import { weightsOf } from "../../model/ports";
 import { useStudio } from "../../store";
-import { numberText } from "../numbers/number";
+import { numberText } from "../../widgets/number";
 import { ParameterRow } from "../parameters/ParameterRow";
 import { usePlace } from "../place";
 import type { FormProps } from "./props";

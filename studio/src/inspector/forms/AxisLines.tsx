@@ -4,7 +4,7 @@ import { Popover, UnstyledButton } from "@mantine/core";
 
 import type { AxisView } from "../../protocol";
 import { AxisFields } from "../axes/AxisFields";
-import { numberText } from "../numbers/number";
+import { numberText } from "../../widgets/number";
 
 export function AxisLines({ axes }: { axes: AxisView[] }) {
   return (

@@ -4,7 +4,6 @@ import { ArrayForm } from "./ArrayForm";
 import { AxesForm } from "./AxesForm";
 import { AxisForm } from "./AxisForm";
 import { FlagForm } from "./FlagForm";
-import { IntegerForm } from "./IntegerForm";
 import { NumberForm } from "./NumberForm";
 import { NumbersForm } from "./NumbersForm";
 import { PairsForm } from "./PairsForm";
@@ -21,7 +20,7 @@ export const FORMS: FormTable = {
   axes: AxesForm,
   axis: AxisForm,
   flag: FlagForm,
-  integer: IntegerForm,
+  integer: NumberForm,
   number: NumberForm,
   numbers: NumbersForm,
   pairs: PairsForm,

@@ -1,6 +1,6 @@
 // A value of any type, as it is typed: what JSON can read is that value, the rest is text.
 
-import { typedNumber } from "../numbers/number";
+import { typedNumber } from "../../widgets/number";
 
 export function typedValue(text: string): unknown {
   const trimmed = text.trim();

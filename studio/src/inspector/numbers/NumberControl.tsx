@@ -1,10 +1,10 @@
 // A slider and a number beside it: one number of an element, or a document parameter.
 
-import { useCallback, useEffect, useRef, useState } from "react";
+import { useRef, useState } from "react";
 
 import type { ListedProblem } from "../../protocol";
-import { numberText } from "./number";
-import { NumberBox } from "./NumberBox";
+import { numberText } from "../../widgets/number";
+import { NumberBox } from "../../widgets/NumberBox";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { including, nudged, type SliderRange } from "./sliderRange";
 import type { Setting } from "../parameters/setting";
@@ -23,8 +23,6 @@ type NumberControlProps = {
   onRange?: () => void;
 };
 
-const READING_MS = 6000;
-
 export function NumberControl({
   label,
   setting,
@@ -38,18 +36,10 @@ export function NumberControl({
   const [complaint, setComplaint] = useState<ListedProblem | null>(null);
   const shown = useCalmRange(range, rangeKey, value);
   const wrong = complaint ?? problem;
-  const later = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
-  const onForget = useCallback(() => {
-    clearTimeout(later.current);
+  const onForget = () => {
     setComplaint(null);
     forget();
-  }, [forget]);
-  // The field shows its old value again; the error of the refused value stays for a while.
-  const onLeave = () => {
-    end();
-    later.current = setTimeout(onForget, READING_MS);
   };
-  useEffect(() => () => clearTimeout(later.current), []);
 
   const slider =
     value === null ? (
@@ -88,7 +78,7 @@ export function NumberControl({
         }
         onForget={onForget}
         onComplain={setComplaint}
-        onLeave={onLeave}
+        onLeave={end}
       />
       <ProblemLine problem={wrong} />
     </div>

@@ -5,7 +5,7 @@ import { Switch } from "@mantine/core";
 import { useOffline } from "../../connection/NeedsServer";
 import type { Setting } from "../parameters/setting";
 import { ProblemLine } from "../../widgets/ProblemLine";
-import { numberText } from "./number";
+import { numberText } from "../../widgets/number";
 
 type SwitchControlProps = { label: string; setting: Setting<number | null>; off: number; on: number };
 

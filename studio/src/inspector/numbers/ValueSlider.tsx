@@ -4,7 +4,7 @@ import { Slider } from "@mantine/core";
 import type { KeyboardEvent } from "react";
 
 import { useOffline } from "../../connection/NeedsServer";
-import { numberText } from "./number";
+import { numberText } from "../../widgets/number";
 import { nudged, snapped, type SliderRange } from "./sliderRange";
 
 type ValueSliderProps = {

@@ -9,7 +9,7 @@ import { useStudio } from "../../store";
 import { CostMark } from "./CostMark";
 import { DocumentParameterNaming } from "../document/DocumentParameterNaming";
 import { linkable } from "./leaf";
-import { numberText } from "../numbers/number";
+import { numberText } from "../../widgets/number";
 import { hasDefault, kindOf, same, symbolOf, words } from "./part";
 import { usePlace } from "../place";
 import { defaultAt } from "../numbers/sliderRange";

@@ -3,7 +3,7 @@
 import type { Kind, ParameterForm } from "../../protocol";
 import type { Values } from "../../values";
 import type { Kinds } from "./leaf";
-import { numberText } from "../numbers/number";
+import { numberText } from "../../widgets/number";
 
 // The number of values that are shown in one line.
 const MOST = 3;

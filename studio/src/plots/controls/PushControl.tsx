@@ -1,6 +1,8 @@
 // What a right-click on a plot injects.
 
-import { NumberInput, Text } from "@mantine/core";
+import { Text } from "@mantine/core";
+
+import { NumberField } from "../../widgets/NumberField";
 import type { PlotSettings } from "../settings";
 
 type PushSettings = { amplitude: number; width: number; set: (settings: Partial<PlotSettings>) => void };
@@ -9,21 +11,17 @@ export function PushControl({ amplitude, width, set }: PushSettings) {
   return (
     <>
       <div className="plot-pair">
-        <NumberInput
-          size="xs"
+        <NumberField
           label="Injected amplitude"
           value={amplitude}
-          step={1}
-          onChange={(value) => typeof value === "number" && set({ amplitude: value })}
+          set={(value) => set({ amplitude: value })}
         />
-        <NumberInput
-          size="xs"
+        <NumberField
           label="Width (% of axis)"
-          value={Number((100 * width).toPrecision(6))}
-          min={0.1}
-          max={100}
-          step={1}
-          onChange={(value) => typeof value === "number" && value > 0 && set({ width: value / 100 })}
+          value={100 * width}
+          lower={0.1}
+          upper={100}
+          set={(value) => set({ width: value / 100 })}
         />
       </div>
       <Text size="xs" c="dimmed">

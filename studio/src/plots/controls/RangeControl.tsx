@@ -1,7 +1,9 @@
 // The range of values of a plot: it follows the data or is fixed.
 
-import { NumberInput, Switch } from "@mantine/core";
+import { Switch } from "@mantine/core";
+
 import type { Range } from "../../draw/scale";
+import { NumberField } from "../../widgets/NumberField";
 
 export function RangeControl({
   range,
@@ -12,12 +14,9 @@ export function RangeControl({
   shown: () => Range;
   set: (range: Range | null) => void;
 }) {
-  const change = (end: 0 | 1, value: number | string) => {
-    if (range !== null && typeof value === "number") {
-      const next: Range = end === 0 ? [value, range[1]] : [range[0], value];
-      if (next[0] < next[1]) {
-        set(next);
-      }
+  const change = (next: Range) => {
+    if (next[0] < next[1]) {
+      set(next);
     }
   };
   return (
@@ -30,17 +29,17 @@ export function RangeControl({
       />
       {range !== null && (
         <div className="plot-pair">
-          <NumberInput
-            size="xs"
+          <NumberField
             label="Lowest value"
             value={range[0]}
-            onChange={(value) => change(0, value)}
+            upper={range[1]}
+            set={(value) => change([value, range[1]])}
           />
-          <NumberInput
-            size="xs"
+          <NumberField
             label="Highest value"
             value={range[1]}
-            onChange={(value) => change(1, value)}
+            lower={range[0]}
+            set={(value) => change([range[0], value])}
           />
         </div>
       )}

@@ -1,9 +1,10 @@
 // The choice of a time course: an element, its port, and of an array the maximum, the mean or a position.
 
-import { NumberInput, SegmentedControl, Select } from "@mantine/core";
+import { SegmentedControl, Select } from "@mantine/core";
 import type { AxisView, ElementView } from "../../protocol";
 import { useStudio } from "../../store";
 import { axisLabel } from "../../draw/axis";
+import { NumberField } from "../../widgets/NumberField";
 import { mainPort, portAxes, portsOf } from "../../model/ports";
 import type { TraceSetting } from "../settings";
 import { traceOf } from "../traces";
@@ -64,15 +65,13 @@ export function TraceControl({ trace, label, set }: TraceChoice) {
       {axes.length > 0 && reduce === "at" && (
         <div className="plot-pair">
           {axes.map((axis, i) => (
-            <NumberInput
+            <NumberField
               key={axis.key}
-              size="xs"
               label={axisLabel(axis)}
-              min={axis.lower}
-              max={axis.upper}
+              lower={axis.lower}
+              upper={axis.upper}
               value={position(axis, i)}
-              onChange={(value) =>
-                typeof value === "number" &&
+              set={(value) =>
                 set({ ...trace, at: axes.map((other, j) => (i === j ? value : position(other, j))) })
               }
             />

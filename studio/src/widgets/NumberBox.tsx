@@ -2,17 +2,18 @@
 // steps).
 
 import { TextInput } from "@mantine/core";
-import { useState, type KeyboardEvent } from "react";
+import { type KeyboardEvent, useEffect, useRef, useState } from "react";
 
-import type { ListedProblem } from "../../protocol";
-import { numberText, typedNumber } from "./number";
+import type { ListedProblem } from "../protocol";
+import { type Limits, numberText, typedNumber, wrongWith } from "./number";
 
-export type NumberBoxProps = {
+export type NumberBoxProps = Limits & {
   label: string;
+  // Whether the label stands above the field, or somewhere else.
+  labelled?: boolean;
+  description?: string;
   value: number | null;
   unit?: string;
-  // Whether it may be left empty.
-  optional?: boolean;
   placeholder?: string;
   rejected: boolean;
   disabled?: boolean;
@@ -23,33 +24,43 @@ export type NumberBoxProps = {
   onLeave?: () => void;
 };
 
+// How long the problem of a field that was left is shown.
+const READING_MS = 6000;
+
 // A unit is shown inside the field if there is space.
 const MOST_UNIT = 5;
 
 export function NumberBox(props: NumberBoxProps) {
   const {
     label,
+    labelled = false,
+    description,
     value,
     unit = "",
-    optional = false,
     placeholder,
     rejected,
     disabled,
     onCommit,
     onStep,
-    onForget,
     onComplain,
     onLeave,
   } = props;
+  const later = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
+  useEffect(() => () => clearTimeout(later.current), []);
+  const onForget = () => {
+    clearTimeout(later.current);
+    props.onForget();
+  };
   const [draft, setDraft] = useState<string | null>(null);
   const inside = unit.length <= MOST_UNIT ? unit : "";
 
   const take = async (text: string): Promise<boolean> => {
-    const number = typedNumber(text);
-    if (number === null && !(optional && text.trim() === "")) {
-      onComplain({ what: text.trim() === "" ? "needs a number" : `needs a number, not ${text.trim()}` });
+    const what = wrongWith(text, props);
+    if (what !== null) {
+      onComplain({ what });
       return false;
     }
+    const number = typedNumber(text);
     return number === value || (await onCommit(number));
   };
   const onKeyDown = async (event: KeyboardEvent<HTMLInputElement>) => {
@@ -74,6 +85,8 @@ export function NumberBox(props: NumberBoxProps) {
     } else if (draft !== null) {
       onForget();
     }
+    // The old value is shown again; the error of the refused one stays for a while.
+    later.current = setTimeout(onForget, READING_MS);
     setDraft(null);
     onLeave?.();
   };
@@ -82,9 +95,11 @@ export function NumberBox(props: NumberBoxProps) {
     <TextInput
       className="number-box"
       size="xs"
-      aria-label={label}
+      label={labelled ? label : undefined}
+      aria-label={labelled ? undefined : label}
+      description={description}
       title={unit === "" ? undefined : unit}
-      value={draft ?? (value === null ? "" : numberText(value))}
+      value={draft ?? (value === null ? "" : props.whole ? String(value) : numberText(value))}
       placeholder={placeholder}
       error={rejected && draft !== null}
       disabled={disabled}
