@@ -1,7 +1,7 @@
 // The connections on the canvas, and their meaning in the document.
 
 import type { WireContent } from "../../graph/contract";
-import type { Point } from "../../graph/layout/layout";
+import type { Point } from "../../graph/layout/rects";
 import type { WireData } from "../../graph/scene";
 import type { Chain } from "../../graph/wires/chains";
 import { useStudio } from "../../store";

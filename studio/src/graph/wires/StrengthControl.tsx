@@ -2,7 +2,7 @@
 
 import { type KeyboardEvent, type PointerEvent, useEffect, useRef, useState } from "react";
 import { isEditable } from "../../build/editable";
-import { typedNumber } from "../../inspector/numbers/number";
+import { typedNumber } from "../../widgets/number";
 import type { Setting } from "../../inspector/parameters/setting";
 import { short } from "../boxes/facts";
 import { dragged, pressed, stepped } from "./strength";
