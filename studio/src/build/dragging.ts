@@ -1,6 +1,6 @@
 // Boxes that are dragged with Alt: a copy is put where they were released, and they stay.
 
-import type { SceneNode } from "../graph/scene";
+import type { SceneNode } from "../graph/nodes";
 import { copyTo, cornerOf } from "./clipboard";
 import { useStudio } from "../store";
 import { isEditable } from "./editable";

@@ -50,14 +50,9 @@ import { useNear } from "./focus";
 import { useHover } from "./hover";
 import { moved } from "./layout/moved";
 import { newPainting, PainterContext } from "./boxes/PainterContext";
-import {
-  foldedAround,
-  foldedOutside,
-  groupKey,
-  type GraphScene,
-  type SceneNode,
-  type Structure,
-} from "./scene";
+import { foldedAround, foldedOutside, groupKey, type GraphScene } from "./scene";
+import type { SceneNode } from "./nodes";
+import type { Structure } from "./contract";
 import { Search } from "./Search";
 import { SignMarks } from "./wires/SignMarks";
 import type { Tree } from "./layout/tree";

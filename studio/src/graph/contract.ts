@@ -2,12 +2,14 @@
 // dots in the boxes that they feed, and the coupling of a box to itself as a badge on it. Elements that a
 // person has placed stay boxes.
 
-import type { ConnectionView, ElementView, Kind } from "../protocol";
+import type { ConnectionView, DocumentView, ElementView, Kind } from "../protocol";
 import { readBoxes } from "./boxes/boxes";
 import { isGrid } from "./grid";
-import type { Structure } from "./scene";
 import { by, type Chain, gainOf, isWeight, later } from "./wires/chains";
 import { product, together, type Sign } from "./wires/sign";
+
+// What the arrangement of a canvas depends on.
+export type Structure = Pick<DocumentView, "elements" | "connections" | "groups" | "layout">;
 
 type WireEnding = Pick<ConnectionView, "source" | "source_port" | "target" | "target_port">;
 

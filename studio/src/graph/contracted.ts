@@ -6,7 +6,7 @@ import { gridPlaces } from "./grid";
 import { PANEL } from "./layout/layout";
 import type { Point, Size } from "./layout/rects";
 import type { ElementView, Kind } from "../protocol";
-import type { SceneNode, Wire } from "./scene";
+import type { SceneNode, Wire } from "./nodes";
 
 // The width of a chip on a wire.
 export const CHIP = 22;

@@ -1,65 +1,18 @@
 // The nodes and edges of a document, in the form of xyflow. Pure; live values and parameters
 // are no part of it.
 
-import { Position, type Edge, type Node, type NodeHandle } from "@xyflow/react";
-import type { DocumentView, ElementView, Kind } from "../protocol";
+import { Position, type NodeHandle } from "@xyflow/react";
+import type { ElementView, Kind } from "../protocol";
 import { boxSize, dimensions, portHeight, readBoxes, readFolded } from "./boxes/boxes";
-import { contract, type WireContent } from "./contract";
+import { contract, type Structure } from "./contract";
+import type { BoxNode, CommentNode, FoldedNode, FrameNode, GroupData, SceneNode, Wire } from "./nodes";
 import { CHIP, contractedWires, inGrid, linksOf, withParts } from "./contracted";
 import { chains, type Chain } from "./wires/chains";
 import { type CanvasComment, readComments } from "./boxes/comments";
 import { COUNT, FOLDED, places, type Places } from "./layout/layout";
 import type { Point, Rect, Size } from "./layout/rects";
-import { signText, together, type Sign } from "./wires/sign";
-import type { Course } from "./wires/wirePath";
+import { signText, together } from "./wires/sign";
 import { around, hiddenBy, outside, tree, type Branch, type Tree } from "./layout/tree";
-
-export type Structure = Pick<DocumentView, "elements" | "connections" | "groups" | "layout">;
-
-export type BoxData = {
-  element: string;
-  path: string;
-  name: string;
-  title: string;
-  kind: string;
-  dimensions: number | null;
-  inputs: string[];
-  outputs: string[];
-  // The elements of a contracted architecture that are drawn in the box.
-  dots: string[];
-  badges: string[];
-};
-// A port of an element in a folded group that is connected with the outside.
-export type FoldedPort = { element: string; port: string; path: string };
-// `inputs` and `outputs` are those of a folded group, up to `MOST_PORTS`.
-export type GroupData = {
-  key: string;
-  name: string;
-  count: number;
-  inputs: FoldedPort[];
-  outputs: FoldedPort[];
-};
-// `chains`: what a wire stands for; those of a folded group are one. `shared`: whether an arrow ends at the
-// same port. `room`: the width of what is drawn on the wire. `course`: null until all are led.
-export type WireData = {
-  pills: string[];
-  reads: string;
-  sign: Sign;
-  shared: boolean;
-  count: number;
-  room: number;
-  course: Course | null;
-  chains: Chain[];
-  content: WireContent | null;
-  revealed: string[];
-};
-
-export type BoxNode = Node<BoxData, "box">;
-export type FrameNode = Node<GroupData, "frame">;
-export type FoldedNode = Node<GroupData, "folded">;
-export type CommentNode = Node<{ comment: string; text: string }, "comment">;
-export type SceneNode = BoxNode | FrameNode | FoldedNode | CommentNode;
-export type Wire = Edge<WireData, "wire">;
 
 export type GraphScene = {
   nodes: SceneNode[];

@@ -7,7 +7,8 @@ import { changeComment } from "../build/commenting";
 import { useStudio } from "../store";
 import { place } from "./layout/arrange";
 import { differ, moved } from "./layout/moved";
-import { commentId, type GraphScene, type SceneNode } from "./scene";
+import { commentId, type GraphScene } from "./scene";
+import type { SceneNode } from "./nodes";
 
 // Steps by arrow keys that follow each other are one change.
 const KEYS_MS = 500;

@@ -10,7 +10,8 @@ import { FIT, ZOOM } from "./layout/fit";
 import { firstFolded, useOpening, withFolded } from "./layout/folding";
 import { PANEL } from "./layout/layout";
 import type { Rect, Size } from "./layout/rects";
-import { scene, type GraphScene, type Structure } from "./scene";
+import { scene, type GraphScene } from "./scene";
+import type { Structure } from "./contract";
 
 // A panel that differs by less keeps its layout.
 const DIFFERENT = 24;

@@ -2,7 +2,7 @@
 
 import { positionsOf } from "../../graph/layout/arrange";
 import type { Point } from "../../graph/layout/rects";
-import type { SceneNode } from "../../graph/scene";
+import type { SceneNode } from "../../graph/nodes";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
 import { isEditable } from "../editable";

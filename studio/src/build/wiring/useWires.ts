@@ -5,7 +5,7 @@ import { useEffect, useMemo } from "react";
 
 import { overWire, useFocus } from "../../graph/focus";
 import { useHover } from "../../graph/hover";
-import type { SceneNode, Wire } from "../../graph/scene";
+import type { SceneNode, Wire } from "../../graph/nodes";
 import { useStudio } from "../../store";
 import { finish } from "./connecting";
 import { openPalette } from "../palette/palette";

@@ -2,7 +2,7 @@
 
 import type { WireContent } from "../../graph/contract";
 import type { Point } from "../../graph/layout/rects";
-import type { WireData } from "../../graph/scene";
+import type { WireData } from "../../graph/nodes";
 import type { Chain } from "../../graph/wires/chains";
 import { useStudio } from "../../store";
 import { type Side, type WireEnds, endsOf } from "./ends";

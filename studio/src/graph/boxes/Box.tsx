@@ -12,7 +12,7 @@ import { LiveBox } from "./LiveBox";
 import { unhover, useFocus } from "../focus";
 import { Mark } from "./Mark";
 import { Parts } from "./ContractedParts";
-import type { BoxNode } from "../scene";
+import type { BoxNode } from "../nodes";
 import { useProblem, useWarning } from "../problem";
 import { useDetail } from "./useDetail";
 

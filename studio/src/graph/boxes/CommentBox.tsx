@@ -6,7 +6,7 @@ import { NodeResizeControl, type NodeProps } from "@xyflow/react";
 import { memo, useState } from "react";
 
 import { changeComment, removeComment, useNewComment } from "../../build/commenting";
-import type { CommentNode } from "../scene";
+import type { CommentNode } from "../nodes";
 
 const LEAST = { width: 96, height: 40 };
 

@@ -14,7 +14,8 @@ import { fold } from "../layout/arrange";
 import { portHeight } from "./boxes";
 import { FOLDED } from "../layout/layout";
 import { MarkIcon } from "./Mark";
-import { type FoldedNode, type FoldedPort, portHandle } from "../scene";
+import type { FoldedNode, FoldedPort } from "../nodes";
+import { portHandle } from "../scene";
 import { problemOf, warningOf } from "../problem";
 import { keyOf } from "../layout/tree";
 

@@ -6,7 +6,7 @@ import type { NodeProps } from "@xyflow/react";
 import { memo } from "react";
 import { usePicked } from "../../build/picked";
 import { fold } from "../layout/arrange";
-import type { FrameNode } from "../scene";
+import type { FrameNode } from "../nodes";
 
 export const GroupFrame = memo(function GroupFrame({ data: { key, name } }: NodeProps<FrameNode>) {
   const picked = usePicked((state) => state.groups.includes(key));

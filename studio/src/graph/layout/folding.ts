@@ -7,7 +7,8 @@ import { chains } from "../wires/chains";
 import { MARGIN } from "./fit";
 import { PANEL } from "./layout";
 import type { Point, Size } from "./rects";
-import { scene, type Structure } from "../scene";
+import { scene } from "../scene";
+import type { Structure } from "../contract";
 import type { Kind } from "../../protocol";
 import { tree, type Branch } from "./tree";
 

@@ -3,7 +3,8 @@
 
 import type { Places } from "./layout";
 import type { Point } from "./rects";
-import { groupNode, type SceneNode } from "../scene";
+import { groupNode } from "../scene";
+import type { SceneNode } from "../nodes";
 import { below, type Tree } from "./tree";
 
 // The boxes of all elements, from the present nodes; elements of a folded group move with it.

@@ -4,7 +4,7 @@
 import { useState } from "react";
 import type { ElementView } from "../../protocol";
 import { useStudio, type Studio } from "../../store";
-import type { Structure } from "../scene";
+import type { Structure } from "../contract";
 
 export function useStructure(): Structure | null {
   const [select] = useState(selector);

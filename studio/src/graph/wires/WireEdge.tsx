@@ -9,7 +9,7 @@ import { useProblem } from "../problem";
 import { Pill } from "../boxes/Pill";
 import { markOf } from "./SignMarks";
 import type { Point } from "../layout/rects";
-import type { Wire } from "../scene";
+import type { Wire } from "../nodes";
 import type { Chain } from "./chains";
 import { StrengthControl } from "./StrengthControl";
 import { strengthOf, useStrength, widthOf, wireText } from "./strength";

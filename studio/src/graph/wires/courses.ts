@@ -2,7 +2,8 @@
 
 import type { Rect } from "../layout/rects";
 import { labelPlaces } from "../boxes/labels";
-import { type GraphScene, PORT, type SceneNode, type Wire, type WireData } from "../scene";
+import { type GraphScene, PORT } from "../scene";
+import type { SceneNode, Wire, WireData } from "../nodes";
 import { type Route, Tracks } from "./tracks";
 import { goesBack, turns, type WireLine } from "./turns";
 import { type Course, courseOf } from "./wirePath";
