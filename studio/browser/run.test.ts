@@ -140,6 +140,8 @@ test("another time step is stored in the document and keeps the state", async ()
 
 test("the keys of the run work, and the help lists them", async () => {
   const { page } = studio;
+  // Space would press the button that has the focus
+  await page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
   await page.keyboard.press("?");
   const help = page.getByRole("dialog", { name: "Keys and mouse" });
   await help.getByText("Play or pause").waitFor();

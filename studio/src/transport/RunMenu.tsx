@@ -31,7 +31,7 @@ export function RunMenu() {
           </ActionIcon>
         </Tooltip>
       </Popover.Target>
-      <Popover.Dropdown p="md" w={300}>
+      <Popover.Dropdown p="md" w={340}>
         <Stack gap="sm">
           <Seed />
           <TimeStep />

@@ -52,7 +52,8 @@ export function NumberBox(props: NumberBoxProps) {
     props.onForget();
   };
   const [draft, setDraft] = useState<string | null>(null);
-  const inside = unit.length <= MOST_UNIT ? unit : "";
+  const shown = draft ?? (value === null ? "" : props.whole ? String(value) : numberText(value));
+  const inside = unit.length <= MOST_UNIT && shown !== "" ? unit : "";
 
   const take = async (text: string): Promise<boolean> => {
     const what = wrongWith(text, props);
@@ -99,7 +100,7 @@ export function NumberBox(props: NumberBoxProps) {
       aria-label={labelled ? undefined : label}
       description={description}
       title={unit === "" ? undefined : unit}
-      value={draft ?? (value === null ? "" : props.whole ? String(value) : numberText(value))}
+      value={shown}
       placeholder={placeholder}
       error={rejected && draft !== null}
       disabled={disabled}
