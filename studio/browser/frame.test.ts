@@ -6,7 +6,7 @@ import { box, button, choose, panel, reopen, select, settled, showView } from ".
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
-const TOOLS = ["Inspector", "Sliders", "Regime", "Notes", "Costs", "Import report"];
+const TOOLS = ["Inspector", "Sliders", "Regime", "Notes", "Activity", "Costs", "Import report"];
 const VIEWS = ["World", "Experiment", "Architecture", "Elements"];
 const KINDS = ["curve", "space_time", "course"] as const;
 const ten = {

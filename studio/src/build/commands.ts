@@ -3,7 +3,7 @@
 import { exportScript } from "../files/exportScript";
 import type { Point } from "../graph/layout/rects";
 import { keysText } from "../keys";
-import { showGoal } from "../report/showGoal";
+import { showGoal } from "../panels/showGoal";
 import type { Shortcut } from "../keys";
 import { useStudio } from "../store";
 import { ALIGNMENTS, align } from "./aligning";

@@ -26,7 +26,7 @@ export function partsOf(name: string): NameParts {
     : { prefix: name.slice(0, at), suffix: name.slice(at + 1) };
 }
 
-const digitOf = (suffix: string): string => /\d+$/.exec(suffix)?.[0] ?? "";
+export const digitOf = (suffix: string): string => /\d+$/.exec(suffix)?.[0] ?? "";
 
 // Whether names form a grid.
 export function isGrid(names: string[]): boolean {

@@ -10,6 +10,7 @@ import {
   useRef,
   useState,
 } from "react";
+import { ActivityPanel } from "../activity/ActivityPanel";
 import { CostsPanel } from "../costs/CostsPanel";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Inspector } from "../inspector/Inspector";
@@ -29,6 +30,7 @@ const CONTENT: Partial<Record<Tool, () => ReactNode>> = {
   pins: () => <Pins />,
   regime: () => <RegimePanel />,
   notes: () => <Notes />,
+  activity: () => <ActivityPanel />,
   costs: () => <CostsPanel />,
   report: () => <ReportPanel />,
 };

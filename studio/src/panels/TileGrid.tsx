@@ -13,6 +13,7 @@ import {
 } from "react";
 import { usePage, type View } from "../state/page";
 import { moveTile, removeTile, type PlotTile, tilesIn, useTiles } from "../state/tiles";
+import { useVisible } from "../widgets/useVisible";
 import { NARROW } from "./openPlot";
 import { PlotPanel } from "./PlotPanel";
 import classes from "./TileGrid.module.css";
@@ -68,7 +69,8 @@ type OneTileProps = { view: View; tile: PlotTile; place: number; enlarged: boole
 
 function OneTile({ view, tile, place, enlarged }: OneTileProps) {
   const around = useRef<HTMLDivElement>(null);
-  const visible = useVisible(around);
+  // A tile that is scrolled away draws nothing, but its time courses grow.
+  const visible = useVisible(around, true);
   const enlarge = () => usePage.setState({ enlarged: enlarged ? null : tile.key });
   const drag = useDrag(view, tile.key);
   const key = (event: KeyboardEvent) => {
@@ -151,19 +153,6 @@ function useDrag(view: View, key: number) {
     addEventListener("pointercancel", end);
   };
   return { "data-dragging": dragging || undefined, onPointerDown };
-}
-
-// A tile that is scrolled away draws nothing, but its time courses grow.
-function useVisible(around: RefObject<HTMLElement | null>): boolean {
-  const [visible, setVisible] = useState(true);
-  useEffect(() => {
-    const observer = new IntersectionObserver((seen) => setVisible(seen.at(-1)?.isIntersecting ?? true));
-    if (around.current !== null) {
-      observer.observe(around.current);
-    }
-    return () => observer.disconnect();
-  }, [around]);
-  return visible;
 }
 
 function useWidth(around: RefObject<HTMLElement | null>): number {

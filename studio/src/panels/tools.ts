@@ -8,6 +8,7 @@ export type Tool =
   | "pins"
   | "regime"
   | "notes"
+  | "activity"
   | "costs"
   | "report"
   | "graph"
@@ -20,6 +21,7 @@ export const TOOLS: Record<Tool, { title: string; view?: View }> = {
   pins: { title: "Sliders" },
   regime: { title: "Regime" },
   notes: { title: "Notes" },
+  activity: { title: "Activity" },
   costs: { title: "Costs" },
   report: { title: "Import report" },
   graph: { title: "Architecture", view: "build" },

@@ -1,47 +1,23 @@
 // The lines of the report. Arrow keys lead from line to line; Enter or a click shows the element or the group
 // of a line.
 
-import { type KeyboardEvent, memo, useRef, useState } from "react";
+import { memo } from "react";
 
 import { usePicked } from "../build/picked";
+import { type CanvasGoal, showGoal } from "../panels/showGoal";
 import { useStudio } from "../store";
-import type { ReportGoal, ReportItem, ReportLine } from "./reportItems";
-import { showGoal } from "./showGoal";
+import { choosing, useOptions } from "../widgets/useOptions";
+import type { ReportItem, ReportLine } from "./reportItems";
 
 // `most` is the number of lines to draw.
 type Props = { items: ReportItem[]; most: number };
 
-const STEPS: Partial<Record<string, number>> = {
-  ArrowDown: 1,
-  ArrowUp: -1,
-  PageDown: 10,
-  PageUp: -10,
-  Home: -Infinity,
-  End: Infinity,
-};
-
 export const ReportList = memo(function ReportList({ items, most }: Props) {
-  const list = useRef<HTMLDivElement>(null);
-  const [last, setLast] = useState<string | null>(null);
   const drawn = first(items, most);
   const keys = drawn.flatMap(({ lines }) => lines.map(({ key }) => key));
-  // The one line that the Tab key reaches.
-  const active = last !== null && keys.includes(last) ? last : keys[0];
-
-  const onKey = (event: KeyboardEvent) => {
-    const step = STEPS[event.key];
-    const options = [...(list.current?.querySelectorAll<HTMLElement>("[role=option]") ?? [])];
-    const at = options.indexOf(document.activeElement as HTMLElement);
-    if (step === undefined || at < 0 || event.ctrlKey || event.metaKey || event.altKey) {
-      return;
-    }
-    event.preventDefault();
-    event.stopPropagation();
-    options[Math.min(options.length - 1, Math.max(0, at + step))]?.focus();
-  };
-
+  const { active, setLast, onKeyDown } = useOptions(keys);
   return (
-    <div className="report-list" role="listbox" aria-label="Lines of the report" ref={list} onKeyDown={onKey}>
+    <div className="report-list" role="listbox" aria-label="Lines of the report" onKeyDown={onKeyDown}>
       {drawn.map((item) => (
         <Item
           key={item.key}
@@ -91,7 +67,7 @@ function Item({ item, active, onFocus }: ItemProps) {
 
 type LineProps = {
   line: ReportLine;
-  goal: ReportGoal | null;
+  goal: CanvasGoal | null;
   active: boolean;
   onFocus: (key: string) => void;
 };
@@ -107,14 +83,7 @@ const LineOption = memo(function LineOption({ line, goal, active, onFocus }: Lin
       aria-selected={active}
       data-leads={goal !== null || undefined}
       onFocus={() => onFocus(line.key)}
-      onClick={show}
-      onKeyDown={(event) => {
-        if (event.key === "Enter" || event.key === " ") {
-          event.preventDefault();
-          event.stopPropagation();
-          show();
-        }
-      }}
+      {...choosing(show)}
     >
       <span className="report-verdict" data-verdict={verdict}>
         {verdict}

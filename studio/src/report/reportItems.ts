@@ -1,6 +1,7 @@
 // The import report as the panel shows it: lines by the element that they belong to, under its present name.
 
 import { keyOf } from "../graph/layout/tree";
+import type { CanvasGoal } from "../panels/showGoal";
 import type { ImportReportView, ReportLineView } from "../protocol";
 
 export const FILTERS = ["losses", "approximated", "dropped", "all"] as const;
@@ -11,15 +12,12 @@ export type ReportLine = ReportLineView & { key: string };
 export type ReportItem = {
   key: string;
   // What its lines lead to; null where the document has none.
-  goal: ReportGoal | null;
+  goal: CanvasGoal | null;
   title: string;
   // What the name in the file was, or why its lines lead nowhere.
   note: string;
   lines: ReportLine[];
 };
-
-// An element by its id, or a group by its key on the canvas.
-export type ReportGoal = { element: string } | { group: string };
 
 // The present paths of elements by their ids, and the keys of the present groups.
 export type Present = { elements: ReadonlyMap<string, string>; groups: ReadonlySet<string> };

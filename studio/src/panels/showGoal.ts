@@ -2,14 +2,16 @@
 // opened.
 
 import { getStage } from "../build/stage";
-import { isInView, openTool } from "../panels/openPlot";
-import type { ReportGoal } from "./reportItems";
+import { isInView, openTool } from "./openPlot";
+
+// An element by its id, or a group by its key on the canvas.
+export type CanvasGoal = { element: string } | { group: string };
 
 // A view that was hidden gets its size within some frames; it has it when it keeps one for a few.
 const FRAMES = 90;
 const STILL = 5;
 
-export function showGoal(goal: ReportGoal): void {
+export function showGoal(goal: CanvasGoal): void {
   const show = () =>
     "group" in goal ? getStage()?.centerGroup(goal.group) : getStage()?.center(goal.element);
   if (isInView("build")) {
