@@ -3,7 +3,8 @@ import { expect, test } from "vitest";
 import { fakeCosivina, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
 import { PANEL } from "./layout/layout";
 import { canvasOrder } from "./order";
-import { scene, type Structure } from "./scene";
+import { scene } from "./scene";
+import type { Structure } from "./contract";
 
 const KINDS = kindsOf(
   fakeKind("Field", "elements"),

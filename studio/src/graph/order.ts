@@ -6,9 +6,9 @@ import { boxSize, readBoxes } from "./boxes/boxes";
 import { contract } from "./contract";
 import { inGrid } from "./contracted";
 import { digitOf, partsOf } from "./grid";
-import type { Point } from "./layout/layout";
+import type { Point } from "./layout/rects";
 import { type Branch, tree } from "./layout/tree";
-import type { Structure } from "./scene";
+import type { Structure } from "./contract";
 
 export type OrderedFrame = Readonly<{ title: string; elements: readonly ElementView[] }>;
 

@@ -5,8 +5,10 @@ import {
   Activity,
   type CSSProperties,
   type KeyboardEvent,
+  lazy,
   type PointerEvent,
   type ReactNode,
+  Suspense,
   useRef,
   useState,
 } from "react";
@@ -15,7 +17,6 @@ import { CostsPanel } from "../costs/CostsPanel";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Inspector } from "../inspector/Inspector";
 import { Pins } from "../pins/Pins";
-import { RegimePanel } from "../regime/RegimePanel";
 import { ReportPanel } from "../report/ReportPanel";
 import { usePage } from "../state/page";
 import { changePerson, usePerson } from "../state/person";
@@ -25,10 +26,17 @@ import { openTool } from "./openPlot";
 import { PanelMenu } from "./PanelMenu";
 import { FIRST_TOOL, isStanding, STANDING, TOOLS, type Tool } from "./tools";
 
+// Loaded when it is first shown.
+const RegimePanel = lazy(async () => ({ default: (await import("../regime/RegimePanel")).RegimePanel }));
+
 const CONTENT: Partial<Record<Tool, () => ReactNode>> = {
   inspector: () => <Inspector />,
   pins: () => <Pins />,
-  regime: () => <RegimePanel />,
+  regime: () => (
+    <Suspense>
+      <RegimePanel />
+    </Suspense>
+  ),
   notes: () => <Notes />,
   activity: () => <ActivityPanel />,
   costs: () => <CostsPanel />,

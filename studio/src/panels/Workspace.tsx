@@ -1,23 +1,33 @@
 // The body of an open document: palette, centre with the plots, and the dock of tools. What a tool does never
 // changes the size of another part.
 
-import { type ReactNode, useEffect, useLayoutEffect, useState, useSyncExternalStore } from "react";
+import {
+  lazy,
+  type ReactNode,
+  Suspense,
+  useEffect,
+  useLayoutEffect,
+  useState,
+  useSyncExternalStore,
+} from "react";
 import { PalettePanel } from "../build/palette/PalettePanel";
 import { NeedsServer } from "../connection/NeedsServer";
-import { Experiment } from "../experiment/Experiment";
 import { Graph } from "../graph/Graph";
 import { emptyPage, showView, usePage } from "../state/page";
 import { viewOf } from "../state/person";
 import { beginTiles, followTiles, tilesIn, useTiles } from "../state/tiles";
 import { useStudio } from "../store";
 import { live } from "../world/live";
-import { World } from "../world/World";
 import { viewOfAuthor } from "./author";
 import { Dock } from "./Dock";
 import { firstTiles, tilesOf } from "./firstTiles";
 import classes from "./Workspace.module.css";
 import { TileGrid } from "./TileGrid";
 import { TOOLS } from "./tools";
+
+// What a page does not need at first is loaded when it is first shown.
+const Experiment = lazy(async () => ({ default: (await import("../experiment/Experiment")).Experiment }));
+const World = lazy(async () => ({ default: (await import("../world/World")).World }));
 
 export function Workspace() {
   const session = useStudio((state) => state.session);
@@ -63,14 +73,18 @@ function Body() {
         {view === "experiment" && (
           <Part title={TOOLS.experiment.title} className={classes.stage}>
             <NeedsServer>
-              <Experiment />
+              <Suspense>
+                <Experiment />
+              </Suspense>
             </NeedsServer>
           </Part>
         )}
         {view === "robot" && (
           <Part title={TOOLS.world.title} className={classes.stage}>
             <NeedsServer>
-              <World />
+              <Suspense>
+                <World />
+              </Suspense>
             </NeedsServer>
           </Part>
         )}
