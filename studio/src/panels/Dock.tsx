@@ -17,7 +17,6 @@ import { CostsPanel } from "../costs/CostsPanel";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Inspector } from "../inspector/Inspector";
 import { Pins } from "../pins/Pins";
-import { ReportPanel } from "../report/ReportPanel";
 import { usePage } from "../state/page";
 import { changePerson, usePerson } from "../state/person";
 import { useStudio } from "../store";
@@ -28,15 +27,12 @@ import { FIRST_TOOL, isStanding, STANDING, TOOLS, type Tool } from "./tools";
 
 // Loaded when it is first shown.
 const RegimePanel = lazy(async () => ({ default: (await import("../regime/RegimePanel")).RegimePanel }));
+const ReportPanel = lazy(async () => ({ default: (await import("../report/ReportPanel")).ReportPanel }));
 
 const CONTENT: Partial<Record<Tool, () => ReactNode>> = {
   inspector: () => <Inspector />,
   pins: () => <Pins />,
-  regime: () => (
-    <Suspense>
-      <RegimePanel />
-    </Suspense>
-  ),
+  regime: () => <RegimePanel />,
   notes: () => <Notes />,
   activity: () => <ActivityPanel />,
   costs: () => <CostsPanel />,
@@ -126,7 +122,9 @@ export function Dock() {
       {visited.map((tool) => (
         <Activity key={tool} mode={tool === shown ? "visible" : "hidden"}>
           <div className={classes.tool} id={`tool-${tool}`} role="tabpanel" aria-label={TOOLS[tool].title}>
-            <NeedsServer>{CONTENT[tool]?.()}</NeedsServer>
+            <NeedsServer>
+              <Suspense>{CONTENT[tool]?.()}</Suspense>
+            </NeedsServer>
           </div>
         </Activity>
       ))}
