@@ -1,5 +1,5 @@
-// The tool of activity: the greatest activation of each element with a threshold over the newest times, in the
-// order of the canvas. A line selects its element and shows it there.
+// The tool of activity: the greatest activation of each element with a threshold over the newest times, in
+// the order of the canvas. A line selects its element and shows it there.
 
 import "./activity.css";
 
@@ -62,7 +62,7 @@ export function ActivityPanel() {
   );
 }
 
-type LineProps = Readonly<{
+type ActivityLineProps = Readonly<{
   element: string;
   name: string;
   path: string;
@@ -71,7 +71,7 @@ type LineProps = Readonly<{
 }>;
 
 // Out of view it asks for no data.
-const Line = memo(function Line({ element, name, path, active, onFocus }: LineProps) {
+const Line = memo(function Line({ element, name, path, active, onFocus }: ActivityLineProps) {
   const selected = useStudio((state) => state.selected.includes(element));
   const line = useRef<HTMLDivElement>(null);
   const visible = useVisible(line, false);

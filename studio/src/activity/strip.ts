@@ -14,12 +14,14 @@ export const STRIP_RANGE: Range = [-2, 2.5];
 export const STRIP_COLORS = activationScale(STRIP_RANGE[0], STRIP_RANGE[1], 0);
 
 // `columns` as `STRIP_RANGE` has them, NaN where there is no sample; `newest` in units of the activation.
-export type Strip = Readonly<{ columns: Float32Array; newest: number; above: boolean }>;
-
-type Samples = Readonly<Pick<History, "times" | "values">>;
+export type ActivityStrip = Readonly<{ columns: Float32Array; newest: number; above: boolean }>;
 
 // From the samples until a time; null where there are none, and without a threshold.
-export function stripOf({ times, values }: Samples, end: number, levels: readonly Level[]): Strip | null {
+export function stripOf(
+  { times, values }: Readonly<Pick<History, "times" | "values">>,
+  end: number,
+  levels: readonly Level[],
+): ActivityStrip | null {
   const threshold = thresholdOf(levels);
   const count = times.findLastIndex((time) => time <= end) + 1;
   const [first, last, newest] = [times[0], times[count - 1], values[count - 1]];

@@ -34,7 +34,7 @@ test("on the grid: frame by frame from the left, in a frame row by row", () => {
   expect(frames.map(([title]) => title.split(" ").toSorted())).toContainEqual(["c1", "f1"]);
 });
 
-test("every element stands in the order once", () => {
+test("the order has every element once", () => {
   const names = named(GRID).flatMap(([, all]) => all);
   expect(names.toSorted()).toEqual(GRID.elements.map(({ name }) => name).toSorted());
 });

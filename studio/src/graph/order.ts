@@ -1,5 +1,5 @@
-// The elements in the order of the canvas: frame by frame of the grid, and in a frame row by row; else group by
-// group of the document.
+// The elements in the order of the canvas: frame by frame of the grid, and in a frame row by row; else group
+// by group of the document.
 
 import type { ElementView, Kind } from "../protocol";
 import { boxSize, readBoxes } from "./boxes/boxes";
