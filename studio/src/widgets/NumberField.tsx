@@ -8,9 +8,9 @@ import { arrowStep } from "./number";
 import { NumberBox, type NumberBoxProps } from "./NumberBox";
 import { ProblemLine } from "./ProblemLine";
 
-type Asked = "rejected" | "optional" | "onCommit" | "onStep" | "onForget" | "onComplain" | "onLeave";
+type OfTheField = "rejected" | "optional" | "onCommit" | "onStep" | "onForget" | "onComplain" | "onLeave";
 
-type NumberFieldProps = Omit<NumberBoxProps, Asked> & {
+type NumberFieldProps = Omit<NumberBoxProps, OfTheField> & {
   className?: string;
   set: (value: number) => void | Promise<Reply>;
   // What an empty field means, where it may be empty.
