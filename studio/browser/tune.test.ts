@@ -3,7 +3,19 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { button, choose, drag, number, openTool, panel, reopen, select, slider, type } from "./hands";
+import {
+  button,
+  choose,
+  drag,
+  number,
+  openTool,
+  panel,
+  reopen,
+  select,
+  settled,
+  slider,
+  type,
+} from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -94,6 +106,34 @@ test("a number is dragged, stepped by keys and typed; it has a unit and a range"
   await comes("u", "tau", 20);
   await button(page, "Redo").click();
   await comes("u", "tau", 30);
+});
+
+test("a drag on a number goes a hundredth of the range a pixel, with Shift a thousandth", async () => {
+  const { page } = studio;
+  const field = number(page, "resting_level");
+  const by = async (pixels: number) => {
+    const box = await settled(page, () => field.boundingBox());
+    if (box === null) throw new Error("The number is not visible.");
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + pixels, y, { steps: 5 });
+    await page.mouse.up();
+  };
+  await by(25);
+  await comes("u", "resting_level", 0);
+  expect(observer.document?.undo, "a drag is one step of undo").toBe(1);
+  expect(await field.evaluate((input) => input === document.activeElement)).toBe(false);
+  await page.keyboard.down("Shift");
+  await by(-12);
+  await page.keyboard.up("Shift");
+  await comes("u", "resting_level", -0.24);
+  await undoRedo("resting_level", 0, -0.24);
+  await by(2);
+  expect(await field.evaluate((input) => input === document.activeElement), "a click types").toBe(true);
+  await page.keyboard.type("3");
+  await page.keyboard.press("Enter");
+  await comes("u", "resting_level", 3);
 });
 
 test("an invalid value shows the reason, changes nothing, and is restored", async () => {

@@ -5,6 +5,7 @@ import { useRef, useState } from "react";
 import type { ListedProblem } from "../../protocol";
 import { numberText } from "../../widgets/number";
 import { NumberBox } from "../../widgets/NumberBox";
+import { NumberDrag } from "./NumberDrag";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { including, nudged, type SliderRange } from "./sliderRange";
 import type { Setting } from "../parameters/setting";
@@ -63,23 +64,25 @@ export function NumberControl({
           </span>
         </div>
       )}
-      <NumberBox
-        label={label}
-        value={value}
-        unit={unit}
-        optional={optional}
-        placeholder={optional ? "none" : undefined}
-        rejected={wrong !== null}
-        onCommit={commit}
-        onStep={
-          value === null
-            ? undefined
-            : (direction, coarse) => nudge(nudged(value, direction, coarse, including(shown, value)))
-        }
-        onForget={onForget}
-        onComplain={setComplaint}
-        onLeave={end}
-      />
+      <NumberDrag value={value} range={shown} onMove={move} onEnd={end}>
+        <NumberBox
+          label={label}
+          value={value}
+          unit={unit}
+          optional={optional}
+          placeholder={optional ? "none" : undefined}
+          rejected={wrong !== null}
+          onCommit={commit}
+          onStep={
+            value === null
+              ? undefined
+              : (direction, coarse) => nudge(nudged(value, direction, coarse, including(shown, value)))
+          }
+          onForget={onForget}
+          onComplain={setComplaint}
+          onLeave={end}
+        />
+      </NumberDrag>
       <ProblemLine problem={wrong} />
     </div>
   );

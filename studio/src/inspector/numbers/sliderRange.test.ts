@@ -1,7 +1,17 @@
 import { describe, expect, test } from "vitest";
 
 import type { AxisView, ParameterForm } from "../../protocol";
-import { chosen, defaultAt, including, nudged, sliderRange, snapped, type Standing } from "./sliderRange";
+import {
+  dragged,
+  finer,
+  chosen,
+  defaultAt,
+  including,
+  nudged,
+  sliderRange,
+  snapped,
+  type Standing,
+} from "./sliderRange";
 
 const form = (given: Partial<ParameterForm>): ParameterForm => ({
   name: "p",
@@ -186,6 +196,18 @@ describe("steps", () => {
     expect(snapped(99, range)).toBe(10);
     const tau = sliderRange(form({ unit: "time", lower: 1e-6, default: 20 }), 20, standing());
     expect(snapped(31.41592, tau)).toBe(31.4);
+  });
+
+  test("a pixel of a drag is a hundredth of the range, with Shift a thousandth", () => {
+    const range = sliderRange(form({ default: 5, lower: 0 }), 5, standing());
+    expect(dragged(5, 10, false, range)).toBeCloseTo(6);
+    expect(dragged(5, -10, true, range)).toBeCloseTo(4.9);
+    expect(dragged(5, 80, false, range)).toBe(10);
+    expect(snapped(4.9912, finer(range))).toBe(4.99);
+    const whole = sliderRange(form({ form: "integer", default: 500, lower: 0 }), 500, standing());
+    expect(snapped(501.2, finer(whole))).toBe(501);
+    const tau = sliderRange(form({ unit: "time", lower: 1e-6, default: 20 }), 20, standing());
+    expect(dragged(20, 50, false, tau)).toBeCloseTo(20 * Math.sqrt(tau.upper / tau.lower));
   });
 
   test("keys make fine or coarse steps, never beyond the ends", () => {

@@ -188,6 +188,20 @@ export function snapped(value: number, range: SliderRange): number {
   return Math.min(range.upper, Math.max(range.lower, round));
 }
 
+// Pixels of a drag further: a hundredth of the range each, with Shift a tenth of that.
+export function dragged(value: number, pixels: number, fine: boolean, range: SliderRange): number {
+  const { lower, upper, logarithmic } = range;
+  const share = pixels * (fine ? 0.001 : 0.01);
+  const next = logarithmic && value > 0 ? value * (upper / lower) ** share : value + share * (upper - lower);
+  return Math.min(upper, Math.max(lower, next));
+}
+
+// The same range with steps ten times as fine; whole ones stay whole.
+export function finer(range: SliderRange): SliderRange {
+  const step = range.step / 10;
+  return { ...range, step: Number.isInteger(range.step) ? Math.max(1, Math.round(step)) : step };
+}
+
 // One key press further. Coarse is ten steps; on a logarithmic range a step is a share of the value.
 export function nudged(value: number, direction: 1 | -1, coarse: boolean, range: SliderRange): number {
   if (range.logarithmic && value > 0) {
