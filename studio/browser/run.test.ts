@@ -65,9 +65,11 @@ test("the buttons take single steps and several steps", async () => {
   );
   await button(page, "50 steps").click();
   await observer.until(() => observer.clock?.tick === 52);
-  await beside(page, "Run settings", (settings) =>
-    typed(settings.getByRole("textbox", { name: "Steps at a time" }), "1"),
-  );
+  await button(page, "Run settings").click();
+  const settings = page.getByRole("dialog");
+  await settings.getByRole("textbox", { name: "Steps at a time" }).fill("1");
+  await page.getByRole("heading", { name: "Document parameters" }).click();
+  await settings.waitFor({ state: "detached" });
   await button(page, "Step").waitFor();
 });
 

@@ -14,6 +14,7 @@ import { type MouseEvent, type ReactNode, useState } from "react";
 import { NeedsServer, useOffline } from "../connection/NeedsServer";
 import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
 import { request } from "../socket";
+import { AFTER_FIELDS } from "../widgets/afterFields";
 import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import type { DrawingFormat } from "./export/exportDrawing";
@@ -121,7 +122,13 @@ export function PlotFrame(props: PlotFrameProps) {
             onOpened={setEditing}
           />
           {controls !== undefined && (
-            <Popover position="bottom-end" width={260} shadow="md" trapFocus>
+            <Popover
+              position="bottom-end"
+              width={260}
+              shadow="md"
+              trapFocus
+              clickOutsideEvents={AFTER_FIELDS}
+            >
               <Popover.Target>
                 <Tooltip label="Settings of this plot">
                   <ActionIcon size="sm" aria-label="Settings of this plot">

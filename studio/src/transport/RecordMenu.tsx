@@ -8,6 +8,7 @@ import { useState } from "react";
 import { plottedPorts } from "../panels/openPlot";
 import type { RecordedPort } from "../protocol";
 import { useStudio } from "../store";
+import { AFTER_FIELDS } from "../widgets/afterFields";
 import { NumberField } from "../widgets/NumberField";
 import { countText, unitText } from "./format";
 import { choiceFor, findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
@@ -23,6 +24,7 @@ export function RecordMenu({ disabled }: { disabled: boolean }) {
     <Popover
       opened={opened}
       onChange={setOpened}
+      clickOutsideEvents={AFTER_FIELDS}
       position="bottom"
       withArrow
       shadow="md"

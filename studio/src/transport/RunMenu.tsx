@@ -6,6 +6,7 @@ import { useState } from "react";
 
 import { socket } from "../socket";
 import { useStudio } from "../store";
+import { AFTER_FIELDS } from "../widgets/afterFields";
 import { NumberField } from "../widgets/NumberField";
 import { unitText } from "./format";
 import { MOST_SEED, reset, rollSeed, useNext } from "./run";
@@ -18,6 +19,7 @@ export function RunMenu() {
     <Popover
       opened={opened}
       onChange={setOpened}
+      clickOutsideEvents={AFTER_FIELDS}
       position="bottom"
       withArrow
       shadow="md"
