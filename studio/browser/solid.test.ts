@@ -114,7 +114,7 @@ test("the view shows the whole floor in a panel of another shape, until the user
   const before = await settled(page, apart);
   await page.setViewportSize({ width: 420, height: 900 });
   await expect.poll(async () => (await view().boundingBox())?.width).toBeLessThan(421);
-  // a view that kept its height would show 0.34 of the width between the cart and the block, and no whole floor
+  // a view that kept its height would show 0.34 of the width between them, and no whole floor
   await expect.poll(apart).toBeLessThan(0.3);
   await page.setViewportSize(size);
   await expect.poll(async () => Math.abs((await settled(page, apart)) - before)).toBeLessThan(0.01);

@@ -29,7 +29,7 @@ beforeAll(async () => {
 
 afterAll(() => studio.stop());
 
-/** Text below 11 pixels of the screen, on the canvas below 10, and text in another typeface; equations aside. */
+/** Text below 11 px of the screen, on the canvas below 10, or in another typeface; equations aside. */
 const unreadable = (page: Page): Promise<string[]> =>
   page.evaluate(() => {
     const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
