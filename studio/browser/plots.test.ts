@@ -581,8 +581,8 @@ test("a plot is exported as a picture file", async () => {
   const lines = [...svg.matchAll(/ d="([^"]*)"/g)].map(([, d = ""]) => d.split("L").length);
   expect(
     lines.filter((points) => points > 60),
-    "two curves",
-  ).toHaveLength(2);
+    "output; activation below and above the threshold, and its glow",
+  ).toHaveLength(4);
 });
 
 test("the right button, a finger and the key I make a peak while they are held", async () => {

@@ -61,12 +61,12 @@ function drawLine({ ctx, layout, ink }: MarkPlace, mark: CurveLine): void {
   ctx.lineWidth = width * ink.unit;
   ctx.lineJoin = "bevel";
   ctx.setLineDash(dashed ? DASH.map((length) => length * ink.unit) : []);
-  if (above === undefined) {
+  const { left, top, width: across, height } = layout.box;
+  const threshold = Math.min(top + height, Math.max(top, up.place(above?.value ?? Infinity)));
+  if (above === undefined || !pieces.some((piece) => piece.some(([, y]) => y < threshold))) {
     strokePieces(ctx, pieces, color[ink.shade]);
     return;
   }
-  const { left, top, width: across, height } = layout.box;
-  const threshold = Math.min(top + height, Math.max(top, up.place(above.value)));
   const inside = (from: number, to: number, draw: () => void) => {
     ctx.save();
     ctx.beginPath();
