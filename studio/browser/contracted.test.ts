@@ -55,6 +55,7 @@ test.each(SIZES)(
       .toEqual([]);
     expect(await overlaps(page), "boxes that overlap").toEqual([]);
     expect(await behind(page), "wires behind boxes").toEqual([]);
+    expect(await obstacles(page)).toEqual([]);
     await shot(page, `contracted-${size.width}`);
   },
 );
@@ -82,7 +83,7 @@ test("the wires of a selected box are in front, others are faint, and a chip sel
   await expect.poll(() => canvas().locator(".graph-wire[data-touched]").count()).toBeGreaterThan(3);
   await shot(page, "contracted-selected");
   const chip = canvas().locator(".graph-chip", { hasText: /^1$/ }).first();
-  const name = (await chip.getAttribute("aria-label")) ?? "";
+  const name = (await chip.getAttribute("title")) ?? "";
   await chip.focus();
   await page.keyboard.press("Enter");
   await inspected(name).waitFor();

@@ -110,7 +110,7 @@ function Chip({ wire, pills }: { wire: string; pills: string[] }) {
       type="button"
       className="graph-count graph-chip nodrag nopan"
       title={names}
-      aria-label={names}
+      aria-label={`${pills.length} on the wire: ${names}`}
       onClick={(event) => {
         event.stopPropagation();
         if (only !== undefined && others.length === 0) {
