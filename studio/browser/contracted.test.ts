@@ -5,6 +5,7 @@ import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { box, button, panel, showEverything } from "./hands";
 import { behind, misplacedNames, overlaps } from "./legibility";
 import type { Observer } from "./observer";
