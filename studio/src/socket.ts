@@ -110,7 +110,7 @@ class Socket {
       case "robot_link":
       case "solids":
       case "bodies":
-        live.take(message);
+        live.take(message, store.session);
         break;
       case "announced":
         this.streams.announce(message);
@@ -155,12 +155,24 @@ export async function request(message: ToServer): Promise<Answer> {
   return answer;
 }
 
+// Of these a person wants to know what became of the run.
+const OF_THE_RUN: readonly ToServer["type"][] = [
+  "play",
+  "step",
+  "reset",
+  "return_to",
+  "run_from",
+  "run_record_from",
+  "repeat_trial",
+  "leave_trial",
+];
+
 // deodar itself failed: what was asked for has no effect.
 function tellFault({ type }: ToServer, problems: readonly ListedProblem[]): void {
   const { clock, document, notify } = useStudio.getState();
   const asked = type.charAt(0).toUpperCase() + type.slice(1).replaceAll("_", " ");
   const stands =
-    clock === null || document === null
+    clock === null || document === null || !OF_THE_RUN.includes(type)
       ? ""
       : ` The run is as it was at ${timeText(clock.time, document.time_unit)}.`;
   const copy: Offer = { label: "Copy the report", run: copyReport };

@@ -6,6 +6,7 @@ import { useState } from "react";
 
 import { ask } from "../dialogs/questions";
 import { newGesture } from "../gesture";
+import { onCanvas } from "../panels/showGoal";
 import type { ListedProblem } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -45,7 +46,7 @@ function actionsOf({ what, where = "", element = "", repair = "", wire, world }:
   const actions: Action[] = [];
   if (wire != null) {
     const label = wire.source === "" || wire.target === "" ? "Connect…" : "Choose a coupling…";
-    actions.push({ label, run: () => complete(wire) });
+    actions.push({ label, run: () => onCanvas(() => complete(wire)) });
   }
   if (world === true) {
     const kind = useStudio.getState().elements.get(element)?.kind;

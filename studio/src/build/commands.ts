@@ -3,7 +3,7 @@
 import { exportScript } from "../files/exportScript";
 import type { Point } from "../graph/layout/rects";
 import { keysText } from "../keys";
-import { showGoal } from "../panels/showGoal";
+import { onCanvas, showGoal } from "../panels/showGoal";
 import type { Shortcut } from "../keys";
 import { useStudio } from "../store";
 import { ALIGNMENTS, align } from "./aligning";
@@ -60,7 +60,11 @@ export function openCommands(shortcuts: readonly Shortcut[]): void {
       ...WITHOUT_KEYS,
       ...alignmentEntries(),
       ...elements,
-      ...added.map((entry) => ({ ...entry, family: `Add: ${entry.family.toLowerCase()}` })),
+      ...added.map((entry) => ({
+        ...entry,
+        family: `Add: ${entry.family.toLowerCase()}`,
+        run: () => onCanvas(() => entry.run?.()),
+      })),
     ],
     empty: "Nothing matches",
   });

@@ -20,6 +20,7 @@ import type {
 } from "../protocol";
 import { openTool } from "../panels/openPlot";
 import { request, socket } from "../socket";
+import { settleTiles } from "../state/tiles";
 import { useStudio } from "../store";
 import { ask } from "../dialogs/questions";
 import { opening, sortOf } from "./paths";
@@ -42,6 +43,7 @@ type Leaving =
 
 // Go to another document, or to none. Unsaved edits are asked about. True where it was done.
 export async function leave(message: Leaving): Promise<boolean> {
+  settleTiles();
   const { answer } = await socket.ask(message);
   if (answer.ask === "unsaved_experiment") {
     const saved = openExperiment();
@@ -114,6 +116,7 @@ export async function write(saved: Saved, path = "", replace = false): Promise<b
   if (path === "" && file === "") {
     return writeAs(saved);
   }
+  settleTiles();
   const { answer } = await socket.ask(message(path, replace));
   if (answer.ask !== "replace") {
     if (done(answer)) {

@@ -12,12 +12,14 @@ import {
   useState,
 } from "react";
 import { usePage, type View } from "../state/page";
-import { moveTile, removeTile, type PlotTile, tilesIn, useTiles } from "../state/tiles";
+import { moveTile, removeTile, type PlotTile, settleTiles, tilesIn, useTiles } from "../state/tiles";
 import { useVisible } from "../widgets/useVisible";
 import { NARROW } from "./openPlot";
 import { PlotPanel } from "./PlotPanel";
 import classes from "./TileGrid.module.css";
 
+// What Escape closes or takes back itself.
+const OWN_ESCAPE = "input, textarea, select, [role=dialog], [role=menu], [role=listbox]";
 const LEAST_WIDTH = 300;
 const ROW = { wide: 3, narrow: 2, from: 1280 };
 
@@ -36,7 +38,8 @@ export function TileGrid() {
   const width = useWidth(grid);
   useEffect(() => {
     const back = (event: globalThis.KeyboardEvent) => {
-      if (event.key === "Escape" && !event.defaultPrevented) {
+      const elsewhere = event.target instanceof Element && event.target.closest(OWN_ESCAPE) !== null;
+      if (event.key === "Escape" && !event.defaultPrevented && !elsewhere) {
         usePage.setState({ enlarged: null });
       }
     };
@@ -79,6 +82,7 @@ function OneTile({ view, tile, place, enlarged }: OneTileProps) {
       removeTile(view, tile.key);
     } else if (event.shiftKey && step !== 0) {
       moveTile(view, tile.key, place + step);
+      settleTiles();
     } else {
       return;
     }
@@ -147,6 +151,7 @@ function useDrag(view: View, key: number) {
       removeEventListener("pointerup", end);
       removeEventListener("pointercancel", end);
       setDragging(false);
+      settleTiles();
     };
     addEventListener("pointermove", move);
     addEventListener("pointerup", end);

@@ -7,6 +7,7 @@ import {
   Suspense,
   useEffect,
   useLayoutEffect,
+  useRef,
   useState,
   useSyncExternalStore,
 } from "react";
@@ -33,6 +34,7 @@ export function Workspace() {
   const session = useStudio((state) => state.session);
   const begun = usePage((page) => page.session);
   useLayoutEffect(() => begin(session), [session]);
+  useViewOfExperiment();
   return begun === session ? <Body key={session} /> : null;
 }
 
@@ -42,7 +44,7 @@ function begin(session: number): void {
   if (document !== null && usePage.getState().session !== session) {
     const { layout, file } = document;
     const stored = viewOf(file) ?? viewOfAuthor(layout);
-    beginTiles(session, firstTiles(document, kinds));
+    beginTiles(session, firstTiles(document, kinds), tilesNow);
     usePage.setState({ ...emptyPage(session, stored ?? "build"), chosen: stored !== null }, true);
   }
 }
@@ -105,26 +107,39 @@ function Part({ title, className, hidden = false, children }: PartProps) {
   );
 }
 
+const tilesNow = () => tilesOf(useStudio.getState().document?.layout ?? {});
+
 // Undo, and other pages, change the plots of the document too.
 function useStoredTiles(): void {
   const tiles = useStudio((state) => state.document?.layout["tiles"]);
-  useEffect(() => followTiles(tilesOf(useStudio.getState().document?.layout ?? {})), [tiles]);
+  useEffect(followTiles, [tiles]);
 }
 
-// The page shows an experiment that was opened, and, where neither the document nor a person states a view, a
-// world that can be seen, unless the person edits the architecture already.
+// Where neither the document nor a person states a view, the page shows a world that can be seen, unless the
+// person edits the architecture already. The world of the document before is none of this one.
 function useViewOfContent(): void {
+  const session = useStudio((state) => state.session);
   const edits = () => useStudio.getState().document?.undo;
   const [first] = useState(edits);
-  const seen = useSyncExternalStore(live.listen, () => live.scene() !== null || live.link() !== null);
+  const seen = useSyncExternalStore(live.listen, () => live.showsWorldOf(session));
   useEffect(() => {
     if (seen && !usePage.getState().chosen && edits() === first) {
       showView("robot", false);
     }
   }, [seen, first]);
-  const experiment = useStudio((state) => state.experiment !== null && state.experiment.data !== null);
+}
+
+// An experiment is shown when it is opened, and when a trial of it is repeated or left; the one that is open
+// already when the page appears, where nothing else states a view.
+function useViewOfExperiment(): void {
+  const experiment = useStudio(({ experiment: open }) =>
+    open === null || open.data === null ? "" : `${open.file} ${open.data["name"]} ${open.repeated}`,
+  );
+  const before = useRef<string | null>(null);
   useEffect(() => {
-    if (experiment) {
+    const first = before.current === null;
+    before.current = experiment;
+    if (experiment !== "" && !(first && usePage.getState().chosen)) {
       showView("experiment", false);
     }
   }, [experiment]);

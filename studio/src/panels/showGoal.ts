@@ -2,6 +2,7 @@
 // opened.
 
 import { getStage } from "../build/stage";
+import { usePage } from "../state/page";
 import { isInView, openTool } from "./openPlot";
 
 // An element by its id, or a group by its key on the canvas.
@@ -12,17 +13,21 @@ const FRAMES = 90;
 const STILL = 5;
 
 export function showGoal(goal: CanvasGoal): void {
-  const show = () =>
-    "group" in goal ? getStage()?.centerGroup(goal.group) : getStage()?.center(goal.element);
-  if (isInView("build")) {
-    show();
-    return;
-  }
-  openTool("graph");
-  whenStill(show, FRAMES, "", 0);
+  onCanvas(() => ("group" in goal ? getStage()?.centerGroup(goal.group) : getStage()?.center(goal.element)));
 }
 
-function whenStill(run: () => void, frames: number, before: string, still: number): void {
+// Do something on the canvas, in the view that has it; the tool in the dock stays.
+export function onCanvas(run: () => unknown): void {
+  if (isInView("build")) {
+    run();
+    return;
+  }
+  usePage.setState(({ view, tabs }) => ({ tabs: { ...tabs, build: tabs[view] ?? tabs.build } }));
+  openTool("graph");
+  whenStill(run, FRAMES, "", 0);
+}
+
+function whenStill(run: () => unknown, frames: number, before: string, still: number): void {
   requestAnimationFrame(() => {
     const { clientWidth: width = 0, clientHeight: height = 0 } = getStage()?.around ?? {};
     const size = width * height > 0 ? `${width} ${height}` : "";

@@ -20,8 +20,9 @@ const MOST_FILES = 50;
 
 export const usePerson = create<PersonState>(() => restored(stored()));
 
+// What another page of the same browser stored meanwhile stays.
 export function changePerson(change: Partial<PersonState>): void {
-  usePerson.setState(change);
+  usePerson.setState({ ...restored(stored()), ...change });
   try {
     localStorage.setItem(KEY, JSON.stringify(usePerson.getState()));
   } catch {

@@ -9,8 +9,10 @@ import {
   changeTile,
   followTiles,
   moveTile,
+  type PlotLists,
   removeTile,
   restoreTiles,
+  settleTiles,
   tilesIn,
   useTiles,
 } from "./tiles";
@@ -24,10 +26,13 @@ type Posted = {
 
 const sent: Posted[] = [];
 let answer = (): void => {};
+// The plots of the document; null: none of its own.
+let own: PlotLists | null = null;
 
 vi.mock("../socket", () => ({
   request: (message: Posted) => {
     sent.push(message);
+    own = message.layout?.tiles ?? own;
     return new Promise((resolve) => {
       answer = () => resolve({});
     });
@@ -43,6 +48,10 @@ const plot = (element: string, kind = "curve"): PlotParams => ({
 const open = (layout: object, record: object | null = null) =>
   useStudio.setState({ connection: "open", document: { layout, record } as unknown as DocumentView });
 const shown = () => tilesIn(useTiles.getState(), "build").map(({ element, key }) => `${element}${key}`);
+const follow = (lists: PlotLists | null) => {
+  own = lists;
+  followTiles();
+};
 const stored = () =>
   sent
     .at(-1)
@@ -57,7 +66,8 @@ beforeEach(() => {
   vi.useFakeTimers();
   sent.length = 0;
   open({});
-  beginTiles(1, { build: [plot("a"), plot("b"), plot("c")] });
+  own = null;
+  beginTiles(1, { build: [plot("a"), plot("b"), plot("c")] }, () => own);
 });
 
 test("a plot that is opened or closed is one step of undo at once, and a movement is one in the end", () => {
@@ -65,12 +75,20 @@ test("a plot that is opened or closed is one step of undo at once, and a movemen
   expect(addTile("build", plot("d"))).toBe(3);
   expect([stored(), sent.length, sent[0]?.undoable]).toEqual(["abcd", 1, true]);
   for (const to of [2, 1, 0, 4]) moveTile("build", 3, to);
-  expect([shown(), sent.length]).toEqual([["d3", "a0", "b1", "c2"], 1]);
   vi.advanceTimersByTime(700);
+  expect([shown(), sent.length], "a hand that waits").toEqual([["d3", "a0", "b1", "c2"], 1]);
+  settleTiles();
   expect([stored(), sent.length]).toEqual(["dabc", 2]);
   removeTile("build", 1);
   expect([stored(), sent.length]).toEqual(["dac", 3]);
   expect(sent[0]?.layout).not.toHaveProperty("panels");
+});
+
+test("a plot that is dragged there and back again is no step", async () => {
+  moveTile("build", 0, 2);
+  moveTile("build", 0, 0);
+  settleTiles();
+  expect(sent).toEqual([]);
 });
 
 test("a stored arrangement of panels is replaced, and plots of a record are no step of undo", () => {
@@ -93,14 +111,13 @@ test("settings are stored after a pause as one step, or before the step that tak
 
 test("plots that come back by undo are new tiles, and the others keep theirs", async () => {
   removeTile("build", 0);
-  followTiles({ build: [plot("a"), plot("b"), plot("c")] });
+  follow({ build: [plot("a"), plot("b"), plot("c")] });
   expect(shown(), "the answer is still to come").toEqual(["b1", "c2"]);
   await answered();
-  followTiles({ build: [plot("a"), plot("b"), plot("c")] });
-  expect(shown()).toEqual(["a3", "b1", "c2"]);
-  followTiles({ build: [plot("b"), plot("b")] });
+  expect(shown(), "it was undone meanwhile").toEqual(["a3", "b1", "c2"]);
+  follow({ build: [plot("b"), plot("b")] });
   expect(shown()).toEqual(["b1", "b4"]);
-  followTiles(null);
+  follow(null);
   expect(shown(), "as the document was opened").toEqual(["a5", "b1", "c6"]);
   expect(sent).toHaveLength(1);
 });
@@ -118,7 +135,7 @@ test("the plots that the document was opened with are shown again", () => {
 
 test("a session that begins forgets what was not stored", () => {
   changeTile("build", 0, { ...plot("a"), settings: { down: true } });
-  beginTiles(2, { build: [plot("z")] });
+  beginTiles(2, { build: [plot("z")] }, () => null);
   vi.advanceTimersByTime(700);
   expect(sent).toEqual([]);
   expect(shown()).toEqual(["z0"]);

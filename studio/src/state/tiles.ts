@@ -30,9 +30,11 @@ export const useTiles = create<TilesState>(() => ({ session: 0, next: 0, views: 
 export const tilesIn = ({ views }: TilesState, view: View): readonly PlotTile[] =>
   views[view] ?? views.build ?? NONE;
 
-export function beginTiles(session: number, opened: PlotLists): void {
+// `read` returns the plots that the document has now; null: none of its own.
+export function beginTiles(session: number, opened: PlotLists, read: () => PlotLists | null): void {
   clearTimeout(timer);
-  timer = undefined;
+  unsaved = false;
+  ofDocument = read;
   unanswered.clear();
   useTiles.setState({ session, opened, ...keyed(opened, {}, 0) }, true);
 }
@@ -63,13 +65,12 @@ export function removeTile(view: View, key: number): void {
   saveTiles();
 }
 
-// Put a tile in the place of another one.
+// Put a tile in the place of another one. What a drag moves is stored at its end, by `settleTiles`.
 export function moveTile(view: View, key: number, to: number): void {
   const tiles = tilesIn(useTiles.getState(), view);
   const moved = tiles.find((tile) => tile.key === key);
   if (moved !== undefined && to >= 0 && to < tiles.length && tiles[to] !== moved) {
     setTiles(view, tiles.filter((tile) => tile !== moved).toSpliced(to, 0, moved));
-    saveSoon();
   }
 }
 
@@ -82,26 +83,33 @@ export function restoreTiles(): void {
   }
 }
 
-// Take over the plots that the document has now, after undo or a change on another page; null: it has none of
-// its own. What this page sends at the same time replaces them.
-export function followTiles(stored: PlotLists | null): void {
-  const wanted = stored ?? useTiles.getState().opened;
-  if (timer === undefined && unanswered.size === 0 && !isSame(wanted)) {
+// Take over the plots that the document has now, after undo or a change on another page. What this page sends
+// at the same time replaces them.
+export function followTiles(): void {
+  const wanted = stored();
+  if (!unsaved && unanswered.size === 0 && !isSame(wanted)) {
     useTiles.setState((state) => keyed(wanted, state.views, state.next));
   }
 }
 
+const stored = (): PlotLists => ofDocument() ?? useTiles.getState().opened;
+
+let ofDocument: () => PlotLists | null = () => null;
+// Whether the page has others than it stored.
+let unsaved = false;
+
 let timer: ReturnType<typeof setTimeout> | undefined;
 const unanswered = new Set<object>();
 
-// Store what changed now, before a step of undo.
+// Store what changed now: at the end of a drag, before a step of undo, and before the document is saved or left.
 export function settleTiles(): void {
-  if (timer !== undefined) {
+  if (unsaved) {
     saveTiles();
   }
 }
 
 function setTiles(view: View, tiles: readonly PlotTile[]): void {
+  unsaved = true;
   useTiles.setState(({ views }) => ({ views: { ...views, [view]: tiles } }));
 }
 
@@ -112,14 +120,20 @@ function saveSoon(): void {
 
 function saveTiles(): void {
   clearTimeout(timer);
-  timer = undefined;
+  unsaved = false;
   const { document, connection } = useStudio.getState();
-  if (document === null || connection !== "open") {
+  const isKnown = unanswered.size === 0 && isSame(stored());
+  if (document === null || connection !== "open" || isKnown) {
     return;
   }
   const asked = {};
   unanswered.add(asked);
-  const answered = () => void unanswered.delete(asked);
+  // what the document had meanwhile, by another page or a step of undo, is shown after the last answer
+  const answered = () => {
+    if (unanswered.delete(asked) && unanswered.size === 0) {
+      followTiles();
+    }
+  };
   // an old arrangement of panels is replaced
   const old = document.layout["panels"] === undefined ? {} : { panels: null };
   const tiles = plain(useTiles.getState().views);

@@ -15,6 +15,8 @@ import { bytesOf, floatsOf } from "./base64";
 
 export type Seen = {
   scene: SceneView | null;
+  // The session of the document for which the scene came.
+  session: number;
   note: string;
   // Whether the world has a camera, whether it can be shown in three dimensions, and whether objects can be
   // added to it.
@@ -35,6 +37,7 @@ export type Seen = {
 
 export const NOTHING_SEEN: Seen = {
   scene: null,
+  session: 0,
   note: "",
   camera: false,
   solid: false,
@@ -71,15 +74,20 @@ export class LiveWorld {
 
   readonly link = (): RobotLink | null => this.seen.link;
 
+  // Whether there is a robot, or a scene that came for a session of the document.
+  readonly showsWorldOf = (session: number): boolean =>
+    this.seen.link !== null || (this.seen.scene !== null && this.seen.session === session);
+
   readonly listen = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   };
 
-  take(message: WorldScene | WorldSolids | Bodies | RobotLink): void {
+  take(message: WorldScene | WorldSolids | Bodies | RobotLink, session = 0): void {
     if (message.type === "scene") {
       this.seen = {
         ...this.seen,
+        session,
         scene: message.scene,
         note: message.note ?? "",
         camera: message.camera ?? false,
