@@ -25,7 +25,15 @@ from deodar.model.unit import unit_seconds
 from deodar.session.port_reader import PortKey
 from deodar_studio.live.published import PublishedState
 from deodar_studio.messages.message import Message, made_of, union
-from deodar_studio.messages.to_page import Answer, Fits, Folder, ListedProblem, RobotLink, TimelineView
+from deodar_studio.messages.to_page import (
+    Answer,
+    Fits,
+    Folder,
+    ListedProblem,
+    RobotLink,
+    TimelineView,
+    WorldScene,
+)
 from deodar_studio.pages.hub import Hub
 from deodar_studio.project.confirmation import ConfirmationRequired
 from deodar_studio.requests.request import MESSAGES, Drawn, RepeatRequest, Request
