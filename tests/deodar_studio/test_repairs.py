@@ -20,6 +20,7 @@ from deodar.couplings.projections import Resample
 from deodar.element import PortAxes
 from deodar.elements.stimuli import Boost
 from deodar.errors import Problem
+from deodar.model import edit
 from deodar.model.check import check
 from deodar.model.document import Document
 from deodar_studio.views import view
@@ -98,7 +99,62 @@ def test_a_problem_has_words_and_a_button_that_removes_it(doc: Document, problem
     assert not CODE.search(f"{listed.where} {listed.what} {listed.fix} {listed.repair}"), listed
     repair = repair_of(doc, problem)
     assert repair is not None and listed.repair == repair[0] and len(listed.repair) < 80
-    assert finding(problem) not in map(finding, check(repair[1](doc)))
+    repaired = repair[1](doc)
+    assert finding(problem) not in map(finding, check(repaired))
+    if listed.repair == "Remove it":
+        assert [name for name in _names(doc) if name not in _names(repaired)] == [problem.where]
+
+
+def _names(doc: Document) -> list[str]:
+    """Return the paths of the elements and the names of the document parameters."""
+    return [*(e.path for e in doc.entries), *(p.name for p in doc.parameters)]
+
+
+def _beside(name: str, group: str = "") -> dd.Model:
+    """Return a model with a field `u`, and one of another name that has two axes of one name."""
+    model = _fields([X])
+    model.add(dd.Field(name, [X, dd.Axis("x", 0, 5, samples=6)]), group=group)
+    return model
+
+
+@pytest.mark.parametrize(
+    ("model", "path"),
+    [
+        (_beside("u (copy)"), "u (copy)"),
+        (_beside("v", "u (old)"), "u (old).v"),
+        (_beside("u.v"), '"u.v"'),
+    ],
+)
+def test_a_problem_belongs_to_the_longest_path_that_its_place_begins_with(model: dd.Model, path: str) -> None:
+    doc = model.document
+    (problem,) = check(doc)
+    assert problem.where == path
+    for where in (path, f"{path}.tau", f"{path} (script.py:3)"):
+        (listed,) = view.problems([dc.replace(problem, where=where)], doc)
+        assert listed.element == model[path].id and listed.repair == "Remove it"
+    repair = repair_of(doc, problem)
+    assert repair is not None and _names(repair[1](doc)) == ["u"]
+
+
+@pytest.mark.parametrize("name", ["u.free", "u (old)", "free"])
+def test_removing_a_document_parameter_leaves_the_element_of_a_similar_name(name: str) -> None:
+    model = _fields([X])
+    model.add(dd.GaussianStimulus("s", [X])) >> model["u"]
+    doc = edit.document_parameter(model.document, name, 3.0)
+    problem = next(p for p in check(doc) if p.where == name)
+    (listed,) = view.problems([problem], doc)
+    repair = repair_of(doc, problem)
+    assert (listed.element, listed.repair) == ("", "Remove it")
+    assert repair is not None and repair[1](doc) == model.document
+
+
+def test_problems_of_a_run_or_a_request_have_their_elements_and_no_buttons() -> None:
+    arena, model = _in_a_world("another unit")
+    problems = [*embodiment.problems(model.document, arena), *check(_beside("v").document)]
+    assert all(p.repair for p in view.problems(problems[:1], model.document))
+    for listed in view.problems(problems, model.document, buttons=False):
+        assert (listed.repair, listed.wire, listed.world) == ("", None, False)
+    assert view.problems(problems, model.document, buttons=False)[0].element == model[problems[0].where].id
 
 
 def reports(path: Path) -> Iterator[int]:

@@ -275,7 +275,8 @@ def test_the_repair_of_a_problem_is_one_edit_that_removes_it(root: Path) -> None
         await p.until(lambda: not p.said["checked"]["problems"])
         assert p.document["elements"][0]["values"]["resting_level"] == -5 and p.document["undo"] == 2
         refused = await p.ask("repair", **named)
-        assert "no repair any more" in refused["problems"][0]["what"]
+        (why,) = refused["problems"]
+        assert "no repair any more" in why["what"] and (why["element"], why["repair"]) == (u, "")
         await p.do("undo")
         await p.until(lambda: p.document["elements"][0]["values"]["resting_level"] == 5)
 

@@ -6,8 +6,6 @@ import asyncio
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
-import msgspec
-
 from deodar.declarations import Cost
 from deodar.errors import DeodarError, DocumentError, Problem, problems_of
 from deodar.model.document import Document
@@ -79,10 +77,9 @@ class DocumentRun:
         """Return why the document does not run; an empty list if it does."""
         doc = None if self.model is None else self.model.document
         problems, paths = self._engine.failure
-        ended = view.problems(problems, doc, paths)  # no edit alone continues the run
         return [
-            *view.problems(self.failure, doc),
-            *(msgspec.structs.replace(p, repair="", wire=None) for p in ended),
+            *view.problems(self.failure, doc, buttons=False),
+            *view.problems(problems, doc, paths, buttons=False),
         ]
 
     def require(self) -> None:

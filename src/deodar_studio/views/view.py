@@ -9,7 +9,6 @@ from typing import Any
 import msgspec
 
 from deodar.errors import Problem as Wrong
-from deodar.errors import WorldFix
 from deodar.experiments.design import KINDS, USUAL, Design, by_key
 from deodar.experiments.trial import TrialPlan
 from deodar.importers import stored_report
@@ -122,21 +121,24 @@ def costs(report: CostReport) -> Costs:
 
 
 def problems(
-    found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()
+    found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = (), buttons: bool = True
 ) -> list[ListedProblem]:
-    """Convert problems, each once for every element concerned: those named in its `where`, or in `paths`."""
-    ids = {} if doc is None else repairs.ids_of(doc)
+    """Convert problems, each once for every element concerned: the one that its `where` names, and those at
+    `paths`.
+
+    Without `buttons` for problems that the document does not have itself: those of a run, or of a request
+    that was refused.
+    """
+    places = None if doc is None else repairs.Places(doc)
     out: list[ListedProblem] = []
     for p in found:
-        elements = [i for path in (p.where, *paths) for i in repairs.concerned(path, ids)] or [""]
-        repair = None if doc is None else repairs.repair_of(doc, p, ids)
-        buttons = {
-            "repair": "" if repair is None else repair[0],
-            "wire": repairs.wire_of(p, ids),
-            "world": isinstance(p.fix, WorldFix),
-        }
+        button: dict[str, Any] = {"repair": "", "wire": None, "world": False}
+        elements = [""]
+        if doc is not None and places is not None:
+            button = repairs.button(doc, p, places) if buttons else button
+            elements = [i for path in (p.where, *paths) if (i := places.element(path))] or [""]
         out += [
-            made_of(ListedProblem, p, fix=p.fix_at("page"), element=ident, **buttons)
+            made_of(ListedProblem, p, fix=p.fix_at("page"), element=ident, **button)
             for ident in dict.fromkeys(elements)
         ]
     return out

@@ -127,7 +127,8 @@ class PageConnection:
             answers = [Answer(request=message.request, ask=required.question, file=required.file)]
         except DeodarError as error:
             model = self._hub.project.history.model
-            problems = view.problems(error.problems, None if model is None else model.document)
+            doc = None if model is None else model.document
+            problems = view.problems(error.problems, doc, buttons=False)
             answers = [Answer(request=message.request, problems=problems)]
         except OSError as error:
             what = f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}"
