@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Generator, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, Self, TypeVar
 
 from deodar.proposed_edit import EditValue, Medium, ProposedEdit, SetValues
 from deodar.short_traceback import short_traceback
@@ -46,7 +46,7 @@ class Fix(str):
     shell: str
     page: str
 
-    def __new__(cls, script: str, shell: str = "", page: str = "") -> Fix:
+    def __new__(cls, script: str, shell: str = "", page: str = "") -> Self:
         fix = super().__new__(cls, script)
         fix.shell, fix.page = shell or script, page or script
         return fix

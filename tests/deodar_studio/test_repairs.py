@@ -249,3 +249,95 @@ def test_a_problem_of_a_world_has_words_and_a_button_that_removes_it(
     assert (listed.repair, listed.world) == (repair, world)
     button = repair_of(model.document, problem)
     assert button is not None and not embodiment.problems(button[1](model.document), arena)
+
+
+OF = dd.Axis("of", 0, 8, 9)
+
+
+@dataclass(frozen=True)
+class BumpSensor(dd.Sensor):
+    """A kind of a package that reads a sensor."""
+
+
+@dataclass(frozen=True)
+class PairMotor(dd.Motor):
+    """A kind of a package that drives a motor."""
+
+
+def _exchanging(*elements: dd.Element) -> dd.Model:
+    model = dd.Model("m", dt=64)
+    for element in elements:
+        model.add(element)
+    return model
+
+
+@pytest.mark.parametrize("kind", [dd.Sensor, BumpSensor])
+def test_the_axes_of_a_sensor_are_those_of_its_readers_too(kind: type[dd.Sensor]) -> None:
+    model = _exchanging(kind("eyes", [OF], "infrared"), dd.Field("u", [OF], tau=640))
+    model["eyes"] >> model["u"]
+    arena, doc = dd.Arena("blocks"), model.document
+    (problem,) = embodiment.problems(doc, arena)
+    repair = repair_of(doc, problem)
+    assert repair is not None and repair[0] == "Use its axes"
+    fitted = repair[1](doc)
+    assert not embodiment.problems(fitted, arena)
+    assert not [p for p in check(fitted) if p.severity == "problem"]
+    assert fitted.entries[0].axes == fitted.entries[1].axes and fitted.entries[0].axes[0].samples == 8
+
+
+@pytest.mark.parametrize("kind", [dd.Motor, PairMotor])
+def test_a_motor_of_another_size_gets_the_axes_of_the_world(kind: type[dd.Motor]) -> None:
+    model, arena = _exchanging(kind("wheel", [OF], "left")), dd.Arena("blocks")
+    (problem,) = embodiment.problems(model.document, arena)
+    repair = repair_of(model.document, problem)
+    assert repair is not None and repair[0] == "Use its axes"
+    assert not embodiment.problems(repair[1](model.document), arena)
+
+
+def test_an_axis_that_fits_another_signal_stays_as_it_is() -> None:
+    fits = dd.Axis("of", 0, 7, 8)
+    model = _exchanging(dd.Sensor("eyes", [fits], "infrared"), dd.Motor("wheel", [fits], "left"))
+    arena, doc = dd.Arena("blocks"), model.document
+    (problem,) = embodiment.problems(doc, arena)
+    repair = repair_of(doc, problem)
+    assert problem.where == "wheel" and repair is not None
+    fitted = repair[1](doc)
+    assert fitted.entries[0] == doc.entries[0] and not embodiment.problems(fitted, arena)
+
+
+def test_a_gain_that_a_document_parameter_drives_is_set_there() -> None:
+    model = coding()
+    model.parameter("k", 1.0)
+    model.link("own place.gain", "k")
+    arena, doc = dd.Arena("blocks"), model.document
+    (problem,) = embodiment.problems(doc, arena)
+    assert 'model.set("k", ' in problem.fix
+    repair = repair_of(doc, problem)
+    assert repair is not None and not embodiment.problems(repair[1](doc), arena)
+
+
+def test_an_axis_in_another_unit_than_the_world_has_a_button_for_the_world() -> None:
+    model = _exchanging(dd.Sensor("place", [dd.Axis("of", 0, 1, 2, unit="cm")], "place"))
+    arena = dd.Arena("blocks")
+    problems = [*embodiment.problems(model.document, arena), *embodiment.warnings(model.document, arena)]
+    (listed,) = view.problems(problems, model.document)
+    assert listed.world and listed.fix == "Choose the unit of the world: cm"
+
+
+@dataclass(frozen=True)
+class Mute(Boost):
+    """A kind without ports."""
+
+    def outputs(self, ins: PortAxes) -> PortAxes:
+        return {}
+
+
+def test_a_kind_without_ports_has_a_warning_and_connects_to_nothing() -> None:
+    model = _fields([X])
+    mute = model.add(Mute("mute", [X]))
+    (problem,) = [p for p in check(model.document) if "has no ports" in p.what]
+    assert problem.severity == "warning" and problem.where == "mute"
+    repair = repair_of(model.document, problem)
+    assert repair is not None and _names(repair[1](model.document)) == ["u"]
+    with pytest.raises(dd.errors.ModelError, match="mute has no output port"):
+        model.connect(mute, "u")

@@ -273,8 +273,9 @@ def connect(
     input.
     """
     outs, ins = find.outputs(source), target.element.ports()
-    if not ins:
-        raise ModelError(f"{target.path} has no input port", where=f"{source.path} -> {target.path}")
+    for path, ports, side in ((target.path, ins, "input"), (source.path, outs, "output")):
+        if not ports:
+            raise ModelError(f"{path} has no {side} port", where=f"{source.path} -> {target.path}")
     source_port, target_port = source_port or outs[0], target_port or ins[0]
     if source_port not in outs:
         fault = "is an input port" if source_port in source.element.ports() else "does not exist"

@@ -14,10 +14,12 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 
 from deodar.element import Element
-from deodar.errors import EditFix, Fix, Problem, RunWarning, option
+from deodar.errors import EditFix, Fix, Problem, RunWarning, WorldFix, option
+from deodar.model import proposed
 from deodar.model.checks.motionless import motionless
 from deodar.model.document import Document
 from deodar.model.document_graph import graph
+from deodar.model.proposed import CheckedDocument
 from deodar.model.resolve import Node
 from deodar.numerics import units
 from deodar.numerics.axes import Axis, barely_overlap
@@ -40,7 +42,8 @@ def judge(doc: Document, world: World | None) -> list[Problem]:
     if _exchanges_positions(doc, world):
         found = graph(doc)
         problems_of_world += [] if found.problems else _Tracer(found.nodes, world).judge()
-    return problems_of_world
+    checked = CheckedDocument(doc)
+    return [proposed.bound(checked, p) for p in problems_of_world]
 
 
 def warn(doc: Document, world: World | None, stacklevel: int) -> None:
@@ -261,16 +264,17 @@ def _times(ratio: float) -> str:
     return f"{ratio:.4g} times too small" if ratio > 1 else f"{1 / ratio:.4g} times too large"
 
 
-def _choose(world: World, unit: MetricUnit, verb: str = "Choose") -> Fix | None:
+def _choose(world: World, unit: MetricUnit, verb: str = "Choose") -> WorldFix | None:
     """Return what to type for a world with lengths in another unit; None without such an argument."""
     kind = type(world).__name__
     if "unit" not in inspect.signature(type(world)).parameters:
         return None
     name = str(world.describe().get("file", "")) or "..."
-    return option(
+    words = option(
         f"{verb} the unit of the world:",
         "world",
         f'"{kind.lower()}:{name}, unit={unit.symbol}"',
         f'dd.{kind}("{name}", unit="{unit.symbol}")',
         unit.symbol,
     )
+    return WorldFix(words, words.shell, words.page)

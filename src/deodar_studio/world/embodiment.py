@@ -15,13 +15,14 @@ import numpy as np
 
 from deodar import registry
 from deodar.credentials import masked
-from deodar.element import Element
 from deodar.elements.world_ports import Motor, Sensor
-from deodar.errors import EditFix, MissingExtra, Problem, WorldError, WorldFix, did_you_mean
+from deodar.errors import DeodarError, EditFix, MissingExtra, Problem, WorldError, WorldFix, did_you_mean
 from deodar.kinds.world_settings import require_settings
+from deodar.model import document_files, proposed
 from deodar.model.document import Document
-from deodar.numerics.axes import Axis, shape
-from deodar.proposed_edit import SetValues
+from deodar.model.document_graph import graph
+from deodar.numerics.axes import Axes, Axis, shape
+from deodar.proposed_edit import ProposedEdit, SetAxis, SetValues
 from deodar.recording.opened import opened
 from deodar.recording.provenance import described
 from deodar.session import agreement
@@ -256,8 +257,7 @@ def problems(doc: Document, world: World | None) -> Sequence[Problem]:
     try:
         used(doc, world)
     except WorldError as error:
-        elements = {e.path: e.element for e in doc.entries}
-        return [_with_its_axes(p, elements.get(p.where), world) for p in error.problems]
+        return [_with_its_axes(p, doc, world) for p in error.problems]
     return ()
 
 
@@ -271,19 +271,59 @@ def warnings(doc: Document, world: World | None) -> list[Problem]:
     ]
 
 
-def _with_its_axes(problem: Problem, element: Element | None, world: World | None) -> Problem:
+def _with_its_axes(problem: Problem, doc: Document, world: World | None) -> Problem:
     """Return a problem of a sensor or motor; where its samples are not those of the world, their axes are the
     fix.
     """
+    element = next((e.element for e in doc.entries if e.path == problem.where), None)
     if world is None or not isinstance(element, (Sensor, Motor)) or problem.edits:
         return problem
+    kind = Sensor if isinstance(element, Sensor) else Motor
     name = element.sensor if isinstance(element, Sensor) else element.motor
-    signal = offered.of_kind(type(element).__name__, world)[name]
-    axes = offered.axes(type(element).__name__, name, world, offered.ExampleAxes())
-    if signal.shape in (None, shape(element.axes)) or axes is None:
+    signal = offered.of_kind(kind.__name__, world).get(name)
+    if signal is None or signal.shape in (None, shape(element.axes)):
         return problem
-    use = EditFix("Use its axes", [SetValues((("axes", axes),), problem.where)], problem.fix)
-    return dc.replace(problem, fix=use)
+    axes = offered.axes(kind.__name__, name, world, offered.ExampleAxes())
+    if axes is None:
+        return problem
+    edits = _changed_axes(doc, tuple(element.axes), axes)
+    if not edits or not _solve(doc, edits, problem, world):
+        edits = [SetValues((("axes", axes),), problem.where)]
+    use = EditFix("Use its axes", edits, problem.fix)
+    return proposed.bound(proposed.CheckedDocument(doc), dc.replace(problem, fix=use))
+
+
+def _changed_axes(doc: Document, old: Axes, new: Axes) -> list[ProposedEdit]:
+    """Return the edits that give axes the values of others in all elements that have them; the names stay.
+
+    Empty if they are not as many.
+    """
+    keys = {axis: key for key, axis in document_files.axes(doc).items()}
+    edits: list[ProposedEdit] = []
+    for before, after in zip(old, new, strict=True) if len(old) == len(new) else ():
+        values = {f.name: getattr(after, f.name) for f in dc.fields(after) if f.name != "name"}
+        changes = tuple((name, v) for name, v in values.items() if getattr(before, name) != v)
+        edits += [SetAxis(keys[before], changes)] if changes else []
+    return edits
+
+
+def _solve(doc: Document, edits: Sequence[ProposedEdit], problem: Problem, world: World) -> bool:
+    """Return whether edits solve a problem of a document in a world, and bring no other one."""
+    try:
+        solved = proposed.apply(doc, edits)
+    except DeodarError:
+        return False
+    places = _refused(doc, world)
+    return not graph(solved).problems and _refused(solved, world) <= places - {problem.where}
+
+
+def _refused(doc: Document, world: World) -> set[str]:
+    """Return the paths of the elements that cannot exchange signals with a world."""
+    try:
+        used(doc, world)
+    except WorldError as error:
+        return {p.where for p in error.problems}
+    return set()
 
 
 def _lacks(element: Sensor | Motor, world: World | None) -> bool:

@@ -64,8 +64,10 @@ def _ports(wiring: Wiring, n: Node) -> Iterator[Problem]:
         )
     # a model may have a sensor only to record it
     if not e.ports() and not e.external and not wiring.readers[n.id]:
-        fix = ConnectionFix.out_of(n.path, next(iter(n.outs)), "or remove it")
-        yield warning(n, "nothing reads it", fix)
+        if port := next(iter(n.outs), ""):
+            yield warning(n, "nothing reads it", ConnectionFix.out_of(n.path, port, "or remove it"))
+        else:
+            yield warning(n, "has no ports, so it does nothing", "Remove it")
     if isinstance(e, Placeholder) and wiring.readers[n.id]:
         yield warning(
             n,
