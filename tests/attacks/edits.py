@@ -143,7 +143,9 @@ class State:
         return State(new, (self.document, self.past), None, gesture)
 
     def amend(self, new: Document, gesture: object = None) -> State:
-        """Replace the present document by a new one."""
+        """Replace the present document by a new one, or return to the one before if they are equal."""
+        if self.past is not None and new == self.past[0]:
+            return State(self.past[0], self.past[1])
         return State(new, self.past, None, gesture)
 
     def each(self, how: Callable[[Document], Document]) -> State:

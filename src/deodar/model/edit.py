@@ -51,8 +51,7 @@ def add(
     if isinstance(element, Element) and not element.name:
         base = name_after(after, element) if after else type(element).__name__
         group = group or after.group if after else group
-        taken = doc.by_names()
-        element = dc.replace(element, name=_free(base, lambda name: (*group, name) in taken))
+        element = dc.replace(element, name=_free(base, lambda name: _is_taken(doc, (*group, name))))
     if ident:
         require_id(ident, doc.by_id())
     doc, entries = add_all(doc, [(element, group, every)], ident)
@@ -647,13 +646,18 @@ class UndoHistory(Generic[T]):
         self._future.clear()
         self.document = document
 
-    def amend(self, document: T) -> None:
+    def amend(self, document: T) -> bool:
         """Replace the present document by a new one without a new step of the history.
 
-        For a change that is made in many small ones.
+        For a change that is made in many small ones. A change that ends where it began is no step: return
+        whether there is one.
         """
-        self.document = document
         self._future.clear()
+        if self._past and document == self._past[-1]:
+            self.document = self._past.pop()
+            return False
+        self.document = document
+        return True
 
     def change_all(self, edited: Callable[[T], T]) -> None:
         """Apply a function to all documents, also those that were undone."""
@@ -756,6 +760,18 @@ def _vacant(
         raise ModelError(
             f"a document parameter is called {display(names)!r}", fix="Give one of them another name"
         )
+
+
+def _is_taken(doc: Document, names: PathNames) -> bool:
+    """Return whether a path is the path of an element, group or document parameter, or begins the name of a
+    document parameter as those of its parameters do.
+    """
+    path = display(names)
+    return (
+        as_taken(names, doc.by_names()) is not None
+        or as_taken(names, doc.groups) is not None
+        or any(k.name == path or k.name.startswith(f"{path}.") for k in doc.parameters)
+    )
 
 
 def _unambiguous(doc: Document, names: PathNames, element: Element) -> None:

@@ -237,10 +237,10 @@ class DocumentHistory:
             return "live"
         cost = await self._adopt(doc)
         if gesture is not None and gesture == self._gesture:
-            model.history.amend(doc)
+            self._gesture = gesture if model.history.amend(doc) else None
         else:
             model.history.commit(doc)
-        self._gesture = gesture
+            self._gesture = gesture
         if leaf is None or cost == "recompile" or _effect(before, leaf[0]) != _effect(doc, leaf[0]):
             self._edited(before, cost)
         else:

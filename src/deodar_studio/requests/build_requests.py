@@ -144,8 +144,9 @@ async def set_strength(
     same `gesture` (not 0) are one step of undo; while `dragging` the Gain stays at strength 1.
     """
     drag, history = (page.number, gesture) if gesture else None, hub.project.history
-    new, gain = strength.set_strength(history.document(), wire.ports, value, dragging)
-    if gain == wire.target:  # a number alone, which pages receive as one
+    before = history.document()
+    new, gain = strength.set_strength(before, wire.ports, value, dragging)
+    if gain == wire.target and new.connections == before.connections:  # pages receive a number alone
         await history.set(wire.target, strength.FACTOR, value, drag)
     else:
         await history.change(lambda _: new, drag)

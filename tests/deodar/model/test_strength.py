@@ -9,8 +9,8 @@ import pytest
 
 import deodar as dd
 from deodar.element import Element
-from deodar.errors import ParameterError, UnknownName
-from deodar.model import document_files, edit
+from deodar.errors import ModelError, ParameterError, UnknownName
+from deodar.model import document_files, edit, uses
 from deodar.model.building import EndPorts, placed
 from deodar.model.document import Document
 from deodar.model.model import Model
@@ -115,7 +115,11 @@ def _beside(doc: Document, gain: str) -> Document:
     return edit.connect(doc, u, "", v, "")
 
 
-@pytest.mark.parametrize("change", [_named, _slow, _placed, _pinned, _beside])
+def _moved(doc: Document, gain: str) -> Document:
+    return edit.move(doc, gain, ("task", "u>Gain"))
+
+
+@pytest.mark.parametrize("change", [_named, _slow, _placed, _pinned, _beside, _moved])
 def test_a_gain_that_is_more_than_a_number_stays_at_1(change: Callable[[Document, str], Document]) -> None:
     model = triple()
     doc, gain = set_strength(model.document, plain(model), 3)
@@ -147,6 +151,77 @@ def test_what_is_no_strength_or_no_connection_is_refused() -> None:
     linked = edit.link(edit.document_parameter(doc, "drive", 3), gain, "factor", "drive")
     with pytest.raises(ParameterError, match="driven by the document parameter"):
         set_strength(linked, into(gain, model), 1)
+
+
+def test_a_gain_gets_a_name_that_no_group_and_no_document_parameter_has() -> None:
+    model = triple()
+    doc = edit.group(model.document, ("maps", "u>Gain"))
+    doc = edit.document_parameter(doc, 'maps."u>Gain2"', 3.0)
+    doc = edit.document_parameter(doc, "maps.u>Gain2", 3.0)
+    doc = edit.document_parameter(doc, "maps.u>Gain3.factor", 3.0)
+    after, gain = set_strength(doc, plain(model), 3)
+    assert gain is not None and after.by_id()[gain].names == ("maps", "u>Gain4")
+    assert set_strength(after, into(gain, model), 1)[0] == doc
+
+
+def test_a_strength_inside_a_linked_group_is_one_of_its_template() -> None:
+    template = Model("pair")
+    template.add(dd.Field("a", [X])) >> template.add(dd.Field("b", [X]))
+    model = Model("m")
+    model.insert(template, "g", link=True)
+    model.add(dd.Field("w", [X])) >> model["g.a"]
+    with pytest.raises(ModelError, match=r"linked to the template 'pair'.*Change its strength"):
+        set_strength(model.document, plain(model, "g.a", "g.b"), 3)
+    doc, gain = set_strength(model.document, plain(model, "w", "g.a"), 3)
+    refreshed = uses.refresh(doc, template.document)
+    assert gain in refreshed.by_id() and len(refreshed.connections) == len(model.document.connections) + 1
+
+
+def remembered(quadrature: str = "cell") -> Model:
+    """Return a field whose output a memory trace reads."""
+    model = Model("remembered")
+    axis = dd.Axis("x", 0, 100, samples=21)
+    stimulus = model.add(dd.GaussianStimulus("s", [axis], amplitude=12, sigma=4.0))
+    field = model.add(dd.Field("u", [axis], resting_level=-5.0, quadrature=quadrature))
+    stimulus >> field
+    field >> model.add(dd.MemoryTrace("trace", [axis], tau_build=200))
+    return model
+
+
+def traced(doc: Document) -> np.ndarray:
+    session = dd.Session(Model(document=doc))
+    session.step(1000)
+    return session.read("trace.output")
+
+
+def test_a_trace_reads_the_same_numbers_through_a_strength() -> None:
+    model = remembered()
+    doc, gain = set_strength(model.document, plain(model, "u", "trace"), 1.0001)
+    assert gain is not None
+    assert np.allclose(traced(doc), traced(model.document), atol=2e-4)
+    for ends in ((model["u"].id, port, gain, "") for port in ("", "output", "bounded")):
+        back, none = set_strength(doc, ends, 1)
+        assert none is None and stored(back) == stored(model.document)
+
+
+def test_a_drag_keeps_the_port_that_a_trace_reads_until_it_ends() -> None:
+    model = remembered()
+    doc, gain = set_strength(model.document, plain(model, "u", "trace"), 2, keeps=True)
+    assert gain is not None and doc.connections[1].source_port == "output"
+    doc, _ = set_strength(doc, (model["u"].id, "output", gain, ""), 3, keeps=True)
+    assert doc.connections[1].source_port == "output"
+    ended, _ = set_strength(doc, (model["u"].id, "output", gain, ""), 3)
+    assert ended.connections[1].source_port == "bounded"
+    assert ended == set_strength(model.document, plain(model, "u", "trace"), 3)[0]
+
+
+def test_two_ports_that_a_trace_reads_keep_their_own_strengths() -> None:
+    model = remembered()
+    model["u"]["bounded"] >> model["trace"]
+    doc, gain = set_strength(model.document, (model["u"].id, "bounded", model["trace"].id, ""), 2)
+    assert gain is not None
+    back, _ = set_strength(doc, (model["u"].id, "bounded", gain, ""), 1)
+    assert stored(back) == stored(model.document)
 
 
 @pytest.mark.parametrize(

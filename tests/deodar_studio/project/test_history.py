@@ -56,6 +56,23 @@ def test_changes_of_one_gesture_are_one_step_of_undo() -> None:
     asyncio.run(scene())
 
 
+def test_a_drag_that_ends_where_it_began_is_no_step_of_undo() -> None:
+    async def scene() -> None:
+        h = history()
+        await h.describe({"notes": "before"})
+        for moved in (30.0, 20.0):
+            await h.set("0000000a", "tau", moved, "drag")
+        assert h.model is not None and h.model.history.depth == 1
+        await h.set("0000000a", "tau", 40.0, "drag")  # the same drag goes on
+        assert tau(h) == 40.0 and h.model.history.depth == 2
+        await h.undo()
+        assert tau(h) == 20.0 and h.document().notes == "before"
+        await h.undo()
+        assert h.document().notes == "" and not h.unsaved
+
+    asyncio.run(scene())
+
+
 def test_a_page_that_lags_receives_the_changes_that_it_lacks() -> None:
     async def scene() -> None:
         h = history()
