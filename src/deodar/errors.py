@@ -64,22 +64,25 @@ class ConnectionFix(Fix):
     """A fix that is a connection of which the user chooses a part.
 
     Args:
-        script: for readers of a script or a shell.
+        script: for readers of a script.
         page: for readers of the page, which has a button for the choice; "": the button says it all.
         ends: path of the source and its output port, path of the target and its input port. Both of an end
             are empty where the user chooses it; with both ends the user chooses a coupling between them.
+        shell: for readers of a command's message; "": as for those of a script.
     """
 
     ends: tuple[str, str, str, str]
 
-    def __new__(cls, script: str, page: str, ends: tuple[str, str, str, str]) -> ConnectionFix:
+    def __new__(
+        cls, script: str, page: str, ends: tuple[str, str, str, str], shell: str = ""
+    ) -> ConnectionFix:
         fix = str.__new__(cls, script)
-        fix.shell, fix.page, fix.ends = script, page, ends
+        fix.shell, fix.page, fix.ends = shell or script, page, ends
         return fix
 
     def __getnewargs__(self) -> Any:
         """Return the arguments, for copies and pickles."""
-        return str(self), self.page, self.ends
+        return str(self), self.page, self.ends, self.shell
 
     @classmethod
     def into(cls, path: str, port: str = "input", otherwise: str = "") -> ConnectionFix:

@@ -23,12 +23,13 @@ from deodar.errors import Problem
 from deodar.model import edit
 from deodar.model.check import check
 from deodar.model.document import Document
+from deodar.model.proposed import MOST_TRIED
 from deodar_studio.views import view
 from deodar_studio.views.repairs import repair_of
 from deodar_studio.world import embodiment
 from tests.deodar.model.proven_fix import finding
-from tests.deodar.model.test_fixes import DECISIONS, DOCUMENTS, FURTHER, STRUCTURAL
-from tests.deodar.session.test_agreement import coding
+from tests.deodar.model.test_fixes import DECISIONS, DOCUMENTS, FURTHER, STRUCTURAL, Mute, shared_level
+from tests.deodar.session.test_agreement import PLANE, Rail, coding
 
 SOURCES = Path(dd.__file__).parent
 X, Y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 10, samples=11)
@@ -324,20 +325,35 @@ def test_an_axis_in_another_unit_than_the_world_has_a_button_for_the_world() -> 
     assert listed.world and listed.fix == "Choose the unit of the world: cm"
 
 
-@dataclass(frozen=True)
-class Mute(Boost):
-    """A kind without ports."""
-
-    def outputs(self, ins: PortAxes) -> PortAxes:
-        return {}
-
-
-def test_a_kind_without_ports_has_a_warning_and_connects_to_nothing() -> None:
+def test_a_kind_without_ports_connects_to_nothing() -> None:
     model = _fields([X])
     mute = model.add(Mute("mute", [X]))
-    (problem,) = [p for p in check(model.document) if "has no ports" in p.what]
-    assert problem.severity == "warning" and problem.where == "mute"
-    repair = repair_of(model.document, problem)
-    assert repair is not None and _names(repair[1](model.document)) == ["u"]
     with pytest.raises(dd.errors.ModelError, match="mute has no output port"):
         model.connect(mute, "u")
+
+
+def test_the_words_of_a_problem_name_what_its_button_removes() -> None:
+    """Also of the problems whose edit is not tried, and where a document parameter stands in the way."""
+    model = dd.Model("m")
+    for k in range(MOST_TRIED + 1):
+        model.add(dd.Field(f"u{k}", [X])) >> model.add(dd.Field(f"v{k}", [dd.Axis("y", 0, 10, 11)]))
+    doc = model.document
+    untried = check(doc)[-1]
+    (listed,) = view.problems([untried], doc)
+    assert listed.repair == "Remove the connection" and listed.fix.endswith("Or remove the connection")
+    repair = repair_of(doc, untried)
+    assert repair is not None and len(repair[1](doc).connections) == MOST_TRIED
+    doc = shared_level().document
+    unlinked = [p for p in view.problems(check(doc), doc) if "First unlink" in p.fix]
+    assert unlinked and all(p.fix.endswith(f"Or remove {p.where}") for p in unlinked)
+
+
+def test_a_motor_that_takes_another_unit_loses_the_connection_and_not_itself() -> None:
+    model, rail = dd.Model("rail", dt=10), Rail()
+    read = model.add(dd.Field("u", [PLANE[0]])) >> model.add(dd.PeakPosition(name="read"))
+    read >> model.add(dd.Motor("cart", motor="reach"))
+    (problem,) = embodiment.problems(model.document, rail)
+    repair = repair_of(model.document, problem)
+    assert repair is not None and repair[0] == "Remove the connection"
+    repaired = repair[1](model.document)
+    assert _names(repaired) == _names(model.document) and not embodiment.problems(repaired, rail)

@@ -7,6 +7,7 @@ import functools
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from deodar.errors import (
+    ConnectionFix,
     DeodarError,
     EditFix,
     Fix,
@@ -14,6 +15,7 @@ from deodar.errors import (
     Problem,
     UnknownName,
     did_you_mean,
+    worded,
 )
 from deodar.model import building, document_files, edit, find
 from deodar.model.document import Document, Leaf
@@ -116,7 +118,8 @@ def bound(checked: CheckedDocument, problem: Problem) -> Problem:
         return problem
     inside = [e.inside(problem.where) if isinstance(e, SetValues) else e for e in problem.fix.edits]
     if shared := _also_driven(checked, inside):
-        return dc.replace(problem, fix=_text(problem.fix.with_edits(inside)).then(f"First {shared}"))
+        text = _text(problem.fix.with_edits(inside)).then(f"First {shared}")
+        return dc.replace(problem, fix=text.then(_last_resort(problem.where)))
     edits = [new for e in inside for new in _bound(checked, e)]
     fix = problem.fix.with_edits(edits)
     doc = checked.concerned(edits)
@@ -124,7 +127,8 @@ def bound(checked: CheckedDocument, problem: Problem) -> Problem:
         return _advice(problem)
     refused = _refused(doc, edits)
     if refused:
-        return dc.replace(problem, fix=_text(fix).then(f"First change {refused[0]}"))
+        text = _text(fix).then(f"First change {refused[0]}")
+        return dc.replace(problem, fix=text.then(_last_resort(problem.where)))
     return dc.replace(problem, fix=fix)
 
 
@@ -136,9 +140,11 @@ def proven(doc: Document, structural: Sequence[Problem], most: int = MOST_TRIED)
 
     def fixed(problem: Problem) -> Problem:
         if problem in tried:
-            return problem if _solves(doc, problem, structural) else _advice(problem)
+            return problem if _solves(doc, problem, structural) else _untried(doc, problem, _advice(problem))
         fix = problem.fix
-        return dc.replace(problem, fix=_text(fix)) if isinstance(fix, EditFix) else problem
+        if not isinstance(fix, EditFix):
+            return problem
+        return _untried(doc, problem, dc.replace(problem, fix=_text(fix)))
 
     return list(map(fixed, structural))
 
@@ -157,6 +163,33 @@ def _advice(problem: Problem) -> Problem:
     if not isinstance(fix, EditFix):
         return problem
     return dc.replace(problem, fix=Fix(fix.advice).then(fix.otherwise))
+
+
+def _untried(doc: Document, problem: Problem, text: Problem) -> Problem:
+    """Return a problem as text, in place of an edit that is not made; of a connection it keeps the ends, so
+    that the page can remove the connection and not an element.
+    """
+    ends = next((ends for e in problem.edits if (ends := _paths(doc, e))), None)
+    if ends is None:
+        return dc.replace(text, fix=worded(text.fix).then(_last_resort(problem.where)))
+    fix = worded(text.fix).then(_last_resort("the connection"))
+    return dc.replace(text, fix=ConnectionFix(fix, fix.page, ends, fix.shell))
+
+
+def _paths(doc: Document, proposed: ProposedEdit) -> tuple[str, str, str, str] | None:
+    """Return the ends of the connection that an edit is about, by paths; None if it is about none."""
+    if isinstance(proposed, InsertCoupling):
+        return proposed.ends
+    if not isinstance(proposed, (Disconnect, SetReads, SetSourcePort)):
+        return None
+    source, source_port, target, target_port = _ends(doc, proposed)
+    by = doc.by_id()
+    return by[source].path, source_port, by[target].path, target_port
+
+
+def _last_resort(path: str) -> Fix:
+    """Return the words for what the button of the page does where no edit is made: it removes something."""
+    return Fix("", page=f"Or remove {path}")
 
 
 def _text(fix: EditFix) -> Fix:

@@ -330,14 +330,13 @@ class _Resolver:
         if followed in node.ins:
             want = node.ins[followed]
             if {a.name for a in axes} > {a.name for a in want}:
-                ends = (
-                    f"{source.path}.{self.stated(slot, node, port)} {describe(axes)} does not fit"
-                    f" {node.path}.{port} {describe(want)}"
-                )
+                ends = (source.path, self.stated(slot, node, port), node.path, port)
+                places = f"et the two change places; the port {followed!r} takes the larger one"
                 self.problem(
                     node.id,
-                    f"{ends}: it has more axes",
-                    f"Write: let the two change places; the port {followed!r} takes the larger one",
+                    f"{ends[0]}.{ends[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}:"
+                    " it has more axes",
+                    ConnectionFix(f"Write: l{places}", f"L{places}. Or put a coupling between them", ends),
                 )
                 return
         node.ins[port] = want

@@ -14,7 +14,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 
 from deodar.element import Element
-from deodar.errors import EditFix, Fix, Problem, RunWarning, WorldFix, option
+from deodar.errors import ConnectionFix, EditFix, Fix, Problem, RunWarning, WorldFix, option
 from deodar.model import proposed
 from deodar.model.checks.motionless import motionless
 from deodar.model.document import Document
@@ -180,9 +180,18 @@ class _Tracer:
                         f" out makes all commands {_times(ratio)}"
                     )
                     gain = f"Connect it through a gain: dd.Gain({ratio:.6g})"
-                    fix = Fix(gain, page=f"Connect it through a Gain of {ratio:.6g}")
-                    yield Problem(n.path, problem, fix)
+                    page = f"Connect it through a Gain of {ratio:.6g}"
+                    yield Problem(n.path, problem, self._between(n, port, Fix(gain, page=page)))
                     return
+
+    def _between(self, n: Node, port: str, fix: Fix) -> Fix:
+        """Return a fix of what a port reads, with the ends of the connection if there is one alone."""
+        slots = n.reads.get(port, [])
+        sources = [(self.nodes[ident], out) for ident, out, _ in slots if self.nodes[ident].declared]
+        if len(slots) != 1 or not sources:
+            return fix
+        ((source, out),) = sources
+        return ConnectionFix(fix, fix.page, (source.path, out, n.path, port), fix.shell)
 
     def _source(self, positions: PositionUnits) -> Node | None:
         """Return the element that positions come from; None if there are none."""

@@ -18,7 +18,9 @@ import pytest
 
 import deodar as dd
 from deodar import registry
-from deodar.errors import EditFix, ModelError, Problem, assign
+from deodar.element import PortAxes
+from deodar.elements.stimuli import Boost
+from deodar.errors import ConnectionFix, EditFix, ModelError, Problem, assign
 from deodar.model import edit, fits, new_elements
 from deodar.model.check import check
 from deodar.model.checks.resolution import fix_with_cells
@@ -105,7 +107,22 @@ def _rated() -> dd.Model:
     return model
 
 
+@dataclass(frozen=True)
+class Mute(Boost):
+    """A kind without ports."""
+
+    def outputs(self, ins: PortAxes) -> PortAxes:
+        return {}
+
+
+def _mute() -> dd.Model:
+    model = _model(dd.Field("u", [X]))
+    model.add(Mute("mute", [X], amplitude=1))
+    return model
+
+
 FURTHER = {
+    "a kind without ports": _mute(),
     "on without any input": _model(dd.Field("u", [X], resting_level=5, global_inhibition=1)),
     "below the rounding": _model(dd.Field("u", [X], tau=1e9)),
     "a linked parameter": _linked(),
@@ -268,7 +285,12 @@ def test_few_edits_of_a_structure_are_tried() -> None:
         model.add(dd.Field(f"u{k}", [X], noise=0.1)) >> model.add(dd.Field(f"v{k}", [Y]))
     problems = check(model.document)
     assert [bool(p.edits) for p in problems] == [True] * MOST_TRIED + [False] * 5
-    assert " >> Project([" in problems[-1].fix
+    fix = problems[-1].fix
+    assert " >> Project([" in fix and isinstance(fix, ConnectionFix)
+    last = MOST_TRIED + 4
+    assert fix.ends == (f"u{last}", "output", f"v{last}", "input")
+    assert fix.page.endswith("Or remove the connection") and fix.shell.startswith("Rename the axis")
+    assert pickle.loads(pickle.dumps(fix)).shell == fix.shell != fix
 
 
 @pytest.mark.parametrize(("name", "problem"), FURTHER_EDITS)
@@ -375,7 +397,7 @@ def test_a_fix_of_a_linked_parameter_sets_the_document_parameter() -> None:
     }
 
 
-def _shared_level() -> dd.Model:
+def shared_level() -> dd.Model:
     """A document parameter that drives a resting level of the wrong sign, and the factor of a gain."""
     model = _linked()
     model.connect(model.add(dd.Gain(5.0, name="g")), model.add(dd.Field("v", [X])))
@@ -408,7 +430,7 @@ def _shared_source(*others: str) -> dd.Model:
 @pytest.mark.parametrize(
     ("model", "text"),
     [
-        (_shared_level(), "First unlink u.resting_level from 'rest', which also drives g.factor"),
+        (shared_level(), "First unlink u.resting_level from 'rest', which also drives g.factor"),
         (_shared_widths(), "First unlink u.kernel.0.sigma_inhibition from 'w', which also drives"),
         (_shared_source("v"), "Change the sign of what should excite it"),
         (_shared_source("v", "w"), "Change the sign of what should excite it"),
