@@ -333,7 +333,7 @@ def test_a_kind_without_ports_connects_to_nothing() -> None:
 
 
 def test_the_words_of_a_problem_name_what_its_button_removes() -> None:
-    """Also of the problems whose edit is not tried, and where a document parameter stands in the way."""
+    """Also of the problems whose edit is not tried, and where a document parameter prevents it."""
     model = dd.Model("m")
     for k in range(MOST_TRIED + 1):
         model.add(dd.Field(f"u{k}", [X])) >> model.add(dd.Field(f"v{k}", [dd.Axis("y", 0, 10, 11)]))

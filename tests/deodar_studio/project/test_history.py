@@ -63,7 +63,7 @@ def test_a_drag_that_ends_where_it_began_is_no_step_of_undo() -> None:
         for moved in (30.0, 20.0):
             await h.set("0000000a", "tau", moved, "drag")
         assert h.model is not None and h.model.history.depth == 1
-        await h.set("0000000a", "tau", 40.0, "drag")  # the same drag goes on
+        await h.set("0000000a", "tau", 40.0, "drag")  # the same drag continues
         assert tau(h) == 40.0 and h.model.history.depth == 2
         await h.undo()
         assert tau(h) == 20.0 and h.document().notes == "before"
