@@ -77,6 +77,20 @@ test("a record opens from the list of files, and the slider moves every plot and
   await said(/^0 ms/);
 });
 
+test("a click on the number of a wire of a record selects the wire, and nothing changes it", async () => {
+  const { page } = studio;
+  const wire = page.locator(".react-flow__edge").first();
+  const chip = page.getByRole("spinbutton", { name: /^Strength, / }).first();
+  await wire.hover({ force: true });
+  await chip.click();
+  const card = page.locator(".graph-wire-card");
+  await card.waitFor();
+  expect(await chip.count(), "the number is not typed").toBe(1);
+  expect(await card.getByRole("slider").count(), "a slider without a thumb").toBe(0);
+  await shot(page, "record-wire");
+  await page.keyboard.press("Escape");
+});
+
 test("Space plays a record to its end at the chosen speed, and backward", async () => {
   const { page } = studio;
   await bar().getByLabel("Speed of the replay").selectOption("0.5");

@@ -113,6 +113,66 @@ test("typed -4 gives dashes and a dot, and 1 removes them", async () => {
   expect(await text()).toBe(before);
 });
 
+test("a field that is clicked while a strength is typed has the focus, and the number is taken", async () => {
+  const { page } = studio;
+  await hover();
+  await chip().click();
+  await page.keyboard.type("2");
+  const search = page.getByPlaceholder("Add an element");
+  await search.click();
+  await observer.until(() => factor() === 2);
+  await chip().waitFor();
+  expect(await search.evaluate((field) => field === document.activeElement)).toBe(true);
+  await chip().click();
+  await page.keyboard.type("two");
+  await page.keyboard.press("Enter");
+  await page.getByRole("region", { name: "Messages" }).getByText("needs a number, not two").waitFor();
+  expect(factor()).toBe(2);
+  expect(await chip().evaluate((drawn) => drawn === document.activeElement)).toBe(true);
+  await page.getByRole("button", { name: "Dismiss" }).click();
+});
+
+test("a press that the browser cancels does not type", async () => {
+  const { page } = studio;
+  await hover();
+  const { x, y } = await middle(chip());
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await chip().dispatchEvent("pointercancel");
+  await page.mouse.up();
+  await page.keyboard.press("ArrowUp");
+  await observer.until(() => factor() === 1.1);
+});
+
+test("a strength that a document parameter drives changes the parameter", async () => {
+  const { page } = studio;
+  const { source, target } = observer.document?.connections[0] ?? { source: "", target: "" };
+  const drive = (name: string, element: string, parameter: string) =>
+    observer.ask({ type: "add_document_parameter", name, element, parameter });
+  const value = (name: string) => observer.document?.parameters.find((other) => other.name === name)?.value;
+  await hover();
+  await drag(40);
+  await observer.until(() => factor() === 3);
+  await drive("drive", observer.document?.elements.find(({ kind }) => kind === "Gain")?.id ?? "", "factor");
+  await observer.until(() => value("drive") === 3);
+  await chip().focus();
+  await page.keyboard.press("ArrowUp");
+  await observer.until(() => value("drive") === 3.1);
+  await drag(40);
+  await observer.until(() => value("drive") === 5.1);
+  const back = { source: target, target: source };
+  await observer.ask({ type: "connect", ...back });
+  const spread = { type: "add_element", kind: "Convolve", name: "spread", wire: back } as const;
+  const { made = [] } = await observer.ask(spread);
+  await drive("width", made[0] ?? "", "kernel.0.amplitude");
+  await observer.until(() => value("width") !== undefined);
+  const amplitude = value("width") as number;
+  const pill = page.getByRole("spinbutton", { name: "Strength of spread", exact: true });
+  await pill.focus();
+  await page.keyboard.press("-");
+  await observer.until(() => value("width") === -amplitude);
+});
+
 test("keys change the strength by 0.1 and flip its sign", async () => {
   const { page } = studio;
   await hover();

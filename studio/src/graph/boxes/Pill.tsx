@@ -7,8 +7,7 @@ import { labelOf } from "./label";
 import { MarkIcon } from "./Mark";
 import { pressing } from "./pressing";
 import { useProblem, useWarning } from "../problem";
-import { useSetting } from "../../inspector/parameters/setting";
-import { numberAt } from "../wires/strength";
+import { numberAt, useNumber } from "../wires/strength";
 import { StrengthControl } from "../wires/StrengthControl";
 
 export function Pill({ element: id }: { element: string }) {
@@ -63,5 +62,5 @@ function PillStrength({ element, path }: { element: string; path: string }) {
     return known === undefined || document === null ? 0 : (numberAt(known, path, document) ?? 0);
   });
   const label = useStudio(({ elements }) => `Strength of ${elements.get(element)?.path ?? ""}`);
-  return <StrengthControl label={label} setting={useSetting(element, path, stored, "live")} />;
+  return <StrengthControl label={label} setting={useNumber(element, path, stored)} />;
 }

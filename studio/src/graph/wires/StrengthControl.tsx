@@ -2,7 +2,8 @@
 
 import { type KeyboardEvent, type PointerEvent, useEffect, useRef, useState } from "react";
 import { isEditable } from "../../build/editable";
-import { typedNumber } from "../../widgets/number";
+import { useStudio } from "../../store";
+import { typedNumber, wrongWith } from "../../widgets/number";
 import type { Setting } from "../../inspector/parameters/setting";
 import { short } from "../boxes/facts";
 import { dragged, pressed, stepped } from "./strength";
@@ -21,18 +22,24 @@ export function StrengthControl({ label, setting, onClick }: StrengthControlProp
   const number = useRef<HTMLDivElement>(null);
   const field = useRef<HTMLInputElement>(null);
   const isTyping = draft !== null;
-  const wasTyping = useRef(false);
+  // A key that ends the typing leaves the focus here; a press elsewhere takes it there.
+  const isEndedByKey = useRef(false);
   useEffect(() => {
-    if (isTyping !== wasTyping.current) {
-      (isTyping ? field : number).current?.focus();
+    if (isTyping) {
+      field.current?.focus();
+    } else if (isEndedByKey.current) {
+      number.current?.focus();
     }
-    wasTyping.current = isTyping;
+    isEndedByKey.current = false;
   }, [isTyping]);
 
-  const take = () => {
-    const typed = typedNumber(draft ?? "");
+  const take = (text: string) => {
+    const what = wrongWith(text, {});
+    const typed = typedNumber(text);
     setDraft(null);
-    if (typed !== null && typed !== value) {
+    if (what !== null) {
+      useStudio.getState().notify({ where: label, what });
+    } else if (typed !== null && typed !== value) {
       void commit(typed);
     }
   };
@@ -47,11 +54,12 @@ export function StrengthControl({ label, setting, onClick }: StrengthControlProp
         value={draft}
         onFocus={(event) => event.currentTarget.select()}
         onChange={(event) => setDraft(event.currentTarget.value)}
-        onBlur={take}
+        onBlur={() => take(draft)}
         onKeyDown={(event) => {
           event.stopPropagation();
+          isEndedByKey.current = event.key === "Enter" || event.key === "Escape";
           if (event.key === "Enter") {
-            take();
+            take(draft);
           } else if (event.key === "Escape") {
             setDraft(null);
           }
@@ -62,7 +70,7 @@ export function StrengthControl({ label, setting, onClick }: StrengthControlProp
   const typing = () => isEditable() && setDraft(String(value));
   const onPointerMove = (event: PointerEvent) => {
     const going = drag.current;
-    if (going === null) {
+    if (going === null || !isEditable()) {
       return;
     }
     going.raw = dragged(going.raw, event.clientX - going.x, event);
@@ -73,15 +81,12 @@ export function StrengthControl({ label, setting, onClick }: StrengthControlProp
     going.value = stepped(going.raw, event);
     move(going.value);
   };
-  const onPointerUp = () => {
+  const release = (isClick: boolean) => {
     const last = drag.current;
     drag.current = null;
-    if (last === null) {
-      return;
-    }
-    if (last.value !== null) {
+    if (last !== null && last.value !== null) {
       end();
-    } else {
+    } else if (last !== null && isClick) {
       onClick?.();
       typing();
     }
@@ -109,14 +114,14 @@ export function StrengthControl({ label, setting, onClick }: StrengthControlProp
       aria-valuenow={value}
       title={problem?.what ?? label}
       onPointerDown={(event) => {
-        if (event.button === 0 && isEditable()) {
+        if (event.button === 0) {
           event.currentTarget.setPointerCapture(event.pointerId);
           drag.current = { x: event.clientX, from: event.clientX, raw: value, value: null };
         }
       }}
       onPointerMove={onPointerMove}
-      onPointerUp={onPointerUp}
-      onPointerCancel={onPointerUp}
+      onPointerUp={() => release(true)}
+      onPointerCancel={() => release(false)}
       onKeyDown={onKeyDown}
     >
       {short(value)}

@@ -2,6 +2,7 @@
 // has at a zoom of 1.
 
 import { useStore } from "@xyflow/react";
+import { isEditable } from "../../build/editable";
 import { including } from "../../inspector/numbers/sliderRange";
 import { ValueSlider } from "../../inspector/numbers/ValueSlider";
 import { useStudio } from "../../store";
@@ -22,6 +23,7 @@ export function WireCard({ chain }: { chain: Chain }) {
         label={`Strength, ${text}`}
         value={value}
         range={including(RANGE, value)}
+        disabled={!useStudio(isEditable)}
         onMove={move}
         onEnd={end}
         onNudge={nudge}

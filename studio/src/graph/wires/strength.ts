@@ -3,6 +3,7 @@
 
 import { useMemo, useRef } from "react";
 import type { SliderRange } from "../../inspector/numbers/sliderRange";
+import { driver } from "../../inspector/parameters/leaf";
 import { type SendSetting, type Setting, useSetting } from "../../inspector/parameters/setting";
 import type { DocumentView, ElementView } from "../../protocol";
 import { request } from "../../socket";
@@ -98,13 +99,7 @@ export function useStrength(chain: Chain): Setting<number> {
   const isOwn = chain.gain !== null || chain.couplings.length === 0;
   const { send, hold } = useSending(chain);
   const last = useRef<number | null>(null);
-  const setting = useSetting(
-    isOwn ? "" : holder,
-    isOwn ? "strength" : path,
-    stored,
-    "live",
-    isOwn ? send : undefined,
-  );
+  const setting = useNumber(holder, path, stored, isOwn ? send : undefined);
   return {
     ...setting,
     move: (value) => {
@@ -121,6 +116,25 @@ export function useStrength(chain: Chain): Setting<number> {
       setting.end();
     },
   };
+}
+
+// A number of an element in a control: sent to the document parameter that drives it, or by `send`, or as a
+// parameter of the element.
+export function useNumber(
+  element: string,
+  path: string,
+  stored: number,
+  send?: SendSetting,
+): Setting<number> {
+  const linked = useStudio(({ document }) => driver(document, element, path)?.name);
+  const isSent = linked === undefined && send !== undefined;
+  return useSetting(
+    linked !== undefined || isSent ? "" : element,
+    linked ?? (isSent ? "strength" : path),
+    stored,
+    "live",
+    isSent ? send : undefined,
+  );
 }
 
 function useSending(chain: Chain): { send: SendSetting; hold: (held: boolean) => void } {

@@ -71,7 +71,7 @@ export function WireInspector({ wire, chain }: { wire: string; chain: Chain }) {
         ))}
         {reads !== "" && <Line name="reads">{READS[reads] ?? reads}</Line>}
       </section>
-      <Button size="compact-xs" variant="default" disabled={!isEditable()} onClick={insert}>
+      <Button size="compact-xs" variant="default" disabled={!useStudio(isEditable)} onClick={insert}>
         Insert an element
       </Button>
     </>
