@@ -4,7 +4,21 @@ import { join } from "node:path";
 import type { Locator, Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
-import { box, button, choose, colours, drag, number, panel, select, settled, slider, type } from "./hands";
+import {
+  box,
+  button,
+  choose,
+  colours,
+  drag,
+  number,
+  openTool,
+  panel,
+  select,
+  settled,
+  showView,
+  slider,
+  type,
+} from "./hands";
 import { shot, startStudio, type Studio, type StudioOptions } from "./studio";
 
 /** The browser's messages for a server that does not run, or ended while it sent a picture. */
@@ -144,6 +158,45 @@ test("without a connection controls are disabled and typed values restored", asy
   expect(await page.locator(".react-flow__node.draggable").count(), "a box that can be dragged").toBe(0);
   expect(await page.locator(".react-flow__handle.connectable").count(), "a port to connect").toBe(0);
   await shot(page, "not-connected");
+});
+
+test("a part of the page that cannot be loaded says so, and is loaded when it is tried again", async () => {
+  const { page, observe } = await start({
+    expected: [...GONE, /ERR_FAILED|could not be loaded|preload CSS/],
+  });
+  const observer = await observe();
+  await observer.runs();
+  const parts = { Regime: () => openTool(page, "Regime"), Experiment: () => showView(page, "Experiment") };
+  for (const [title, open] of Object.entries(parts)) {
+    const code = new RegExp(`assets/${title}`);
+    await page.route(code, (route) => route.abort());
+    await open();
+    const said = panel(page, title).getByRole("alert");
+    await said.getByText("This part of the page could not be loaded").waitFor();
+    await shot(page, `not-loaded-${title}`);
+    await page.unroute(code);
+    await said.getByRole("button", { name: "Try again" }).click();
+    await said.waitFor({ state: "detached" });
+  }
+  const sheets = () =>
+    page.evaluate(() => {
+      const links = [
+        ...document.querySelectorAll<HTMLLinkElement>('link[href*="Experiment"],link[href*="Regime"]'),
+      ];
+      return links.filter(({ rel, sheet }) => rel === "stylesheet" && sheet !== null).length;
+    });
+  await expect.poll(sheets, { message: "style sheets" }).toBe(2);
+  await shot(page, "loaded-again");
+});
+
+test("a view that is opened first while the server is away does not empty the page", async () => {
+  const { page, server } = await start({ expected: [...GONE, /could not be loaded|preload CSS/] });
+  await server.stop("SIGKILL");
+  await page.getByText("Connection lost, trying again").waitFor();
+  await showView(page, "Experiment");
+  await panel(page, "Experiment").getByRole("alert").waitFor();
+  await showView(page, "Build");
+  await box(page, "u").waitFor();
 });
 
 test("without a connection plots keep their picture and take no change", async () => {

@@ -5,15 +5,14 @@ import {
   Activity,
   type CSSProperties,
   type KeyboardEvent,
-  lazy,
   type PointerEvent,
   type ReactNode,
-  Suspense,
   useRef,
   useState,
 } from "react";
 import { ActivityPanel } from "../activity/ActivityPanel";
 import { CostsPanel } from "../costs/CostsPanel";
+import { later } from "../connection/Later";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Inspector } from "../inspector/Inspector";
 import { Pins } from "../pins/Pins";
@@ -26,8 +25,8 @@ import { PanelMenu } from "./PanelMenu";
 import { FIRST_TOOL, isStanding, STANDING, TOOLS, type Tool } from "./tools";
 
 // Loaded when it is first shown.
-const RegimePanel = lazy(async () => ({ default: (await import("../regime/RegimePanel")).RegimePanel }));
-const ReportPanel = lazy(async () => ({ default: (await import("../report/ReportPanel")).ReportPanel }));
+const RegimePanel = later(async () => (await import("../regime/RegimePanel")).RegimePanel);
+const ReportPanel = later(async () => (await import("../report/ReportPanel")).ReportPanel);
 
 const CONTENT: Partial<Record<Tool, () => ReactNode>> = {
   inspector: () => <Inspector />,
@@ -122,9 +121,7 @@ export function Dock() {
       {visited.map((tool) => (
         <Activity key={tool} mode={tool === shown ? "visible" : "hidden"}>
           <div className={classes.tool} id={`tool-${tool}`} role="tabpanel" aria-label={TOOLS[tool].title}>
-            <NeedsServer>
-              <Suspense>{CONTENT[tool]?.()}</Suspense>
-            </NeedsServer>
+            <NeedsServer>{CONTENT[tool]?.()}</NeedsServer>
           </div>
         </Activity>
       ))}

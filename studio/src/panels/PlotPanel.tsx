@@ -1,6 +1,7 @@
 // The plot of a tile: finds its element and the component for the kind of plot.
 
-import { type ComponentType, lazy, Suspense } from "react";
+import type { ComponentType } from "react";
+import { later } from "../connection/Later";
 import { elementsAlike, mainPort, portAxes, portsOf, weightsOf } from "../model/ports";
 import { PackagedPlot } from "../plots/kinds/PackagedPlot";
 import { PLOTS, plotKinds } from "../plots/kinds/plots";
@@ -18,10 +19,10 @@ type Components = Record<string, ComponentType<PlotProps>>;
 const FILES = import.meta.glob<Components>("../plots/scenes/*.tsx");
 
 function componentOf(name: string): ComponentType<PlotProps> {
-  return lazy(async () => {
+  return later(async () => {
     const found = (await FILES[`../plots/scenes/${name}.tsx`]?.())?.[name];
     if (found === undefined) throw new Error(`No file has the component ${name}.`);
-    return { default: found };
+    return found;
   });
 }
 
@@ -78,9 +79,7 @@ export function PlotPanel({ tile, view, visible }: { tile: PlotTile; view: View;
   const Scene = SCENES.get(kind);
   const drawing =
     Scene !== undefined ? (
-      <Suspense key={kind} fallback={null}>
-        <Scene {...props} />
-      </Suspense>
+      <Scene key={kind} {...props} />
     ) : plotted !== undefined && !("component" in plotted) ? (
       <Tile key={kind} kind={kind} plot={plotted} {...props} />
     ) : packaged === undefined ? null : (

@@ -1,17 +1,9 @@
 // The body of an open document: palette, centre with the plots, and the dock of tools. What a tool does never
 // changes the size of another part.
 
-import {
-  lazy,
-  type ReactNode,
-  Suspense,
-  useEffect,
-  useLayoutEffect,
-  useRef,
-  useState,
-  useSyncExternalStore,
-} from "react";
+import { type ReactNode, useEffect, useLayoutEffect, useRef, useState, useSyncExternalStore } from "react";
 import { PalettePanel } from "../build/palette/PalettePanel";
+import { later } from "../connection/Later";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Graph } from "../graph/Graph";
 import { emptyPage, showView, usePage } from "../state/page";
@@ -27,8 +19,8 @@ import { TileGrid } from "./TileGrid";
 import { TOOLS } from "./tools";
 
 // What a page does not need at first is loaded when it is first shown.
-const Experiment = lazy(async () => ({ default: (await import("../experiment/Experiment")).Experiment }));
-const World = lazy(async () => ({ default: (await import("../world/World")).World }));
+const Experiment = later(async () => (await import("../experiment/Experiment")).Experiment);
+const World = later(async () => (await import("../world/World")).World);
 
 export function Workspace() {
   const session = useStudio((state) => state.session);
@@ -75,18 +67,14 @@ function Body() {
         {view === "experiment" && (
           <Part title={TOOLS.experiment.title} className={classes.stage}>
             <NeedsServer>
-              <Suspense>
-                <Experiment />
-              </Suspense>
+              <Experiment />
             </NeedsServer>
           </Part>
         )}
         {view === "robot" && (
           <Part title={TOOLS.world.title} className={classes.stage}>
             <NeedsServer>
-              <Suspense>
-                <World />
-              </Suspense>
+              <World />
             </NeedsServer>
           </Part>
         )}
