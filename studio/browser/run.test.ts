@@ -73,6 +73,35 @@ test("the buttons take single steps and several steps", async () => {
   await button(page, "Step").waitFor();
 });
 
+test("run settings stay open where text is selected past their edge, and arrow keys step what is typed", async () => {
+  const { page } = studio;
+  await button(page, "Run settings").click();
+  const settings = page.getByRole("dialog");
+  const steps = settings.getByRole("textbox", { name: "Steps at a time" });
+  await steps.fill("77");
+  const [from, edge] = [await steps.boundingBox(), await settings.boundingBox()];
+  if (from === null || edge === null) throw new Error("The settings are not visible.");
+  await page.mouse.move(from.x + 30, from.y + from.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(edge.x - 60, from.y, { steps: 4 });
+  await page.mouse.up();
+  expect(await steps.inputValue()).toBe("77");
+  await page.keyboard.press("Escape");
+  const undo = observer.document?.undo ?? 0;
+  await button(page, "Run settings").click();
+  const dt = settings.getByRole("textbox", { name: "Time step dt" });
+  await dt.focus();
+  for (let n = 0; n < 5; n++) await page.keyboard.press("ArrowUp");
+  expect(await dt.inputValue()).toBe("1.5");
+  await page.keyboard.press("Enter");
+  await observer.until(() => observer.clock?.dt === 1.5);
+  expect(observer.document?.undo).toBe(undo + 1);
+  await page.keyboard.press("Escape");
+  await settings.waitFor({ state: "detached" });
+  await page.keyboard.press("Control+z");
+  await observer.until(() => observer.clock?.dt === 1);
+});
+
 test("reset returns to the start; another seed gives another run, the same seed the same run", async () => {
   const { page } = studio;
   const run = async (): Promise<number[]> => {

@@ -14,7 +14,7 @@ import { type MouseEvent, type ReactNode, useState } from "react";
 import { NeedsServer, useOffline } from "../connection/NeedsServer";
 import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
 import { request } from "../socket";
-import { AFTER_FIELDS } from "../widgets/afterFields";
+import { useAfterFields } from "../widgets/afterFields";
 import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import type { DrawingFormat } from "./export/exportDrawing";
@@ -79,6 +79,7 @@ export function PlotFrame(props: PlotFrameProps) {
   const document = useStudio((state) => state.document);
   const axes = document === null ? [] : (portAxes(document, element, port) ?? []);
   const [editing, setEditing] = useState(false);
+  const afterFields = useAfterFields();
   const { lost, seen } = streaming;
   const off = useOffline();
   const onClick = (event: MouseEvent) => {
@@ -122,13 +123,7 @@ export function PlotFrame(props: PlotFrameProps) {
             onOpened={setEditing}
           />
           {controls !== undefined && (
-            <Popover
-              position="bottom-end"
-              width={260}
-              shadow="md"
-              trapFocus
-              clickOutsideEvents={AFTER_FIELDS}
-            >
+            <Popover position="bottom-end" width={260} shadow="md" trapFocus {...afterFields}>
               <Popover.Target>
                 <Tooltip label="Settings of this plot">
                   <ActionIcon size="sm" aria-label="Settings of this plot">

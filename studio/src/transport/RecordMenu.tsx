@@ -8,7 +8,7 @@ import { useState } from "react";
 import { plottedPorts } from "../panels/openPlot";
 import type { RecordedPort } from "../protocol";
 import { useStudio } from "../store";
-import { AFTER_FIELDS } from "../widgets/afterFields";
+import { useAfterFields } from "../widgets/afterFields";
 import { NumberField } from "../widgets/NumberField";
 import { countText, unitText } from "./format";
 import { choiceFor, findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
@@ -20,11 +20,12 @@ const MOST = 60;
 
 export function RecordMenu({ disabled }: { disabled: boolean }) {
   const [opened, setOpened] = useState(false);
+  const afterFields = useAfterFields();
   return (
     <Popover
       opened={opened}
       onChange={setOpened}
-      clickOutsideEvents={AFTER_FIELDS}
+      {...afterFields}
       position="bottom"
       withArrow
       shadow="md"

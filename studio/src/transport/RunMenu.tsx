@@ -6,7 +6,7 @@ import { useState } from "react";
 
 import { socket } from "../socket";
 import { useStudio } from "../store";
-import { AFTER_FIELDS } from "../widgets/afterFields";
+import { useAfterFields } from "../widgets/afterFields";
 import { NumberField } from "../widgets/NumberField";
 import { unitText } from "./format";
 import { MOST_SEED, reset, rollSeed, useNext } from "./run";
@@ -15,11 +15,12 @@ const MOST_STEPS = 1_000_000;
 
 export function RunMenu() {
   const [opened, setOpened] = useState(false);
+  const afterFields = useAfterFields();
   return (
     <Popover
       opened={opened}
       onChange={setOpened}
-      clickOutsideEvents={AFTER_FIELDS}
+      {...afterFields}
       position="bottom"
       withArrow
       shadow="md"

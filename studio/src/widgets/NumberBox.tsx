@@ -1,11 +1,11 @@
-// A number field: Enter or leaving the field commits it, Escape resets it, arrow keys step (with Shift ten
-// steps).
+// A number field: Enter or leaving the field commits it, Escape resets it, arrow keys step what is in it (with
+// Shift ten steps).
 
 import { TextInput } from "@mantine/core";
 import { type KeyboardEvent, useEffect, useRef, useState } from "react";
 
 import type { ListedProblem } from "../protocol";
-import { type Limits, numberText, typedNumber, wrongWith } from "./number";
+import { arrowStep, type Limits, numberText, typedNumber, wrongWith } from "./number";
 
 export type NumberBoxProps = Limits & {
   label: string;
@@ -18,6 +18,7 @@ export type NumberBoxProps = Limits & {
   rejected: boolean;
   disabled?: boolean;
   onCommit: (value: number | null) => Promise<boolean>;
+  // Sends a step at once.
   onStep?: (direction: 1 | -1, coarse: boolean) => void;
   onForget: () => void;
   onComplain: (problem: ListedProblem) => void;
@@ -73,12 +74,21 @@ export function NumberBox(props: NumberBoxProps) {
     } else if (event.key === "Escape") {
       setDraft(null);
       onForget();
-    } else if ((event.key === "ArrowUp" || event.key === "ArrowDown") && onStep !== undefined) {
+    } else if (event.key === "ArrowUp" || event.key === "ArrowDown") {
       event.preventDefault();
-      setDraft(null);
-      onForget();
-      onStep(event.key === "ArrowUp" ? 1 : -1, event.shiftKey);
+      step(event.key === "ArrowUp" ? 1 : -1, event.shiftKey);
     }
+  };
+  const step = (direction: 1 | -1, coarse: boolean) => {
+    const from = draft === null ? value : typedNumber(draft);
+    if (onStep === undefined && from === null) {
+      return;
+    }
+    onForget();
+    setDraft(
+      onStep === undefined && from !== null ? String(arrowStep(from, direction, coarse, props)) : null,
+    );
+    onStep?.(direction, coarse);
   };
   const onBlur = () => {
     if (draft !== null && !rejected) {

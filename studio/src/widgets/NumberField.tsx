@@ -4,7 +4,6 @@ import { useState } from "react";
 
 import type { ListedProblem } from "../protocol";
 import type { Reply } from "../socket";
-import { arrowStep } from "./number";
 import { NumberBox, type NumberBoxProps } from "./NumberBox";
 import { ProblemLine } from "./ProblemLine";
 
@@ -18,7 +17,6 @@ type NumberFieldProps = Omit<NumberBoxProps, OfTheField> & {
 };
 
 export function NumberField({ className = "", set, clear, ...box }: NumberFieldProps) {
-  const { value } = box;
   const [problem, setProblem] = useState<ListedProblem | null>(null);
   const commit = async (number: number | null): Promise<boolean> => {
     const reply = await (number === null ? clear?.() : set(number));
@@ -34,7 +32,6 @@ export function NumberField({ className = "", set, clear, ...box }: NumberFieldP
         optional={clear !== undefined}
         rejected={problem !== null}
         onCommit={commit}
-        onStep={(...press) => value !== null && void commit(arrowStep(value, ...press, box))}
         onForget={() => setProblem(null)}
         onComplain={setProblem}
       />
