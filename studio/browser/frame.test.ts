@@ -40,6 +40,7 @@ beforeEach(async () => {
 afterAll(() => studio.stop());
 
 const dock = () => studio.page.getByRole("complementary", { name: "Tools" });
+const edge = () => studio.page.getByRole("separator", { name: "Width of the tools" });
 const open = (title: string) => choose(studio.page, "Open panels and plots", title);
 
 /** The places of the dock and of the canvas. */
@@ -53,6 +54,8 @@ const places = () =>
 async function close(title: string): Promise<void> {
   await studio.page.getByRole("tab", { name: title, exact: true }).press("Delete");
   await panel(studio.page, title).waitFor({ state: "detached" });
+  const tab = studio.page.getByRole("tab", { selected: true });
+  expect(await tab.evaluate((drawn) => drawn === document.activeElement), "the focus").toBe(true);
 }
 
 test.each([
@@ -63,6 +66,7 @@ test.each([
   await page.setViewportSize({ width, height });
   const before = await places();
   expect((await dock().boundingBox())?.width).toBe(wide);
+  await expect.poll(() => edge().getAttribute("aria-valuenow")).toBe(String(wide));
   for (const title of [...TOOLS, ...VIEWS]) {
     await open(title);
     await panel(page, title).waitFor();
@@ -86,9 +90,8 @@ test.each([
 test("a person drags the dock to another width, within bounds, which the browser keeps", async () => {
   const { page } = studio;
   const width = async () => (await dock().boundingBox())?.width ?? 0;
-  const edge = page.getByRole("separator", { name: "Width of the tools" });
   const drag = async (to: number) => {
-    const from = await edge.boundingBox();
+    const from = await edge().boundingBox();
     if (from === null) throw new Error("The dock has no edge.");
     await page.mouse.move(from.x + 4, 300);
     await page.mouse.down();
@@ -106,10 +109,10 @@ test("a person drags the dock to another width, within bounds, which the browser
   await box(page, "u").waitFor();
   expect(await width()).toBe(480);
   await page.setViewportSize({ width: 1024, height: 700 });
-  expect(await width(), "40 % of the window").toBeCloseTo(0.4 * 1024, 0);
+  await expect.poll(width, { message: "40 % of the window" }).toBeCloseTo(0.4 * 1024, 0);
   expect(observer.document?.layout["panels"], "it is no part of the document").toBeUndefined();
   await page.setViewportSize({ width: 1440, height: 900 });
-  await edge.dblclick();
+  await edge().dblclick();
   await expect.poll(width).toBe(320);
 });
 
@@ -147,7 +150,7 @@ test("a document opens without any tool of the one before", async () => {
   await choose(page, "Open panels and plots", "left");
   expect(await alone()).toEqual(first);
   await page.reload();
-  await page.locator(".graph-box").first().waitFor();
+  await page.locator(".graph-live").first().waitFor(); // boxes are drawn before what is in them
   expect(await content(), "after a reload").toEqual(first);
 });
 

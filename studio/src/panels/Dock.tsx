@@ -7,9 +7,11 @@ import {
   type KeyboardEvent,
   type PointerEvent,
   type ReactNode,
+  useEffect,
   useRef,
   useState,
 } from "react";
+import { flushSync } from "react-dom";
 import { ActivityPanel } from "../activity/ActivityPanel";
 import { CostsPanel } from "../costs/CostsPanel";
 import { later } from "../connection/Later";
@@ -64,8 +66,11 @@ export function Dock() {
     }
   };
   const close = () => {
-    usePage.setState({ extra: null });
-    setVisited(visited.filter((tool) => tool !== extra));
+    flushSync(() => {
+      usePage.setState({ extra: null });
+      setVisited(visited.filter((tool) => tool !== extra));
+    });
+    tabs.current?.querySelector<HTMLElement>('[aria-selected="true"]')?.focus();
   };
   const key = (event: KeyboardEvent, tool: Tool) => {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key] ?? 0;
@@ -82,7 +87,7 @@ export function Dock() {
   const style = (width === 0 ? {} : { "--dock": `${width}px` }) as CSSProperties;
   return (
     <aside className={classes.dock} style={style} aria-label="Tools">
-      <Edge width={width} />
+      <Edge />
       <div className={classes.head}>
         <div className={classes.tabs} role="tablist" aria-label="Tools" ref={tabs}>
           {tools.map((tool) => (
@@ -130,7 +135,19 @@ export function Dock() {
 }
 
 // The border that sets the width of the dock.
-function Edge({ width }: { width: number }) {
+function Edge() {
+  const edge = useRef<HTMLDivElement>(null);
+  // As it is drawn, which depends on the window too.
+  const [width, setWidth] = useState(0);
+  useEffect(() => {
+    const dock = edge.current?.parentElement;
+    if (dock == null) {
+      return;
+    }
+    const observer = new ResizeObserver(() => setWidth(dock.offsetWidth));
+    observer.observe(dock);
+    return () => observer.disconnect();
+  }, []);
   const set = (wanted: number) =>
     changePerson({ dock: Math.round(Math.min(WIDTH.most, Math.max(WIDTH.least, wanted))) });
   const drag = (event: PointerEvent) => {
@@ -142,18 +159,19 @@ function Edge({ width }: { width: number }) {
     const step = { ArrowLeft: WIDTH.step, ArrowRight: -WIDTH.step }[event.key];
     if (step !== undefined) {
       event.preventDefault();
-      set((event.currentTarget.parentElement?.clientWidth ?? width) + step);
+      set(width + step);
     }
   };
   return (
     <div
+      ref={edge}
       className={classes.edge}
       role="separator"
       aria-label="Width of the tools"
       aria-orientation="vertical"
       aria-valuemin={WIDTH.least}
       aria-valuemax={WIDTH.most}
-      aria-valuenow={width === 0 ? 320 : width}
+      aria-valuenow={width}
       tabIndex={0}
       title="Drag to change the width; double-click for the first one"
       onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
