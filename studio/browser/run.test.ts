@@ -73,7 +73,7 @@ test("the buttons take single steps and several steps", async () => {
   await button(page, "Step").waitFor();
 });
 
-test("run settings stay open where text is selected past their edge, and arrow keys step what is typed", async () => {
+test("settings stay open where text is selected past their edge, and arrow keys step a draft", async () => {
   const { page } = studio;
   await button(page, "Run settings").click();
   const settings = page.getByRole("dialog");

@@ -7,8 +7,8 @@ import classes from "./Later.module.css";
 
 class NotLoaded extends Error {
   override message =
-    "This part of the page could not be loaded. The server does not answer, or has a newer page: try again, " +
-    "and if that does not help, reload the page.";
+    "This part of the page could not be loaded. The server does not answer, or has a newer page: try " +
+    "again, and if that does not help, reload the page.";
 }
 
 export function later<Props extends object>(load: () => Promise<ComponentType<Props>>): ComponentType<Props> {

@@ -1,5 +1,5 @@
-// A number field: Enter or leaving the field commits it, Escape resets it, arrow keys step what is in it (with
-// Shift ten steps).
+// A number field: Enter or leaving the field commits it, Escape resets it, arrow keys step what is in it
+// (with Shift ten steps).
 
 import { TextInput } from "@mantine/core";
 import { type KeyboardEvent, useEffect, useRef, useState } from "react";

@@ -1,5 +1,5 @@
-// What closes a popover with fields: the end of a press outside, so that the field that was left has taken its
-// text; and only of a press that began outside too, so that text can be selected past the edge.
+// What closes a popover with fields: the end of a press outside, so that the field that was left has taken
+// its text; and only of a press that began outside too, so that text can be selected past the edge.
 
 import { useEffect, useState } from "react";
 
