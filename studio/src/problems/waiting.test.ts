@@ -50,7 +50,7 @@ test("a warning that is shown stays with errors, at each edit, and with another 
   const renamed = { ...loose, where: "another" };
   expect(withoutNew(checked(renamed), [error], show).problems).toEqual([renamed]);
   withoutNew(checked(), [renamed], show);
-  expect(withoutNew(checked(loose), [], show).problems, "it was mended between").toEqual([]);
+  expect(withoutNew(checked(loose), [], show).problems, "it was corrected between").toEqual([]);
 });
 
 test("a warning that waited is known when it is shown, and to its own document alone", () => {
