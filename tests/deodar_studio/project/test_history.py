@@ -163,7 +163,7 @@ def mismatched() -> dd.Model:
 
 
 @pytest.mark.parametrize(
-    ("make", "repair"), [(looped, "Remove it"), (mismatched, "Rename the axis by a coupling")]
+    ("make", "repair"), [(looped, "Remove the connection"), (mismatched, "Rename the axis by a coupling")]
 )
 def test_the_repair_that_is_listed_solves_its_problem(make: Callable[[], dd.Model], repair: str) -> None:
     async def scene() -> None:

@@ -62,5 +62,6 @@ function PillStrength({ element, path }: { element: string; path: string }) {
     return known === undefined || document === null ? 0 : (numberAt(known, path, document) ?? 0);
   });
   const label = useStudio(({ elements }) => `Strength of ${elements.get(element)?.path ?? ""}`);
-  return <StrengthControl label={label} setting={useNumber(element, path, stored)} />;
+  const select = () => useStudio.getState().select([element]);
+  return <StrengthControl label={label} setting={useNumber(element, path, stored)} onClick={select} />;
 }
