@@ -278,7 +278,7 @@ class PageConnection:
             if changes is None:
                 whole = await project.opened()
                 now = whole.session, whole.version
-                self._known.pop(WorldScene, None)  # each document is told of its world
+                self._known.pop(WorldScene, None)  # each document gets the scene of its world
                 out += [whole, *self._new(await self._hub.gallery())]
             else:
                 out.extend(changes)

@@ -76,7 +76,7 @@ test("a plot that is opened or closed is one step of undo at once, and a movemen
   expect([stored(), sent.length, sent[0]?.undoable]).toEqual(["abcd", 1, true]);
   for (const to of [2, 1, 0, 4]) moveTile("build", 3, to);
   vi.advanceTimersByTime(700);
-  expect([shown(), sent.length], "a hand that waits").toEqual([["d3", "a0", "b1", "c2"], 1]);
+  expect([shown(), sent.length], "before the drag ends").toEqual([["d3", "a0", "b1", "c2"], 1]);
   settleTiles();
   expect([stored(), sent.length]).toEqual(["dabc", 2]);
   removeTile("build", 1);

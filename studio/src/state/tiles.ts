@@ -101,7 +101,8 @@ let unsaved = false;
 let timer: ReturnType<typeof setTimeout> | undefined;
 const unanswered = new Set<object>();
 
-// Store what changed now: at the end of a drag, before a step of undo, and before the document is saved or left.
+// Store what changed now: at the end of a drag, before a step of undo, and before the document is saved or
+// left.
 export function settleTiles(): void {
   if (unsaved) {
     saveTiles();
