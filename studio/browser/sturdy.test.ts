@@ -191,6 +191,7 @@ test("a part of the page that cannot be loaded says so, and is loaded when it is
 
 test("a view that is opened first while the server is away does not empty the page", async () => {
   const { page, server } = await start({ expected: [...GONE, /could not be loaded|preload CSS/] });
+  await box(page, "u").waitFor();
   await server.stop("SIGKILL");
   await page.getByText("Connection lost, trying again").waitFor();
   await showView(page, "Experiment");
@@ -373,7 +374,11 @@ test("the page of a file offers its unsaved edits after a crash, and opens or di
     await type(page, "tau", tau);
     await expect.poll(notes).toHaveLength(1);
     await restart("SIGKILL");
+    await page.getByText("Connection lost, trying again").waitFor({ state: "detached" });
     await bar.waitFor();
+    // the document of the new server takes the selection of the one before
+    const canvas = page.locator(".react-flow__viewport");
+    await settled(page, () => canvas.evaluate((one) => one.outerHTML.length));
   };
   await crash("44");
   await select(page, "u");
