@@ -19,7 +19,7 @@ Repair = tuple[str, Callable[[Document], Document]]
 """The words on a button, and the edit that it makes."""
 
 
-class Places:
+class NamedPlaces:
     """What the `where` of a problem names in a document.
 
     Args:
@@ -47,9 +47,9 @@ class Places:
         return next((self.ids[path] for path in paths if path in self.ids), "")
 
 
-def repair_of(doc: Document, problem: Problem, places: Places | None = None) -> Repair | None:
+def repair_of(doc: Document, problem: Problem, places: NamedPlaces | None = None) -> Repair | None:
     """Return the edit that solves a problem of a document; None for a problem of nothing in it."""
-    fix, places = problem.fix, places or Places(doc)
+    fix, places = problem.fix, places or NamedPlaces(doc)
     if isinstance(fix, EditFix):
         words = fix.advice.rpartition(". ")[2]
         return words, functools.partial(proposed.apply, edits=fix.edits)
@@ -64,7 +64,7 @@ def repair_of(doc: Document, problem: Problem, places: Places | None = None) -> 
     return None
 
 
-def button(doc: Document, problem: Problem, places: Places) -> dict[str, Any]:
+def button(doc: Document, problem: Problem, places: NamedPlaces) -> dict[str, Any]:
     """Return what a `ListedProblem` says about its button."""
     repair = repair_of(doc, problem, places)
     return {
@@ -74,7 +74,7 @@ def button(doc: Document, problem: Problem, places: Places) -> dict[str, Any]:
     }
 
 
-def wire_of(problem: Problem, places: Places) -> EndsView | None:
+def wire_of(problem: Problem, places: NamedPlaces) -> EndsView | None:
     """Return the connection of which the user chooses a part; an end to be chosen is empty."""
     if not isinstance(problem.fix, ConnectionFix):
         return None

@@ -129,7 +129,7 @@ def problems(
     Without `buttons` for problems that the document does not have itself: those of a run, or of a request
     that was refused.
     """
-    places = None if doc is None else repairs.Places(doc)
+    places = None if doc is None else repairs.NamedPlaces(doc)
     out: list[ListedProblem] = []
     for p in found:
         button: dict[str, Any] = {"repair": "", "wire": None, "world": False}
