@@ -334,7 +334,7 @@ def _reconnected(
     """Return a document with another connection between two elements, in the place of the one before."""
     source, target = (find.entry(doc, ident) for ident in (ends[0], ends[2]))
     new = connect(disconnect(doc, *ends), source, source_port, target, ends[3], reads).connections[-1]
-    return dc.replace(doc, connections=tuple(new if c.ends == ends else c for c in doc.connections))
+    return replace_connections(doc, [c for c in doc.connections if c.ends == ends], [new])
 
 
 def put(doc: Document, ident: str, path: str, value: Any) -> Document:

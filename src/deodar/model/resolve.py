@@ -164,9 +164,9 @@ class _Resolver:
             ident = ring[0]
             if self.delayed & {*ring}:
                 fault = f"the axes of a loop follow only from themselves and are unknown: {loop}"
-                known = "Connect something to it whose axes are known, or put a Project into it"
+                advice = "Connect something to it whose axes are known, or put a Project into it"
                 path, ports = self.entries[ident].path, self.entries[ident].element.ports()
-                self.problem(ident, fault, ConnectionFix(known, known, ("", "", path, ports[0])))
+                self.problem(ident, fault, ConnectionFix(advice, advice, ("", "", path, ports[0])))
             else:
                 self.problem(ident, f"a loop without a state in it: {loop}", self.delay(ring))
             return None

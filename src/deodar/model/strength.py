@@ -60,8 +60,7 @@ def set_strength(
     plain = _plain(doc, ident) if strength == 1 else None
     if plain is None:
         return _bounded(doc, ident), ident
-    halves = [c for c in doc.connections if ident in (c.source, c.target)]
-    return edit.remove(edit.replace_connections(doc, halves, [plain]), [ident]), None
+    return edit.remove(edit.replace_connections(doc, _halves(doc, ident), [plain]), [ident]), None
 
 
 def gain_on_wire(doc: Document, ident: str) -> Entry | None:

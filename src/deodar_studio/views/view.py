@@ -121,7 +121,7 @@ def costs(report: CostReport) -> Costs:
 
 
 def problems(
-    found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = (), buttons: bool = True
+    reported: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = (), buttons: bool = True
 ) -> list[ListedProblem]:
     """Convert problems, each once for every element concerned: the one that its `where` names, and those at
     `paths`.
@@ -131,7 +131,7 @@ def problems(
     """
     places = None if doc is None else repairs.NamedPlaces(doc)
     out: list[ListedProblem] = []
-    for p in found:
+    for p in reported:
         button: dict[str, Any] = {"repair": "", "wire": None, "world": False}
         elements = [""]
         if doc is not None and places is not None:

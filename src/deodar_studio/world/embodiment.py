@@ -254,11 +254,7 @@ def problems(doc: Document, world: World | None) -> Sequence[Problem]:
     ]
     if lacking:
         return lacking
-    try:
-        used(doc, world)
-    except WorldError as error:
-        return [_with_its_axes(p, doc, world) for p in error.problems]
-    return ()
+    return [_with_its_axes(p, doc, world) for p in _refusals(doc, world)]
 
 
 def warnings(doc: Document, world: World | None) -> list[Problem]:
@@ -313,17 +309,17 @@ def _solve(doc: Document, edits: Sequence[ProposedEdit], problem: Problem, world
         solved = proposed.apply(doc, edits)
     except DeodarError:
         return False
-    places = _refused(doc, world)
-    return not graph(solved).problems and _refused(solved, world) <= places - {problem.where}
+    before, after = ({p.where for p in _refusals(d, world)} for d in (doc, solved))
+    return not graph(solved).problems and after <= before - {problem.where}
 
 
-def _refused(doc: Document, world: World) -> set[str]:
-    """Return the paths of the elements that cannot exchange signals with a world."""
+def _refusals(doc: Document, world: World | None) -> Sequence[Problem]:
+    """Return why elements of a document cannot exchange signals with a world."""
     try:
         used(doc, world)
     except WorldError as error:
-        return {p.where for p in error.problems}
-    return set()
+        return error.problems
+    return ()
 
 
 def _lacks(element: Sensor | Motor, world: World | None) -> bool:

@@ -36,7 +36,7 @@ function begin(session: number): void {
   if (document !== null && usePage.getState().session !== session) {
     const { layout, file } = document;
     const stored = viewOf(file) ?? viewOfAuthor(layout);
-    beginTiles(session, firstTiles(document, kinds), tilesNow);
+    beginTiles(firstTiles(document, kinds), tilesNow);
     usePage.setState({ ...emptyPage(session, stored ?? "build"), chosen: stored !== null }, true);
   }
 }

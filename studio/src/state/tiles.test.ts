@@ -67,7 +67,7 @@ beforeEach(() => {
   sent.length = 0;
   open({});
   own = null;
-  beginTiles(1, { build: [plot("a"), plot("b"), plot("c")] }, () => own);
+  beginTiles({ build: [plot("a"), plot("b"), plot("c")] }, () => own);
 });
 
 test("a plot that is opened or closed is one step of undo at once, and a movement is one in the end", () => {
@@ -135,7 +135,7 @@ test("the plots that the document was opened with are shown again", () => {
 
 test("a session that begins forgets what was not stored", () => {
   changeTile("build", 0, { ...plot("a"), settings: { down: true } });
-  beginTiles(2, { build: [plot("z")] }, () => null);
+  beginTiles({ build: [plot("z")] }, () => null);
   vi.advanceTimersByTime(700);
   expect(sent).toEqual([]);
   expect(shown()).toEqual(["z0"]);

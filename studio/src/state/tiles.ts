@@ -14,7 +14,6 @@ export type PlotLists = Readonly<Partial<Record<View, readonly PlotParams[]>>>;
 type TileLists = Readonly<Partial<Record<View, readonly PlotTile[]>>>;
 
 export type TilesState = Readonly<{
-  session: number;
   next: number;
   views: TileLists;
   // Those that the document was opened with.
@@ -25,18 +24,18 @@ const NONE: readonly PlotTile[] = [];
 // Settings and places change often during one movement of the mouse.
 const SAVE_AFTER_MS = 600;
 
-export const useTiles = create<TilesState>(() => ({ session: 0, next: 0, views: {}, opened: {} }));
+export const useTiles = create<TilesState>(() => ({ next: 0, views: {}, opened: {} }));
 
 export const tilesIn = ({ views }: TilesState, view: View): readonly PlotTile[] =>
   views[view] ?? views.build ?? NONE;
 
 // `read` returns the plots that the document has now; null: none of its own.
-export function beginTiles(session: number, opened: PlotLists, read: () => PlotLists | null): void {
+export function beginTiles(opened: PlotLists, read: () => PlotLists | null): void {
   clearTimeout(timer);
   unsaved = false;
   ofDocument = read;
   unanswered.clear();
-  useTiles.setState({ session, opened, ...keyed(opened, {}, 0) }, true);
+  useTiles.setState({ opened, ...keyed(opened, {}, 0) }, true);
 }
 
 // Add a tile at the end of a view; its key.

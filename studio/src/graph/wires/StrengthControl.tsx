@@ -1,24 +1,19 @@
 // A strength on a connection: dragged, typed after a click, or changed by keys.
 
-import { type KeyboardEvent, type PointerEvent, useEffect, useRef, useState } from "react";
+import { type KeyboardEvent, useEffect, useRef, useState } from "react";
 import { isEditable } from "../../build/editable";
 import { useStudio } from "../../store";
 import { typedNumber, wrongWith } from "../../widgets/number";
+import { usePull } from "../../widgets/usePull";
 import type { Setting } from "../../inspector/parameters/setting";
 import { short } from "../boxes/facts";
 import { dragged, pressed, stepped } from "./strength";
 
 type StrengthControlProps = { label: string; setting: Setting<number>; onClick?: () => void };
 
-// A pointer that moves less is a click.
-const CLICK = 3;
-
-type Drag = { x: number; from: number; raw: number; value: number | null };
-
 export function StrengthControl({ label, setting, onClick }: StrengthControlProps) {
   const { value, problem, commit, move, end, nudge } = setting;
   const [draft, setDraft] = useState<string | null>(null);
-  const drag = useRef<Drag | null>(null);
   const number = useRef<HTMLDivElement>(null);
   const field = useRef<HTMLInputElement>(null);
   const isTyping = draft !== null;
@@ -43,6 +38,18 @@ export function StrengthControl({ label, setting, onClick }: StrengthControlProp
       void commit(typed);
     }
   };
+  const typing = () => isEditable() && setDraft(String(value));
+  const { handlers } = usePull({
+    begin: () => value,
+    isFree: isEditable,
+    pulled: dragged,
+    move: (at, event) => move(stepped(at, event)),
+    end,
+    click: () => {
+      onClick?.();
+      typing();
+    },
+  });
   if (draft !== null) {
     return (
       <input
@@ -67,30 +74,6 @@ export function StrengthControl({ label, setting, onClick }: StrengthControlProp
       />
     );
   }
-  const typing = () => isEditable() && setDraft(String(value));
-  const onPointerMove = (event: PointerEvent) => {
-    const going = drag.current;
-    if (going === null || !isEditable()) {
-      return;
-    }
-    going.raw = dragged(going.raw, event.clientX - going.x, event);
-    going.x = event.clientX;
-    if (going.value === null && Math.abs(event.clientX - going.from) < CLICK) {
-      return;
-    }
-    going.value = stepped(going.raw, event);
-    move(going.value);
-  };
-  const release = (isClick: boolean) => {
-    const last = drag.current;
-    drag.current = null;
-    if (last !== null && last.value !== null) {
-      end();
-    } else if (last !== null && isClick) {
-      onClick?.();
-      typing();
-    }
-  };
   const onKeyDown = (event: KeyboardEvent) => {
     const next = pressed(value, event.key);
     if (event.ctrlKey || event.metaKey || event.altKey || (next === null && event.key !== "Enter")) {
@@ -113,15 +96,7 @@ export function StrengthControl({ label, setting, onClick }: StrengthControlProp
       aria-label={label}
       aria-valuenow={value}
       title={problem?.what ?? label}
-      onPointerDown={(event) => {
-        if (event.button === 0) {
-          event.currentTarget.setPointerCapture(event.pointerId);
-          drag.current = { x: event.clientX, from: event.clientX, raw: value, value: null };
-        }
-      }}
-      onPointerMove={onPointerMove}
-      onPointerUp={() => release(true)}
-      onPointerCancel={() => release(false)}
+      {...handlers}
       onKeyDown={onKeyDown}
     >
       {short(value)}
