@@ -43,7 +43,7 @@ test("the regime of a field is measured, drawn and stale after a change of the f
   await regime.getByText("The field has changed since").waitFor();
   const before = await table.innerText();
   await regime.getByRole("button", { name: "Measure regime again" }).click();
-  // at once: it may end before a button stands still
+  // at once: it may end while the button is still moving
   await regime.getByRole("button", { name: "Stop" }).dispatchEvent("click");
   await regime.getByText("What the field does alone").waitFor();
   await regime.getByRole("button", { name: "Measure regime" }).click();
