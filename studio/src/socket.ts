@@ -143,6 +143,11 @@ class Socket {
 
 export const socket = new Socket();
 
+// Ask; the first problem is shown where it was asked.
+export async function refusalOf(message: ToServer): Promise<ListedProblem | null> {
+  return (await socket.ask(message)).answer.problems?.[0] ?? null;
+}
+
 // Ask; problems become a notice.
 export async function request(message: ToServer): Promise<Answer> {
   const { answer } = await socket.ask(message);

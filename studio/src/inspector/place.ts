@@ -30,3 +30,10 @@ export function useDriver(path: string): DocumentParameterView | undefined {
   const { element } = usePlace();
   return useStudio((state) => driver(state.document, element, path));
 }
+
+const NO_AXES: AxisView[] = [];
+
+export function useAxes(): { axes: AxisView[]; timeUnit: string } {
+  const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
+  return { axes, timeUnit: useStudio((state) => state.document?.time_unit ?? "") };
+}

@@ -5,7 +5,7 @@ import { useState } from "react";
 
 import type { AxisProperties } from "../../model/elementAxes";
 import type { AxisView, ListedProblem } from "../../protocol";
-import { socket } from "../../socket";
+import { refusalOf } from "../../socket";
 import { useStudio } from "../../store";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { TextBox } from "../forms/TextBox";
@@ -21,15 +21,11 @@ export function AxisFields({ axis }: { axis: AxisView }) {
   );
   const change = async (next: Partial<AxisProperties>): Promise<boolean> => {
     const { key, ...properties } = axis;
-    const { answer } = await socket.ask({ type: "change_axis", key, axis: { ...properties, ...next } });
-    const found = answer.problems?.[0] ?? null;
-    setProblem(found);
-    return found === null;
+    const refusal = await refusalOf({ type: "change_axis", key, axis: { ...properties, ...next } });
+    setProblem(refusal);
+    return refusal === null;
   };
-  const remove = async () => {
-    const { answer } = await socket.ask({ type: "remove_axis", key: axis.key });
-    setProblem(answer.problems?.[0] ?? null);
-  };
+  const remove = async () => setProblem(await refusalOf({ type: "remove_axis", key: axis.key }));
   const number = (name: "lower" | "upper" | "samples", label: string, unit = "") => (
     <label className="axis-field">
       <span>{label}</span>
@@ -69,18 +65,10 @@ export function AxisFields({ axis }: { axis: AxisView }) {
         onChange={(event) => void change({ periodic: event.currentTarget.checked })}
       />
       <p className="dim">
-        {users === 0
-          ? "No element has this axis."
-          : users === 1
-            ? "One element has this axis."
-            : `${users} elements have this axis.`}
+        {["No element has", "One element has"][users] ?? `${users} elements have`} this axis.
       </p>
       <Button size="compact-xs" variant="default" onClick={() => void remove()}>
-        {users === 0
-          ? "Remove"
-          : users === 1
-            ? "Remove, also from the element"
-            : "Remove, also from elements"}
+        {["Remove", "Remove, also from the element"][users] ?? "Remove, also from elements"}
       </Button>
       <ProblemLine problem={problem} />
     </section>

@@ -1,14 +1,14 @@
 // A new axis in one row: name, from, to, samples, unit, periodic. Enter or the button makes it.
 
-import { Button, Checkbox, TextInput } from "@mantine/core";
-import { useState, type FormEvent } from "react";
+import { Checkbox, TextInput } from "@mantine/core";
+import { useState } from "react";
 
 import { type AxisProperties, newAxis } from "../../model/elementAxes";
 import type { AxisView, ListedProblem } from "../../protocol";
-import { socket } from "../../socket";
+import { refusalOf } from "../../socket";
 import { useLateFocus } from "../../widgets/lateFocus";
-import { ProblemLine } from "../../widgets/ProblemLine";
 import { typedNumber } from "../../widgets/number";
+import { SmallForm } from "../SmallForm";
 
 type NewAxisProps = {
   // The axes of the document: the new one has another name at first.
@@ -31,70 +31,55 @@ export function NewAxis({ axes, onMake, onDone }: NewAxisProps) {
     unit: "",
   });
   const [periodic, setPeriodic] = useState(false);
-  const [problem, setProblem] = useState<ListedProblem | null>(null);
-  const make = async (event: FormEvent) => {
-    event.preventDefault();
+  const send = async () => {
     const [lower, upper, samples] = [typed.from, typed.to, typed.samples].map(typedNumber);
-    if (lower == null || upper == null || samples == null) {
-      setProblem({ what: "From, to and samples need numbers." });
-      return;
-    }
-    const axis = { name: typed.name.trim(), lower, upper, samples, unit: typed.unit.trim(), periodic };
-    const made = await onMake(axis);
-    if (made === true) {
-      onDone();
-    } else if (made !== false) {
-      setProblem(made);
-    }
+    return lower == null || upper == null || samples == null
+      ? { what: "From, to and samples need numbers." }
+      : onMake({ name: typed.name.trim(), lower, upper, samples, unit: typed.unit.trim(), periodic });
   };
   return (
-    <form
+    <SmallForm
       className="new-axis"
-      aria-label="New axis"
-      onSubmit={(event) => void make(event)}
-      onKeyDown={(event) => event.key === "Escape" && onDone()}
+      label="New axis"
+      submit="Make"
+      ready={typed.name.trim() !== ""}
+      send={send}
+      onDone={onDone}
     >
-      {WORDS.map((word) => (
-        <label key={word}>
-          <span>{word}</span>
-          <TextInput
-            size="xs"
-            aria-label={`${word} of the new axis`}
-            inputMode={word === "name" || word === "unit" ? "text" : "decimal"}
-            autoComplete="off"
-            spellCheck={false}
-            ref={word === "name" ? field : undefined}
-            value={typed[word]}
-            onFocus={(event) => event.currentTarget.select()}
-            onChange={(event) => {
-              setTyped({ ...typed, [word]: event.currentTarget.value });
-              setProblem(null);
-            }}
-          />
-        </label>
-      ))}
-      <label>
-        <span>periodic</span>
-        <Checkbox
-          size="xs"
-          aria-label="periodic new axis"
-          checked={periodic}
-          onChange={(event) => setPeriodic(event.currentTarget.checked)}
-        />
-      </label>
-      <Button size="compact-xs" type="submit" disabled={typed.name.trim() === ""}>
-        Make
-      </Button>
-      <Button size="compact-xs" variant="subtle" color="gray" onClick={onDone}>
-        Cancel
-      </Button>
-      <ProblemLine problem={problem} />
-    </form>
+      {() => (
+        <>
+          {WORDS.map((word) => (
+            <label key={word}>
+              <span>{word}</span>
+              <TextInput
+                size="xs"
+                aria-label={`${word} of the new axis`}
+                inputMode={word === "name" || word === "unit" ? "text" : "decimal"}
+                autoComplete="off"
+                spellCheck={false}
+                ref={word === "name" ? field : undefined}
+                value={typed[word]}
+                onFocus={(event) => event.currentTarget.select()}
+                onChange={(event) => setTyped({ ...typed, [word]: event.currentTarget.value })}
+              />
+            </label>
+          ))}
+          <label>
+            <span>periodic</span>
+            <Checkbox
+              size="xs"
+              aria-label="periodic new axis"
+              checked={periodic}
+              onChange={(event) => setPeriodic(event.currentTarget.checked)}
+            />
+          </label>
+        </>
+      )}
+    </SmallForm>
   );
 }
 
 // Add an axis to the document, which no element has yet.
 export async function addAxis(axis: AxisProperties): Promise<true | ListedProblem> {
-  const { answer } = await socket.ask({ type: "add_axis", axis });
-  return answer.problems?.[0] ?? true;
+  return (await refusalOf({ type: "add_axis", axis })) ?? true;
 }

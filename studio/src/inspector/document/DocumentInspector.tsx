@@ -4,19 +4,20 @@ import { Textarea } from "@mantine/core";
 import { useState } from "react";
 
 import type { Describe, ListedProblem } from "../../protocol";
-import { socket } from "../../socket";
+import { refusalOf, socket } from "../../socket";
 import { useStudio } from "../../store";
 import { AddButton } from "../../widgets/AddButton";
 import { addAxis, NewAxis } from "../axes/NewAxis";
 import { AxisLines } from "../forms/AxisLines";
 import { ChoiceBox } from "../forms/ChoiceBox";
 import { TextBox } from "../forms/TextBox";
-import { DocumentParameterList } from "./DocumentParameterList";
+import { DocumentParameters } from "./DocumentParameters";
 import { NumberField } from "../../widgets/NumberField";
 import { numberText } from "../../widgets/number";
 import { ProblemBanner } from "../element/ProblemBanner";
 import { ProblemLine } from "../../widgets/ProblemLine";
 import { timeText } from "../numbers/unit";
+import { PlainRow } from "../PlainRow";
 
 const TIME_UNITS = ["us", "ms", "s", "min", "abstract"];
 
@@ -31,9 +32,9 @@ export function DocumentInspector() {
   }
   const unit = timeText(document.time_unit);
   const describe = async (what: Omit<Describe, "type">): Promise<boolean> => {
-    const { answer } = await socket.ask({ type: "describe", ...what });
-    setProblem(answer.problems?.[0] ?? null);
-    return (answer.problems ?? []).length === 0;
+    const refusal = await refusalOf({ type: "describe", ...what });
+    setProblem(refusal);
+    return refusal === null;
   };
   const keepNotes = () => {
     if (notes !== null && notes !== document.notes) {
@@ -51,36 +52,27 @@ export function DocumentInspector() {
       </header>
       <ProblemBanner element="" />
       <section className="parameters" aria-label="Document">
-        <div className="row row-inline">
-          <div className="row-label">title</div>
-          <div className="row-control">
-            <TextBox label="Title" value={document.title} onCommit={(name) => describe({ name })} />
-          </div>
-        </div>
-        <div className="row row-inline">
-          <div className="row-label">step dt</div>
-          <div className="row-control">
-            <NumberField
-              label="Step dt"
-              labelled={false}
-              value={document.dt}
-              unit={unit}
-              placeholder={dt === undefined ? "" : `${numberText(dt)} (default)`}
-              set={(value) => socket.ask({ type: "describe", dt: value })}
-            />
-          </div>
-        </div>
-        <div className="row row-inline">
-          <div className="row-label">time unit</div>
-          <div className="row-control">
-            <ChoiceBox
-              label="Time unit"
-              value={document.time_unit}
-              choices={[...new Set([...TIME_UNITS, document.time_unit])]}
-              onCommit={(time_unit) => void describe({ time_unit })}
-            />
-          </div>
-        </div>
+        <PlainRow name="title">
+          <TextBox label="Title" value={document.title} onCommit={(name) => describe({ name })} />
+        </PlainRow>
+        <PlainRow name="step dt">
+          <NumberField
+            label="Step dt"
+            labelled={false}
+            value={document.dt}
+            unit={unit}
+            placeholder={dt === undefined ? "" : `${numberText(dt)} (default)`}
+            set={(value) => socket.ask({ type: "describe", dt: value })}
+          />
+        </PlainRow>
+        <PlainRow name="time unit">
+          <ChoiceBox
+            label="Time unit"
+            value={document.time_unit}
+            choices={[...new Set([...TIME_UNITS, document.time_unit])]}
+            onCommit={(time_unit) => void describe({ time_unit })}
+          />
+        </PlainRow>
         <ProblemLine problem={problem} />
         <Textarea
           size="xs"
@@ -94,7 +86,7 @@ export function DocumentInspector() {
           onBlur={keepNotes}
         />
       </section>
-      <DocumentParameterList documentParameters={document.parameters} />
+      <DocumentParameters parameters={document.parameters} />
       <section className="parameters" aria-label="Axes">
         <h3>
           Axes

@@ -1,83 +1,98 @@
 // A new document parameter, or another parameter for one that is there: which number of which element it
 // drives.
 
-import { Button, Select, TextInput } from "@mantine/core";
-import { useMemo, useState, type FormEvent } from "react";
+import { Select, TextInput } from "@mantine/core";
+import { useMemo, useState } from "react";
 
-import type { ListedProblem } from "../../protocol";
-import { socket } from "../../socket";
+import { refusalOf } from "../../socket";
 import { useStudio } from "../../store";
 import { useLateFocus } from "../../widgets/lateFocus";
 import { driver, leavesOf } from "../parameters/leaf";
-import { ProblemLine } from "../../widgets/ProblemLine";
+import { SmallForm } from "../SmallForm";
 
 // Lists longer than this have a search box.
 const MOST_SHOWN = 60;
+
+type ParameterNamingProps = { element: string; path: string; suggestion: string; onDone: () => void };
+
+// The name of a new document parameter, asked for below the parameter that it will drive first.
+export function DocumentParameterNaming({ element, path, suggestion, onDone }: ParameterNamingProps) {
+  const field = useLateFocus();
+  const [name, setName] = useState(suggestion);
+  return (
+    <SmallForm
+      className="parameter-naming"
+      submit="Create"
+      ready={name.trim() !== ""}
+      send={() => refusalOf({ type: "add_document_parameter", name: name.trim(), element, parameter: path })}
+      onDone={onDone}
+    >
+      {(refused) => (
+        <TextInput
+          size="xs"
+          aria-label="Name of the document parameter"
+          placeholder="name"
+          value={name}
+          error={refused}
+          ref={field}
+          onFocus={(event) => event.currentTarget.select()}
+          onChange={(event) => setName(event.currentTarget.value)}
+        />
+      )}
+    </SmallForm>
+  );
+}
 
 // Without `name` a new document parameter is made, and its name is asked for.
 export function DocumentParameterAdding({ name, onDone }: { name?: string; onDone: () => void }) {
   const field = useLateFocus();
   const [typed, setTyped] = useState("");
   const [chosen, setChosen] = useState<string | null>(null);
-  const [problem, setProblem] = useState<ListedProblem | null>(null);
   const options = useOptions();
-  const onSubmit = async (event: FormEvent) => {
-    event.preventDefault();
-    const { element = "", path: parameter = "" } = options.find((option) => option.value === chosen) ?? {};
-    const { answer } = await socket.ask(
-      name === undefined
-        ? { type: "add_document_parameter", name: typed.trim(), element, parameter }
-        : { type: "link", name, element, parameter },
-    );
-    const wrong = answer.problems?.[0] ?? null;
-    setProblem(wrong);
-    if (wrong === null) {
-      onDone();
-    }
-  };
+  const isNew = name === undefined;
+  const { element = "", path: parameter = "" } = options.find((option) => option.value === chosen) ?? {};
   return (
-    <form
+    <SmallForm
       className="parameter-adding"
-      onSubmit={(event) => void onSubmit(event)}
-      onKeyDown={(event) => event.key === "Escape" && onDone()}
+      submit={isNew ? "Create" : "Link"}
+      ready={chosen !== null && (!isNew || typed.trim() !== "")}
+      send={() =>
+        refusalOf(
+          isNew
+            ? { type: "add_document_parameter", name: typed.trim(), element, parameter }
+            : { type: "link", name, element, parameter },
+        )
+      }
+      onDone={onDone}
     >
-      {name === undefined && (
-        <TextInput
-          size="xs"
-          aria-label="Name of the document parameter"
-          placeholder="name"
-          ref={field}
-          value={typed}
-          onChange={(event) => setTyped(event.currentTarget.value)}
-        />
+      {() => (
+        <>
+          {isNew && (
+            <TextInput
+              size="xs"
+              aria-label="Name of the document parameter"
+              placeholder="name"
+              ref={field}
+              value={typed}
+              onChange={(event) => setTyped(event.currentTarget.value)}
+            />
+          )}
+          <Select
+            ref={isNew ? undefined : field}
+            size="xs"
+            searchable
+            limit={MOST_SHOWN}
+            data={options}
+            value={chosen}
+            aria-label="Driven parameter"
+            placeholder="what it drives"
+            nothingFoundMessage="No such parameter"
+            comboboxProps={{ shadow: "md" }}
+            onChange={setChosen}
+          />
+        </>
       )}
-      <Select
-        ref={name === undefined ? undefined : field}
-        size="xs"
-        searchable
-        limit={MOST_SHOWN}
-        data={options}
-        value={chosen}
-        aria-label="Driven parameter"
-        placeholder="what it drives"
-        nothingFoundMessage="No such parameter"
-        comboboxProps={{ shadow: "md" }}
-        onChange={setChosen}
-      />
-      <div className="form-buttons">
-        <Button
-          size="compact-xs"
-          type="submit"
-          disabled={chosen === null || (name === undefined && typed.trim() === "")}
-        >
-          {name === undefined ? "Create" : "Link"}
-        </Button>
-        <Button size="compact-xs" variant="subtle" color="gray" onClick={onDone}>
-          Cancel
-        </Button>
-      </div>
-      <ProblemLine problem={problem} />
-    </form>
+    </SmallForm>
   );
 }
 

@@ -1,37 +1,74 @@
 // One element: its kind, its equation and its parameters.
 
-import type { AxisView } from "../../protocol";
+import { UnstyledButton } from "@mantine/core";
+
+import type { ElementView, Kind } from "../../protocol";
 import { useStudio } from "../../store";
-import { ElementHeader } from "./ElementHeader";
+import { Tex } from "../../widgets/Tex";
+import { Fields } from "../forms/PartFields";
+import { useAxes } from "../place";
 import { ElementPlace } from "./ElementPlace";
-import { Equation } from "./Equation";
-import { ParameterSections } from "./ParameterSections";
 import { PortTable } from "./PortTable";
 import { ProblemBanner } from "./ProblemBanner";
-
-const NO_AXES: AxisView[] = [];
+import { sectionsOf, titleOf } from "./sections";
 
 export function ElementInspector({ id }: { id: string }) {
   const element = useStudio((state) => state.elements.get(id));
   const kind = useStudio((state) => state.kinds.get(element?.kind ?? ""));
-  const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
+  const { axes } = useAxes();
   if (element === undefined) {
     return <div className="inspector-empty">This element was removed.</div>;
   }
+  const sections = sectionsOf(kind?.parameters ?? []);
   return (
     <ElementPlace id={id}>
-      <ElementHeader element={element} kind={kind} />
+      <Header element={element} kind={kind} />
       <ProblemBanner element={id} />
       {kind === undefined ? (
         <p className="dim">Nothing is known of the kind {element.kind}.</p>
       ) : (
         <>
-          <Equation lines={kind.equation} reference={kind.reference} />
-          <ParameterSections kind={kind} values={element.values} />
-          {kind.parameters.length === 0 && <p className="dim">This element has no parameters.</p>}
+          <section className="equation" aria-label="Equation">
+            {kind.equation.map((line) => (
+              <div className="equation-line" key={line} tabIndex={-1}>
+                <Tex source={line} block />
+              </div>
+            ))}
+            {kind.reference !== "" && <p className="reference">{kind.reference}</p>}
+          </section>
+          {sections.map(({ section, forms }) => (
+            <section key={section} className="parameters" aria-label={titleOf(section)}>
+              {sections.length > 1 && section !== "" && <h3>{titleOf(section)}</h3>}
+              <Fields forms={forms} values={element.values} prefix="" />
+            </section>
+          ))}
+          {sections.length === 0 && <p className="dim">This element has no parameters.</p>}
           <PortTable element={element} kind={kind} axes={axes} />
         </>
       )}
     </ElementPlace>
+  );
+}
+
+function Header({ element, kind }: { element: ElementView; kind: Kind | undefined }) {
+  const select = useStudio((state) => state.select);
+  return (
+    <header className="inspector-header">
+      <nav className="inspector-path" aria-label="Path of the element">
+        <UnstyledButton className="to-document" onClick={() => select([])}>
+          Document
+        </UnstyledButton>
+        {element.group.map((group, i) => (
+          <span className="one-line" key={i} title={group}>
+            / {group}
+          </span>
+        ))}
+      </nav>
+      <h2 className="one-line" title={element.path}>
+        {element.name}
+      </h2>
+      <span className="kind-title">{kind?.title ?? element.kind}</span>
+      {element.every > 1 && <span className="dim">runs every {element.every} steps</span>}
+    </header>
   );
 }

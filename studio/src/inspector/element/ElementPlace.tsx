@@ -2,18 +2,14 @@
 
 import { type ReactNode, useMemo } from "react";
 
-import type { AxisView } from "../../protocol";
 import { useStudio } from "../../store";
 import { axesOf } from "../parameters/leaf";
-import { type Place, PlaceContext } from "../place";
-
-const NO_AXES: AxisView[] = [];
+import { type Place, PlaceContext, useAxes } from "../place";
 
 export function ElementPlace({ id, children }: { id: string; children: ReactNode }) {
   const element = useStudio((state) => state.elements.get(id));
   const kind = useStudio((state) => state.kinds.get(element?.kind ?? ""));
-  const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
-  const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
+  const { axes, timeUnit } = useAxes();
   const found = element === undefined ? "" : JSON.stringify(axesOf(element, kind, axes));
   const place = useMemo(
     (): Place => ({

@@ -3,21 +3,17 @@
 import { useMemo } from "react";
 import { useShallow } from "zustand/react/shallow";
 
-import type { AxisView } from "../../protocol";
 import { socket } from "../../socket";
 import { useStudio } from "../../store";
 import { common } from "./common";
 import { FORMS } from "../forms/forms";
 import { axesOf } from "../parameters/leaf";
-import { type Place, PlaceContext } from "../place";
-
-const NO_AXES: AxisView[] = [];
+import { type Place, PlaceContext, useAxes } from "../place";
 
 export function ManyInspector({ ids }: { ids: string[] }) {
   const elements = useStudio(useShallow((state) => ids.flatMap((id) => state.elements.get(id) ?? [])));
   const kinds = useStudio((state) => state.kinds);
-  const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
-  const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
+  const { axes, timeUnit } = useAxes();
   const links = useStudio((state) => state.document?.parameters)?.flatMap((parameter) => parameter.links);
   const shared = useMemo(() => common(elements, kinds), [elements, kinds]);
   // what a document parameter drives changes there

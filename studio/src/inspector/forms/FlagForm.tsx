@@ -2,30 +2,19 @@
 
 import { Switch } from "@mantine/core";
 
-import { usePlace } from "../place";
-import { ProblemLine } from "../../widgets/ProblemLine";
-import { ParameterRow } from "../parameters/ParameterRow";
-import { useSetting } from "../parameters/setting";
+import { FormRow, useForm } from "./FormRow";
 import type { FormProps } from "./props";
 
-export function FlagForm({ form, path, value }: FormProps) {
-  const { element } = usePlace();
-  const setting = useSetting(element, path, value, form.cost);
+export function FlagForm(props: FormProps) {
+  const setting = useForm(props);
   return (
-    <ParameterRow
-      form={form}
-      path={path}
-      value={value}
-      inline
-      onReset={(standard) => void setting.commit(standard)}
-    >
+    <FormRow {...props} setting={setting} inline>
       <Switch
         size="xs"
-        aria-label={path}
-        checked={value === true}
+        aria-label={props.path}
+        checked={props.value === true}
         onChange={(event) => void setting.commit(event.currentTarget.checked)}
       />
-      <ProblemLine problem={setting.problem} />
-    </ParameterRow>
+    </FormRow>
   );
 }

@@ -1,4 +1,4 @@
-// The row of a single number: of a parameter, of one axis, of one name in a table.
+// A number, and the row of a single one: of a parameter, of one axis, of one name in a table.
 
 import type { ReactNode } from "react";
 
@@ -14,6 +14,10 @@ import type { FormProps } from "./props";
 const MOST_UNIT = 5;
 
 type NumberRowProps = Omit<FormProps, "value"> & { value: number | null; label?: string; extra?: ReactNode };
+
+export function NumberForm({ value, ...row }: FormProps & Pick<NumberRowProps, "extra">) {
+  return <NumberRow {...row} value={typeof value === "number" ? value : null} />;
+}
 
 export function NumberRow({ form, path, value, label, extra }: NumberRowProps) {
   const { element, axes, own, timeUnit } = usePlace();

@@ -2,40 +2,27 @@
 
 import { useStudio } from "../../store";
 import { kindOf, recast } from "../parameters/part";
-import { usePlace } from "../place";
-import { ProblemLine } from "../../widgets/ProblemLine";
-import { ParameterRow } from "../parameters/ParameterRow";
-import { useSetting } from "../parameters/setting";
 import { ChoiceBox } from "./ChoiceBox";
+import { FormRow, useForm } from "./FormRow";
 import { PartFields } from "./PartFields";
 import type { FormProps } from "./props";
 
-export function PartForm({ form, path, value }: FormProps) {
-  const { element } = usePlace();
-  const setting = useSetting(element, path, value, form.cost);
+export function PartForm(props: FormProps) {
+  const { form, path, value } = props;
+  const setting = useForm(props);
   const kinds = useStudio((state) => state.kinds);
   const kind = kindOf(kinds, value);
-  const choices = form.of.map((name) => ({ value: name, label: kinds.get(name)?.title ?? name }));
-  const choose = (name: string | null) =>
-    void setting.commit(name === null ? null : recast(kinds, name, value));
   return (
     <>
-      <ParameterRow
-        form={form}
-        path={path}
-        value={value}
-        inline
-        onReset={(standard) => void setting.commit(standard)}
-      >
+      <FormRow {...props} setting={setting} inline>
         <ChoiceBox
           label={path}
           value={kind?.name ?? null}
-          choices={choices}
+          choices={form.of.map((name) => ({ value: name, label: kinds.get(name)?.title ?? name }))}
           optional={form.optional}
-          onCommit={choose}
+          onCommit={(name) => void setting.commit(name === null ? null : recast(kinds, name, value))}
         />
-        <ProblemLine problem={setting.problem} />
-      </ParameterRow>
+      </FormRow>
       {kind !== undefined && (
         <div className="nested">
           <PartFields kind={kind.name} values={value} prefix={`${path}.`} />

@@ -23,17 +23,8 @@ type PartItemProps = {
   onMove: (to: number) => void;
 };
 
-export function PartItem({
-  form,
-  path,
-  part,
-  place,
-  folded,
-  onFold,
-  onReplace,
-  onRemove,
-  onMove,
-}: PartItemProps) {
+export function PartItem(props: PartItemProps) {
+  const { form, path, part, place, folded, onFold, onReplace, onRemove, onMove } = props;
   const kinds = useStudio((state) => state.kinds);
   const kind = kindOf(kinds, part);
   const title = kind?.title ?? String(part["kind"]);

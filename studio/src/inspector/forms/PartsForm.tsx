@@ -4,81 +4,63 @@
 import { Menu } from "@mantine/core";
 import { useState } from "react";
 
-import type { ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
 import { AddButton } from "../../widgets/AddButton";
 import { MenuList } from "../../widgets/MenuList";
 import { moved, without, words } from "../parameters/part";
-import { usePlace } from "../place";
-import { ProblemLine } from "../../widgets/ProblemLine";
-import { ParameterRow } from "../parameters/ParameterRow";
-import { useSetting } from "../parameters/setting";
 import { ChoiceBox } from "./ChoiceBox";
+import { FormRow, useForm } from "./FormRow";
 import { listChoices, listState } from "./listState";
 import { PartItem } from "./PartItem";
 import type { FormProps } from "./props";
 
-export function PartsForm({ form, path, value }: FormProps) {
-  const { element } = usePlace();
-  const setting = useSetting(element, path, value, form.cost);
+export function PartsForm(props: FormProps) {
+  const { form, path, value } = props;
+  const setting = useForm(props);
   const kinds = useStudio((state) => state.kinds);
   const [folded, setFolded] = useState<number[]>([]);
   const parts = Array.isArray(value) ? (value as Values[]) : [];
   const commit = (next: unknown[] | null) => void setting.commit(next);
   const fold = (i: number) =>
     setFolded((old) => (old.includes(i) ? old.filter((k) => k !== i) : [...old, i]));
+  const items = parts.map((part, i) => (
+    <PartItem
+      key={`${i} ${String(part["kind"])}`}
+      form={form}
+      path={`${path}.${i}`}
+      part={part}
+      place={{ index: i, count: parts.length }}
+      folded={folded.includes(i)}
+      onFold={() => fold(i)}
+      onReplace={(next) => commit(parts.map((old, k) => (k === i ? next : old)))}
+      onRemove={() => commit(without(parts, i))}
+      onMove={(to) => commit(moved(parts, i, to))}
+    />
+  ));
   return (
-    <>
-      <ParameterRow
-        form={form}
-        path={path}
-        value={value}
-        inline
-        onReset={(standard) => void setting.commit(standard)}
-      >
-        <ListChoice form={form} path={path} value={value} onCommit={commit} />
-        <Menu position="bottom-end" shadow="md" classNames={{ dropdown: "compact-menu" }}>
-          <Menu.Target>
-            <AddButton aria-label={`Add to ${words(path)}`} />
-          </Menu.Target>
-          <MenuList>
-            {form.of.map((name) => (
-              <Menu.Item
-                key={name}
-                onClick={() => commit([...parts, kinds.get(name)?.example ?? { kind: name }])}
-              >
-                {kinds.get(name)?.title ?? name}
-              </Menu.Item>
-            ))}
-          </MenuList>
-        </Menu>
-      </ParameterRow>
-      {parts.map((part, i) => (
-        <PartItem
-          key={`${i} ${String(part["kind"])}`}
-          form={form}
-          path={`${path}.${i}`}
-          part={part}
-          place={{ index: i, count: parts.length }}
-          folded={folded.includes(i)}
-          onFold={() => fold(i)}
-          onReplace={(next) => commit(parts.map((old, k) => (k === i ? next : old)))}
-          onRemove={() => commit(without(parts, i))}
-          onMove={(to) => commit(moved(parts, i, to))}
-        />
-      ))}
-      <ProblemLine problem={setting.problem} />
-    </>
+    <FormRow {...props} setting={setting} inline below={items}>
+      <ListChoice form={form} path={path} value={value} onCommit={commit} />
+      <Menu position="bottom-end" shadow="md" classNames={{ dropdown: "compact-menu" }}>
+        <Menu.Target>
+          <AddButton aria-label={`Add to ${words(path)}`} />
+        </Menu.Target>
+        <MenuList>
+          {form.of.map((name) => (
+            <Menu.Item
+              key={name}
+              onClick={() => commit([...parts, kinds.get(name)?.example ?? { kind: name }])}
+            >
+              {kinds.get(name)?.title ?? name}
+            </Menu.Item>
+          ))}
+        </MenuList>
+      </Menu>
+    </FormRow>
   );
 }
 
-type ListChoiceProps = {
-  form: ParameterForm;
-  path: string;
-  value: unknown;
-  onCommit: (next: [] | null) => void;
-};
+type ListChoiceProps = FormProps & { onCommit: (next: [] | null) => void };
 
 function ListChoice({ form, path, value, onCommit }: ListChoiceProps) {
   const state = listState(value);

@@ -2,16 +2,16 @@
 
 import { UnstyledButton } from "@mantine/core";
 
-import { usePlace } from "../place";
 import { ProblemLine } from "../../widgets/ProblemLine";
-import { ParameterRow } from "../parameters/ParameterRow";
-import { useSetting } from "../parameters/setting";
-import { NumberRow } from "./NumberRow";
+import { usePlace } from "../place";
+import { FormRow, useForm } from "./FormRow";
+import { NumberForm, NumberRow } from "./NumberRow";
 import type { FormProps } from "./props";
 
-export function PerAxisForm({ form, path, value }: FormProps) {
-  const { element, axes } = usePlace();
-  const setting = useSetting(element, path, value, form.cost);
+export function PerAxisForm(props: FormProps) {
+  const { form, path, value } = props;
+  const { axes } = usePlace();
+  const setting = useForm(props);
   const each = Array.isArray(value);
   const toggle = () => void setting.commit(each ? (value as unknown[])[0] : axes.map(() => value));
   const choice = (axes.length > 1 || each) && value !== null && (
@@ -24,36 +24,20 @@ export function PerAxisForm({ form, path, value }: FormProps) {
       each axis
     </UnstyledButton>
   );
-
   if (!each) {
     return (
       <>
-        <NumberRow form={form} path={path} value={typeof value === "number" ? value : null} extra={choice} />
+        <NumberForm {...props} extra={choice} />
         <ProblemLine problem={setting.problem} />
       </>
     );
   }
-  return (
-    <>
-      <ParameterRow
-        form={form}
-        path={path}
-        value={value}
-        extra={choice}
-        onReset={(standard) => void setting.commit(standard)}
-      />
-      <div className="nested">
-        {(value as number[]).map((one, i) => (
-          <NumberRow
-            key={i}
-            form={form}
-            path={`${path}.${i}`}
-            value={one}
-            label={axes[i]?.name ?? String(i)}
-          />
-        ))}
-      </div>
-      <ProblemLine problem={setting.problem} />
-    </>
+  const rows = (
+    <div className="nested">
+      {(value as number[]).map((one, i) => (
+        <NumberRow key={i} form={form} path={`${path}.${i}`} value={one} label={axes[i]?.name ?? String(i)} />
+      ))}
+    </div>
   );
+  return <FormRow {...props} setting={setting} extra={choice} below={rows} />;
 }

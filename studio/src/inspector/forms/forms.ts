@@ -1,19 +1,15 @@
 // The component of each form. A new form of the protocol without a component is an error of the compiler.
 
 import { ArrayForm } from "./ArrayForm";
-import { AxesForm } from "./AxesForm";
-import { AxisForm } from "./AxisForm";
+import { AxesForm, AxisForm } from "./AxesForm";
 import { FlagForm } from "./FlagForm";
-import { NumberForm } from "./NumberForm";
+import { NumberForm } from "./NumberRow";
 import { NumbersForm } from "./NumbersForm";
-import { PairsForm } from "./PairsForm";
 import { PartForm } from "./PartForm";
 import { PartsForm } from "./PartsForm";
 import { PerAxisForm } from "./PerAxisForm";
 import type { FormTable } from "./props";
-import { TextForm } from "./TextForm";
-import { TextsForm } from "./TextsForm";
-import { ValueForm } from "./ValueForm";
+import { PairsForm, TextForm, TextsForm, ValueForm } from "./textForms";
 
 export const FORMS: FormTable = {
   array: ArrayForm,

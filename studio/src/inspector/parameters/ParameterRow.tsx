@@ -7,7 +7,7 @@ import { useState, type MouseEvent, type ReactNode } from "react";
 import type { DocumentParameterView, ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
 import { CostMark } from "./CostMark";
-import { DocumentParameterNaming } from "../document/DocumentParameterNaming";
+import { DocumentParameterNaming } from "../document/DocumentParameterAdding";
 import { linkable } from "./leaf";
 import { numberText } from "../../widgets/number";
 import { hasDefault, kindOf, same, symbolOf, words } from "./part";

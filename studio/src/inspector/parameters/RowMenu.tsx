@@ -1,21 +1,14 @@
 // What can be done with a parameter beside changing it: back to the default, pin, link.
 
 import { Menu } from "@mantine/core";
-import {
-  IconArrowBackUp,
-  IconLink,
-  IconLinkOff,
-  IconPin,
-  IconPinnedOff,
-  IconPlus,
-} from "@tabler/icons-react";
+import { IconArrowBackUp, IconLink, IconLinkOff, IconPlus } from "@tabler/icons-react";
 import type { ReactNode } from "react";
 
-import { isAt, keepPins, pin, pinsOf, withoutPin } from "../../pins/pin";
 import type { DocumentParameterView } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
 import { DotsMenu } from "../../widgets/DotsMenu";
+import { PinItem } from "./PinItem";
 
 export type RowMenuProps = {
   element: string;
@@ -41,18 +34,8 @@ export function RowMenu(props: RowMenuProps) {
   );
 }
 
-function RowMenuItems({
-  element,
-  path,
-  driver,
-  byDefault,
-  atDefault,
-  onReset,
-  pinnable,
-  linkable,
-  onName,
-}: RowMenuProps) {
-  const pinned = useStudio((state) => pinsOf(state.document?.layout).some((pin) => isAt(pin, element, path)));
+function RowMenuItems(props: RowMenuProps) {
+  const { element, path, driver, byDefault, atDefault, onReset, pinnable, linkable, onName } = props;
   const documentParameters = useStudio((state) => state.document?.parameters);
   const link = (name: string) => void request({ type: "link", name, element, parameter: path });
   const unlink = () => void request({ type: "unlink", element, parameter: path });
@@ -68,19 +51,7 @@ function RowMenuItems({
           Reset to default
         </Menu.Item>
       )}
-      {pinnable &&
-        (pinned ? (
-          <Menu.Item
-            leftSection={<IconPinnedOff size={14} />}
-            onClick={() => keepPins((pins) => withoutPin(pins, element, path))}
-          >
-            Unpin from Sliders
-          </Menu.Item>
-        ) : (
-          <Menu.Item leftSection={<IconPin size={14} />} onClick={() => pin(element, path)}>
-            Pin to Sliders
-          </Menu.Item>
-        ))}
+      {pinnable && <PinItem element={element} path={path} />}
       {linkable && driver !== undefined && (
         <Menu.Item leftSection={<IconLinkOff size={14} />} onClick={unlink}>
           Unlink from {driver.name}

@@ -8,6 +8,7 @@ import { axesOf, formAt, type Kinds } from "./leaf";
 import { symbolOf } from "./part";
 import { axesAt, type SliderRange, sliderRange } from "../numbers/sliderRange";
 import { unitText } from "../numbers/unit";
+import { useAxes } from "../place";
 
 export type ControlLook = {
   range: SliderRange;
@@ -20,7 +21,6 @@ export type ControlLook = {
 
 type Surroundings = { kinds: Kinds; axes: AxisView[]; timeUnit: string };
 
-const NO_AXES: AxisView[] = [];
 const UNDECLARED: ParameterForm = {
   name: "",
   form: "number",
@@ -62,8 +62,7 @@ export function lookOf(
 export function useLook(element: string, path: string, value: unknown): ControlLook | undefined {
   const found = useStudio((state) => state.elements.get(element));
   const kinds = useStudio((state) => state.kinds);
-  const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
-  const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
+  const { axes, timeUnit } = useAxes();
   return useMemo(
     () => lookOf({ kinds, axes, timeUnit }, found, path, value),
     [kinds, axes, timeUnit, found, path, value],
@@ -76,7 +75,7 @@ export function useDocumentParameterLook(documentParameter: DocumentParameterVie
   const driven = useLook(first?.element ?? "", first?.parameter ?? "", documentParameter?.value ?? null);
   const range = sliderRange(UNDECLARED, documentParameter?.value ?? null, {
     path: "",
-    axes: NO_AXES,
+    axes: [],
     own: false,
   });
   return { ...(driven ?? { range, unit: "", symbol: "", cost: "live", meaning: "" }), optional: false };

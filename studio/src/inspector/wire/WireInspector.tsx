@@ -1,7 +1,6 @@
 // A connection: its ends, its strength, what is on it, and what it reads.
 
 import { Button, UnstyledButton } from "@mantine/core";
-import type { ReactNode } from "react";
 
 import { isEditable } from "../../build/editable";
 import { openPalette } from "../../build/palette/palette";
@@ -10,6 +9,7 @@ import { labelOf } from "../../graph/boxes/label";
 import type { Chain } from "../../graph/wires/chains";
 import { RANGE, strengthOf, useStrength, wireText } from "../../graph/wires/strength";
 import { useStudio } from "../../store";
+import { PlainRow } from "../PlainRow";
 import { NumberControl } from "../numbers/NumberControl";
 import type { Setting } from "../parameters/setting";
 
@@ -43,12 +43,12 @@ export function WireInspector({ wire, chain }: { wire: string; chain: Chain }) {
         <span className="kind-title">Connection, {does}</span>
       </header>
       <section className="parameters" aria-label="Connection">
-        <Line name="from">
+        <PlainRow name="from">
           <ElementLink id={source} port={several(elements.get(source)?.outputs, source_port)} />
-        </Line>
-        <Line name="to">
+        </PlainRow>
+        <PlainRow name="to">
           <ElementLink id={target} port={several(elements.get(target)?.inputs, target_port)} />
-        </Line>
+        </PlainRow>
         {hasStrength && (
           <div className="row" role="group" aria-label="strength">
             <div className="row-label">strength</div>
@@ -65,11 +65,11 @@ export function WireInspector({ wire, chain }: { wire: string; chain: Chain }) {
           </div>
         )}
         {others.map((id) => (
-          <Line key={id} name={couplingOf(elements.get(id)?.kernel)}>
+          <PlainRow key={id} name={couplingOf(elements.get(id)?.kernel)}>
             <ElementLink id={id} port="" />
-          </Line>
+          </PlainRow>
         ))}
-        {reads !== "" && <Line name="reads">{READS[reads] ?? reads}</Line>}
+        {reads !== "" && <PlainRow name="reads">{READS[reads] ?? reads}</PlainRow>}
       </section>
       <Button size="compact-xs" variant="default" disabled={!useStudio(isEditable)} onClick={insert}>
         Insert an element
@@ -79,15 +79,6 @@ export function WireInspector({ wire, chain }: { wire: string; chain: Chain }) {
 }
 
 const couplingOf = (isKernel: boolean | undefined): string => (isKernel === true ? "kernel" : "through");
-
-function Line({ name, children }: { name: string; children: ReactNode }) {
-  return (
-    <div className="row row-inline">
-      <div className="row-label">{name}</div>
-      <div className="row-control">{children}</div>
-    </div>
-  );
-}
 
 function ElementLink({ id, port }: { id: string; port: string }) {
   const label = useStudio(({ elements, kinds }) => {

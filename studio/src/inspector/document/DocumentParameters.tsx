@@ -1,24 +1,45 @@
-// One document parameter: its value and its links.
+// Document parameters: numbers with a name that drive parameters of elements.
 
 import { ActionIcon, Menu, UnstyledButton } from "@mantine/core";
-import { IconLink, IconLinkOff, IconPin, IconPinnedOff, IconTrash } from "@tabler/icons-react";
+import { IconLink, IconLinkOff, IconTrash } from "@tabler/icons-react";
 import { useState } from "react";
 
-import { isAt, keepPins, pin, pinsOf, withoutPin } from "../../pins/pin";
 import type { DocumentParameterView, LinkView } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
+import { AddButton } from "../../widgets/AddButton";
 import { DotsMenu } from "../../widgets/DotsMenu";
 import { DocumentParameterAdding } from "./DocumentParameterAdding";
 import { useDocumentParameterLook } from "../parameters/controlLook";
+import { PinItem } from "../parameters/PinItem";
 import { NumberControl } from "../numbers/NumberControl";
 import { useSetting } from "../parameters/setting";
 
-export function DocumentParameterItem({ documentParameter }: { documentParameter: DocumentParameterView }) {
-  const { name, value, links } = documentParameter;
-  const pinned = useStudio((state) => pinsOf(state.document?.layout).some((pin) => isAt(pin, "", name)));
+export function DocumentParameters({ parameters }: { parameters: DocumentParameterView[] }) {
+  const [adding, setAdding] = useState(false);
+  return (
+    <section className="parameters" aria-label="Document parameters">
+      <h3>
+        Document parameters
+        <AddButton aria-label="Add a document parameter" onClick={() => setAdding(true)} />
+      </h3>
+      {adding && <DocumentParameterAdding onDone={() => setAdding(false)} />}
+      {parameters.map((parameter) => (
+        <Item key={parameter.name} parameter={parameter} />
+      ))}
+      {parameters.length === 0 && !adding && (
+        <p className="dim hint">
+          None. One document parameter can drive parameters of several elements together.
+        </p>
+      )}
+    </section>
+  );
+}
+
+function Item({ parameter }: { parameter: DocumentParameterView }) {
+  const { name, value, links } = parameter;
   const [linking, setLinking] = useState(false);
-  const look = useDocumentParameterLook(documentParameter);
+  const look = useDocumentParameterLook(parameter);
   const setting = useSetting<number | null>("", name, value, look.cost);
   return (
     <div className="row" data-document-parameter={name}>
@@ -29,18 +50,7 @@ export function DocumentParameterItem({ documentParameter }: { documentParameter
       </div>
       <div className="row-tools">
         <DotsMenu label={`More for ${name}`}>
-          {pinned ? (
-            <Menu.Item
-              leftSection={<IconPinnedOff size={14} />}
-              onClick={() => keepPins((pins) => withoutPin(pins, "", name))}
-            >
-              Unpin from Sliders
-            </Menu.Item>
-          ) : (
-            <Menu.Item leftSection={<IconPin size={14} />} onClick={() => pin("", name)}>
-              Pin to Sliders
-            </Menu.Item>
-          )}
+          <PinItem element="" path={name} />
           <Menu.Item leftSection={<IconLink size={14} />} onClick={() => setLinking(true)}>
             Drive another parameter…
           </Menu.Item>

@@ -1,8 +1,0 @@
-// A number.
-
-import { NumberRow } from "./NumberRow";
-import type { FormProps } from "./props";
-
-export function NumberForm({ form, path, value }: FormProps) {
-  return <NumberRow form={form} path={path} value={typeof value === "number" ? value : null} />;
-}
