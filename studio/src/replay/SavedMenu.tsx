@@ -1,18 +1,8 @@
 // Snapshots of the run to return to, and presets: values of all parameters. Both are files below the root.
 
-import {
-  ActionIcon,
-  Button,
-  CloseButton,
-  Group,
-  Popover,
-  Stack,
-  TextInput,
-  Tooltip,
-  VisuallyHidden,
-} from "@mantine/core";
+import { ActionIcon, Button, CloseButton, Group, Stack, TextInput, VisuallyHidden } from "@mantine/core";
 import { IconBookmark } from "@tabler/icons-react";
-import { type FormEvent, useState } from "react";
+import { type FormEvent, type ReactNode, useState } from "react";
 
 import { applyPreset } from "../files/presets";
 import { KeptPresets } from "../pins/KeptPresets";
@@ -20,41 +10,28 @@ import { whenText } from "../files/when";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { timeText } from "../transport/format";
+import { ButtonPopover } from "../widgets/ButtonPopover";
 import { stop } from "./replay";
 import classes from "./SavedMenu.module.css";
 
 export function SavedMenu() {
-  const [opened, setOpened] = useState(false);
-  const toggle = () => {
-    setOpened(!opened);
-    if (!opened) {
-      void request({ type: "list_saved" });
-    }
-  };
   return (
-    <Popover
-      opened={opened}
-      onChange={setOpened}
+    <ButtonPopover
+      tip="Snapshots and presets"
+      width={360}
       position="bottom-end"
-      withArrow
-      shadow="md"
-      trapFocus
-      returnFocus
+      button={(toggle) => (
+        <ActionIcon size={24} aria-label="Snapshots and presets" onClick={toggle}>
+          <IconBookmark size={16} />
+        </ActionIcon>
+      )}
+      onOpen={() => void request({ type: "list_saved" })}
     >
-      <Popover.Target>
-        <Tooltip label="Snapshots and presets" disabled={opened}>
-          <ActionIcon size={24} aria-label="Snapshots and presets" onClick={toggle}>
-            <IconBookmark size={16} />
-          </ActionIcon>
-        </Tooltip>
-      </Popover.Target>
-      <Popover.Dropdown p="md" w={360} maw="100vw">
-        <Stack gap="md">
-          <Snapshots />
-          <Presets />
-        </Stack>
-      </Popover.Dropdown>
-    </Popover>
+      <Stack gap="md">
+        <Snapshots />
+        <Presets />
+      </Stack>
+    </ButtonPopover>
   );
 }
 
@@ -68,98 +45,92 @@ function Snapshots() {
     void request({ type: "return_to", name });
   };
   return (
-    <section aria-label="Snapshots">
-      <h3 className={classes.title}>Snapshots</h3>
-      <p className={classes.hint}>The whole state of the run, with its parameters.</p>
-      <Naming
-        label="Name of the snapshot"
-        suggested={`at ${timeText(now, unit, dt)}`}
-        save="Save snapshot"
-        send={(name) => request({ type: "save_snapshot", name })}
-      />
-      {kept?.map(({ name, time, saved, size }) => (
+    <Section
+      sort="snapshot"
+      title="Snapshots"
+      hint="The whole state of the run, with its parameters."
+      suggested={`at ${timeText(now, unit, dt)}`}
+    >
+      {kept?.map(({ name, time, ...file }) => (
         <Row
           key={name}
           sort="snapshot"
           name={name}
-          about={`${timeText(time, unit, dt)}, ${sizeText(size)}, saved ${whenText(saved, new Date())}`}
+          about={`${timeText(time, unit, dt)}, ${aboutFile(file)}`}
           does="Return to"
           run={() => back(name)}
         />
       ))}
-    </section>
+    </Section>
   );
 }
 
 function Presets() {
   const kept = useStudio((state) => state.savedFiles?.presets);
   return (
-    <section aria-label="Presets">
-      <h3 className={classes.title}>Presets</h3>
-      <p className={classes.hint}>The values of all parameters; the state of the run stays.</p>
-      <Naming
-        label="Name of the preset"
-        suggested=""
-        save="Save preset"
-        send={(name) => request({ type: "save_preset", name })}
-      />
+    <Section
+      sort="preset"
+      title="Presets"
+      hint="The values of all parameters; the state of the run stays."
+      suggested=""
+    >
       <KeptPresets />
-      {kept?.map(({ name, path, saved, size }) => (
+      {kept?.map(({ name, path, ...file }) => (
         <Row
           key={name}
           sort="preset"
           name={name}
-          about={`${sizeText(size)}, saved ${whenText(saved, new Date())}`}
+          about={aboutFile(file)}
           does="Apply"
           run={() => void applyPreset(path)}
         />
       ))}
+    </Section>
+  );
+}
+
+type Sort = "snapshot" | "preset";
+type SectionProps = { sort: Sort; title: string; hint: string; suggested: string; children: ReactNode };
+
+// With a name for the next one above the list.
+function Section({ sort, title, hint, suggested, children }: SectionProps) {
+  const [typed, setTyped] = useState("");
+  const name = typed.trim() || suggested;
+  const submit = async (event: FormEvent) => {
+    event.preventDefault();
+    if (name !== "" && ((await request({ type: `save_${sort}`, name })).problems ?? []).length === 0) {
+      setTyped("");
+    }
+  };
+  return (
+    <section aria-label={title}>
+      <h3 className={classes.title}>{title}</h3>
+      <p className={classes.hint}>{hint}</p>
+      <form onSubmit={(event) => void submit(event)}>
+        <Group gap={6} wrap="nowrap" mb={6}>
+          <TextInput
+            size="xs"
+            flex={1}
+            aria-label={`Name of the ${sort}`}
+            placeholder={suggested || "Name"}
+            value={typed}
+            maxLength={80}
+            spellCheck={false}
+            onChange={(event) => setTyped(event.currentTarget.value)}
+          />
+          <Button size="xs" type="submit" variant="default" disabled={name === ""}>
+            Save {sort}
+          </Button>
+        </Group>
+      </form>
+      {children}
     </section>
   );
 }
 
-type Send = (name: string) => ReturnType<typeof request>;
-type NamingProps = { label: string; suggested: string; save: string; send: Send };
+type SavedProps = { sort: Sort; name: string; about: string; does: string; run: () => void };
 
-function Naming({ label, suggested, save, send }: NamingProps) {
-  const [name, setName] = useState("");
-  const submit = async (event: FormEvent) => {
-    event.preventDefault();
-    const wanted = name.trim() || suggested;
-    if (wanted !== "" && ((await send(wanted)).problems ?? []).length === 0) {
-      setName("");
-    }
-  };
-  return (
-    <form onSubmit={(event) => void submit(event)}>
-      <Group gap={6} wrap="nowrap" mb={6}>
-        <TextInput
-          size="xs"
-          flex={1}
-          aria-label={label}
-          placeholder={suggested || "Name"}
-          value={name}
-          maxLength={80}
-          spellCheck={false}
-          onChange={(event) => setName(event.currentTarget.value)}
-        />
-        <Button size="xs" type="submit" variant="default" disabled={(name.trim() || suggested) === ""}>
-          {save}
-        </Button>
-      </Group>
-    </form>
-  );
-}
-
-type KeptProps = {
-  sort: "snapshot" | "preset";
-  name: string;
-  about: string;
-  does: string;
-  run: () => void;
-};
-
-function Row({ sort, name, about, does, run }: KeptProps) {
+function Row({ sort, name, about, does, run }: SavedProps) {
   return (
     <div className={classes.row}>
       <button type="button" className={classes.choice} title={`${does} ${name}`} onClick={run}>
@@ -183,6 +154,8 @@ function Row({ sort, name, about, does, run }: KeptProps) {
   );
 }
 
-function sizeText(bytes: number): string {
-  return bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toPrecision(3)} MB`;
+function aboutFile({ size, saved }: { size: number; saved: string }): string {
+  const space =
+    size < 1e6 ? `${Math.max(1, Math.round(size / 1e3))} kB` : `${(size / 1e6).toPrecision(3)} MB`;
+  return `${space}, saved ${whenText(saved, new Date())}`;
 }

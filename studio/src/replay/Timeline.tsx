@@ -1,6 +1,6 @@
 // The slider over the moments that can be shown. It is always there, so that nothing moves when a run begins.
 
-import { ActionIcon, Button, Slider, Tooltip } from "@mantine/core";
+import { Button, Slider, Tooltip } from "@mantine/core";
 import {
   IconChevronLeft,
   IconChevronRight,
@@ -9,11 +9,12 @@ import {
   IconPlayerSkipBack,
   IconPlayerSkipForward,
 } from "@tabler/icons-react";
-import { type KeyboardEvent, type ReactNode, useEffect, useRef } from "react";
+import { type KeyboardEvent, useEffect, useRef } from "react";
 
 import { type Studio, useStudio } from "../store";
 import { countText, timeText } from "../transport/format";
 import { useThrottled } from "../transport/throttled";
+import { TipButton } from "../widgets/TipButton";
 import { thinnedShare } from "./playback";
 import {
   replay,
@@ -69,20 +70,15 @@ export function Timeline() {
       action();
     }
   };
-  const act = (label: string, icon: ReactNode, run: () => void, more = "") => (
-    <Tooltip label={label}>
-      <ActionIcon
-        aria-label={label.replace(/ \(.*/, "")}
-        size={24}
-        disabled={off}
-        onClick={run}
-        className={more}
-      >
-        {icon}
-      </ActionIcon>
-    </Tooltip>
-  );
-  const on = (direction: 1 | -1) => playing?.direction === direction;
+  const playButton = (direction: 1 | -1, tip: string) => {
+    const isOn = playing?.direction === direction;
+    const Icon = isOn ? IconPlayerPauseFilled : IconPlayerPlay;
+    return (
+      <TipButton tip={isOn ? "Stop replay" : tip} disabled={off} onClick={() => replay(direction)}>
+        <Icon size={ICON} className={isOn || direction === 1 ? "" : classes.back} />
+      </TipButton>
+    );
+  };
   return (
     <div
       className={classes.timeline}
@@ -91,24 +87,20 @@ export function Timeline() {
       data-past={(past && !record) || undefined}
     >
       <div className={classes.buttons}>
-        {act("First frame (Home)", <IconPlayerSkipBack size={ICON} />, seekFirst, classes.wide)}
-        {act(
-          on(-1) ? "Stop replay" : "Replay backward",
-          on(-1) ? (
-            <IconPlayerPauseFilled size={ICON} />
-          ) : (
-            <IconPlayerPlay size={ICON} className={classes.back} />
-          ),
-          () => replay(-1),
-        )}
-        {act("Previous frame (←)", <IconChevronLeft size={ICON + 2} />, () => seekFrames(-1))}
-        {act("Next frame (→)", <IconChevronRight size={ICON + 2} />, () => seekFrames(1))}
-        {act(
-          on(1) ? "Stop replay" : "Replay forward",
-          on(1) ? <IconPlayerPauseFilled size={ICON} /> : <IconPlayerPlay size={ICON} />,
-          () => replay(1),
-        )}
-        {act("Last frame (End)", <IconPlayerSkipForward size={ICON} />, seekLast, classes.wide)}
+        <TipButton tip="First frame (Home)" disabled={off} onClick={seekFirst} className={classes.wide}>
+          <IconPlayerSkipBack size={ICON} />
+        </TipButton>
+        {playButton(-1, "Replay backward")}
+        <TipButton tip="Previous frame (←)" disabled={off} onClick={() => seekFrames(-1)}>
+          <IconChevronLeft size={ICON + 2} />
+        </TipButton>
+        <TipButton tip="Next frame (→)" disabled={off} onClick={() => seekFrames(1)}>
+          <IconChevronRight size={ICON + 2} />
+        </TipButton>
+        {playButton(1, "Replay forward")}
+        <TipButton tip="Last frame (End)" disabled={off} onClick={seekLast} className={classes.wide}>
+          <IconPlayerSkipForward size={ICON} />
+        </TipButton>
         <ReplaySpeed disabled={off} />
       </div>
       <div className={classes.slider} onKeyDownCapture={key}>

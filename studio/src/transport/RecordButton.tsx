@@ -1,6 +1,5 @@
 // Records what is plotted or chosen into a new folder; a second press ends the record.
 
-import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconPlayerRecordFilled, IconPlayerStopFilled } from "@tabler/icons-react";
 import { useEffect, useRef } from "react";
 
@@ -8,6 +7,7 @@ import { leave } from "../files/flows";
 import { plottedPorts } from "../panels/openPlot";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { TipButton } from "../widgets/TipButton";
 import { RecordMenu } from "./RecordMenu";
 import { unitText } from "./format";
 import { choiceFor, useRecordChoice } from "./recordChoice";
@@ -28,19 +28,18 @@ export function RecordButton() {
     request(open ? { type: "stop_record" } : { type: "start_record", ports: ports ?? plottedPorts(), every });
   return (
     <>
-      <Tooltip label={label}>
-        <ActionIcon
-          aria-label={open ? "Stop recording" : "Record"}
-          aria-pressed={open}
-          size={28}
-          color="red"
-          variant={open ? "filled" : "subtle"}
-          className={classes.record}
-          onClick={() => void press()}
-        >
-          {open ? <IconPlayerStopFilled size={16} /> : <IconPlayerRecordFilled size={16} />}
-        </ActionIcon>
-      </Tooltip>
+      <TipButton
+        tip={label}
+        aria-label={open ? "Stop recording" : "Record"}
+        aria-pressed={open}
+        size={28}
+        color="red"
+        variant={open ? "filled" : "subtle"}
+        className={classes.record}
+        onClick={() => void press()}
+      >
+        {open ? <IconPlayerStopFilled size={16} /> : <IconPlayerRecordFilled size={16} />}
+      </TipButton>
       <RecordMenu disabled={open} />
     </>
   );

@@ -1,14 +1,14 @@
 // The choice of what the next record holds: ports to tick, the plotted ones at first, and how often they are
 // sampled.
 
-import { ActionIcon, Button, Checkbox, Popover, ScrollArea, TextInput, Tooltip } from "@mantine/core";
+import { ActionIcon, Button, Checkbox, ScrollArea, TextInput } from "@mantine/core";
 import { IconChevronDown } from "@tabler/icons-react";
 import { useState } from "react";
 
 import { plottedPorts } from "../panels/openPlot";
 import type { RecordedPort } from "../protocol";
 import { useStudio } from "../store";
-import { useAfterFields } from "../widgets/afterFields";
+import { ButtonPopover } from "../widgets/ButtonPopover";
 import { NumberField } from "../widgets/NumberField";
 import { countText, unitText } from "./format";
 import { choiceFor, findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
@@ -19,37 +19,25 @@ const MANY = 8;
 const MOST = 60;
 
 export function RecordMenu({ disabled }: { disabled: boolean }) {
-  const [opened, setOpened] = useState(false);
-  const afterFields = useAfterFields();
   return (
-    <Popover
-      opened={opened}
-      onChange={setOpened}
-      {...afterFields}
-      position="bottom"
-      withArrow
-      shadow="md"
-      trapFocus
-      returnFocus
+    <ButtonPopover
+      tip="Choose ports and interval of the record"
+      width={300}
+      button={(toggle) => (
+        <ActionIcon
+          aria-label="What to record"
+          size={28}
+          w={24}
+          miw={24}
+          disabled={disabled}
+          onClick={toggle}
+        >
+          <IconChevronDown size={13} />
+        </ActionIcon>
+      )}
     >
-      <Popover.Target>
-        <Tooltip label="Choose ports and interval of the record" disabled={opened}>
-          <ActionIcon
-            aria-label="What to record"
-            size={28}
-            w={24}
-            miw={24}
-            disabled={disabled}
-            onClick={() => setOpened(!opened)}
-          >
-            <IconChevronDown size={13} />
-          </ActionIcon>
-        </Tooltip>
-      </Popover.Target>
-      <Popover.Dropdown p="md" w={300}>
-        <Choice />
-      </Popover.Dropdown>
-    </Popover>
+      <Choice />
+    </ButtonPopover>
   );
 }
 

@@ -1,48 +1,36 @@
 // Rarely changed settings: the seed, the time step, how many steps at a time.
 
-import { ActionIcon, Button, Group, Popover, Stack, Tooltip } from "@mantine/core";
+import { ActionIcon, Button, Group, Stack } from "@mantine/core";
 import { IconAdjustmentsHorizontal, IconDice5 } from "@tabler/icons-react";
-import { useState } from "react";
 
 import { socket } from "../socket";
 import { useStudio } from "../store";
-import { useAfterFields } from "../widgets/afterFields";
+import { ButtonPopover } from "../widgets/ButtonPopover";
 import { NumberField } from "../widgets/NumberField";
+import { TipButton } from "../widgets/TipButton";
 import { unitText } from "./format";
 import { MOST_SEED, reset, rollSeed, useNext } from "./run";
 
 const MOST_STEPS = 1_000_000;
 
 export function RunMenu() {
-  const [opened, setOpened] = useState(false);
-  const afterFields = useAfterFields();
   return (
-    <Popover
-      opened={opened}
-      onChange={setOpened}
-      {...afterFields}
-      position="bottom"
-      withArrow
-      shadow="md"
-      trapFocus
-      returnFocus
+    <ButtonPopover
+      tip="Seed, time step, steps at a time"
+      width={340}
+      button={(toggle) => (
+        <ActionIcon aria-label="Run settings" size={28} onClick={toggle}>
+          <IconAdjustmentsHorizontal size={18} />
+        </ActionIcon>
+      )}
     >
-      <Popover.Target>
-        <Tooltip label="Seed, time step, steps at a time" disabled={opened}>
-          <ActionIcon aria-label="Run settings" size={28} onClick={() => setOpened(!opened)}>
-            <IconAdjustmentsHorizontal size={18} />
-          </ActionIcon>
-        </Tooltip>
-      </Popover.Target>
-      <Popover.Dropdown p="md" w={340}>
-        <Stack gap="sm">
-          <Seed />
-          <TimeStep />
-          <LongestStep />
-          <Steps />
-        </Stack>
-      </Popover.Dropdown>
-    </Popover>
+      <Stack gap="sm">
+        <Seed />
+        <TimeStep />
+        <LongestStep />
+        <Steps />
+      </Stack>
+    </ButtonPopover>
   );
 }
 
@@ -62,11 +50,9 @@ function Seed() {
         whole
         set={(value) => useNext.setState({ seed: value === used ? null : value })}
       />
-      <Tooltip label="New seed">
-        <ActionIcon variant="default" size={30} aria-label="New seed" onClick={rollSeed}>
-          <IconDice5 size={17} />
-        </ActionIcon>
-      </Tooltip>
+      <TipButton tip="New seed" variant="default" size={30} onClick={rollSeed}>
+        <IconDice5 size={17} />
+      </TipButton>
       <Button size="xs" variant={next === null ? "default" : "filled"} onClick={() => void reset()}>
         Reset
       </Button>

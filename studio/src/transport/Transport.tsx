@@ -1,6 +1,5 @@
 // The controls of the run: play, step, reset, speed, and where it is.
 
-import { ActionIcon, Tooltip } from "@mantine/core";
 import {
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
@@ -10,6 +9,7 @@ import {
 
 import { RecordBar } from "../replay/RecordBar";
 import { useStudio } from "../store";
+import { TipButton } from "../widgets/TipButton";
 import { Busy } from "./Busy";
 import { Readout } from "./Readout";
 import { RecordButton } from "./RecordButton";
@@ -34,31 +34,25 @@ function RunTransport() {
   const seed = useNext((state) => state.seed);
   const stepLabel = steps === 1 ? "Step" : `${countText(steps)} steps`;
   const withSeed = seed === null ? "" : `, with seed ${seed}`;
-  const resetLabel = `Reset: state, time and noise back to the start${withSeed}. Parameters stay. (Shift+R)`;
+  const resetTip = `Reset: state, time and noise back to the start${withSeed}. Parameters stay. (Shift+R)`;
   return (
     <div className={classes.transport} role="toolbar" aria-label="Run">
       <div className={classes.buttons}>
-        <Tooltip label={resetLabel}>
-          <ActionIcon aria-label="Reset" size={28} onClick={() => void reset()}>
-            <IconPlayerSkipBackFilled size={16} />
-          </ActionIcon>
-        </Tooltip>
-        <Tooltip label={running ? "Pause (Space)" : "Play (Space)"}>
-          <ActionIcon
-            aria-label={running ? "Pause" : "Play"}
-            variant="filled"
-            color="deodar"
-            size={32}
-            onClick={() => void play()}
-          >
-            {running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />}
-          </ActionIcon>
-        </Tooltip>
-        <Tooltip label={`${stepLabel} (.)`}>
-          <ActionIcon aria-label={stepLabel} size={28} onClick={() => void step()}>
-            <IconPlayerTrackNextFilled size={16} />
-          </ActionIcon>
-        </Tooltip>
+        <TipButton tip={resetTip} aria-label="Reset" size={28} onClick={() => void reset()}>
+          <IconPlayerSkipBackFilled size={16} />
+        </TipButton>
+        <TipButton
+          tip={running ? "Pause (Space)" : "Play (Space)"}
+          variant="filled"
+          color="deodar"
+          size={32}
+          onClick={() => void play()}
+        >
+          {running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />}
+        </TipButton>
+        <TipButton tip={`${stepLabel} (.)`} size={28} onClick={() => void step()}>
+          <IconPlayerTrackNextFilled size={16} />
+        </TipButton>
         <RecordButton />
       </div>
       <Readout />
