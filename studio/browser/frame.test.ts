@@ -1,13 +1,16 @@
 /** The frame of the page: tools, plots and other documents never move what a person works on. */
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
+import { TITLES } from "../src/panels/titles";
+import { STANDING, TOOLS } from "../src/panels/tools";
 import { panels, plot, selection } from "./bench/documents";
 import { box, button, choose, panel, reopen, select, settled, showView } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
-const TOOLS = ["Inspector", "Sliders", "Regime", "Notes", "Activity", "Costs", "Import report"];
-const VIEWS = ["World", "Experiment", "Architecture", "Elements"];
+const TOOL_TITLES = [...TOOLS.values()].map(({ title }) => title);
+const VIEWS = Object.values(TITLES);
+const isExtra = (title: string) => TOOL_TITLES.indexOf(title) >= STANDING.length;
 const KINDS = ["curve", "space_time", "course"] as const;
 const ten = {
   ...selection,
@@ -67,21 +70,21 @@ test.each([
   const before = await places();
   expect((await dock().boundingBox())?.width).toBe(wide);
   await expect.poll(() => edge().getAttribute("aria-valuenow")).toBe(String(wide));
-  for (const title of [...TOOLS, ...VIEWS]) {
+  for (const title of [...TOOL_TITLES, ...VIEWS]) {
     await open(title);
     await panel(page, title).waitFor();
     expect((await dock().boundingBox())?.width, title).toBe(wide);
     if (VIEWS.includes(title)) await showView(page, "Build");
     expect(await places(), title).toEqual(before);
-    if (TOOLS.indexOf(title) > 3) await close(title);
+    if (isExtra(title)) await close(title);
   }
   let seed = 7;
   for (let i = 0; i < 50; i++) {
     seed = (seed * 16807) % 2147483647;
-    const title = TOOLS[seed % TOOLS.length] ?? "";
+    const title = TOOL_TITLES[seed % TOOL_TITLES.length] ?? "";
     const tab = page.getByRole("tab", { name: title, exact: true });
     await ((await tab.count()) > 0 ? tab.click() : open(title));
-    if (TOOLS.indexOf(title) > 3 && seed % 2 === 0) await close(title);
+    if (isExtra(title) && seed % 2 === 0) await close(title);
   }
   expect(await places()).toEqual(before);
   await shot(page, `frame-${width}`);

@@ -1,6 +1,7 @@
 /** Every view of the studio opens and draws something, in one studio. */
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { TITLES } from "../src/panels/titles";
 import { TOOLS } from "../src/panels/tools";
 import { PLOTS } from "../src/plots/kinds/plots";
 import { SHOWN, writeArranged, writeEveryPlot } from "./everyPlot";
@@ -30,7 +31,8 @@ test("an example runs, and every panel opens", async () => {
   const { page } = studio;
   await openExample(page, "Selection");
   await page.getByRole("region", { name: "Curves of u" }).locator("canvas").first().waitFor();
-  for (const { title } of Object.values(TOOLS)) {
+  const tools = [...TOOLS.values()].map(({ title }) => title);
+  for (const title of [...tools, ...Object.values(TITLES)]) {
     await choose(page, "Open panels and plots", title);
     await expect.poll(() => panel(page, title).innerText(), { message: title }).not.toBe("");
   }

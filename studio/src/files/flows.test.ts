@@ -1,12 +1,12 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 
-import { openTool } from "../panels/openPlot";
+import { openTool } from "../state/tool";
 import type { DocumentView, ExperimentView, Folder, Kind, Welcome } from "../protocol";
 import { useStudio } from "../store";
 import { leave, open, save, saveAs, takeDropped, takeFile } from "./flows";
 import { fresh, notices, person, sent, server } from "./scripted";
 
-vi.mock("../panels/openPlot", () => ({ openTool: vi.fn() }));
+vi.mock("../state/tool", () => ({ openTool: vi.fn() }));
 
 const document: DocumentView = {
   file: "",

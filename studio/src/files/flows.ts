@@ -18,7 +18,7 @@ import type {
   Save,
   SaveExperiment,
 } from "../protocol";
-import { openTool } from "../panels/openPlot";
+import { openTool } from "../state/tool";
 import { request, socket } from "../socket";
 import { settleTiles } from "../state/tiles";
 import { useStudio } from "../store";

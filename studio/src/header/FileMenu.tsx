@@ -22,7 +22,7 @@ import { exportScript } from "../files/exportScript";
 import { leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";
 import { useView } from "../gallery/view";
-import { openTool } from "../panels/openPlot";
+import { openTool } from "../state/tool";
 import { keysText } from "../keys";
 import { MenuList } from "../widgets/MenuList";
 import classes from "./FileMenu.module.css";

@@ -6,60 +6,42 @@ import {
   type CSSProperties,
   type KeyboardEvent,
   type PointerEvent,
-  type ReactNode,
   useEffect,
   useRef,
   useState,
 } from "react";
 import { flushSync } from "react-dom";
-import { ActivityPanel } from "../activity/ActivityPanel";
-import { CostsPanel } from "../costs/CostsPanel";
-import { later } from "../connection/Later";
 import { NeedsServer } from "../connection/NeedsServer";
-import { Inspector } from "../inspector/Inspector";
-import { Pins } from "../pins/Pins";
 import { usePage } from "../state/page";
 import { changePerson, usePerson } from "../state/person";
-import { useStudio } from "../store";
+import { openTool } from "../state/tool";
 import classes from "./Dock.module.css";
-import { openTool } from "./openPlot";
 import { PanelMenu } from "./PanelMenu";
-import { FIRST_TOOL, isStanding, STANDING, TOOLS, type Tool } from "./tools";
+import { firstTool, isStanding, STANDING, TOOLS } from "./tools";
 
-// Loaded when it is first shown.
-const RegimePanel = later(async () => (await import("../regime/RegimePanel")).RegimePanel);
-const ReportPanel = later(async () => (await import("../report/ReportPanel")).ReportPanel);
-
-const CONTENT: Partial<Record<Tool, () => ReactNode>> = {
-  inspector: () => <Inspector />,
-  pins: () => <Pins />,
-  regime: () => <RegimePanel />,
-  notes: () => <Notes />,
-  activity: () => <ActivityPanel />,
-  costs: () => <CostsPanel />,
-  report: () => <ReportPanel />,
-};
 const WIDTH = { least: 280, most: 480, step: 10 };
 
 export function Dock() {
   const view = usePage((page) => page.view);
-  const extra = usePage((page) => page.extra) as Tool | null;
+  // One more shows a tool that was opened besides those that are always there.
+  const extra =
+    usePage((page) => page.opened.findLast((tool) => TOOLS.has(tool) && !isStanding(tool))) ?? null;
   const opened = usePage((page) => page.tabs[view]);
   const habit = usePerson((person) => person.tabs[view]);
-  const isOpen = (tool: unknown): tool is Tool => isStanding(tool) || (extra !== null && tool === extra);
-  const shown = [opened, habit].find(isOpen) ?? FIRST_TOOL[view];
+  const isOpen = (tool: string | undefined) => tool !== undefined && (isStanding(tool) || tool === extra);
+  const shown = [opened, habit].find(isOpen) ?? firstTool(view);
   const width = usePerson((person) => person.dock);
   const tabs = useRef<HTMLDivElement>(null);
   // A tool that another one hides keeps what was typed and scrolled in it.
-  const [visited, setVisited] = useState<readonly Tool[]>([]);
+  const [visited, setVisited] = useState<readonly string[]>([]);
   if (!visited.includes(shown)) {
     setVisited([...visited, shown]);
   }
 
   // What does not fit beside the others is in the menu.
-  const last = extra === null || shown === "notes" ? "notes" : extra;
-  const tools = [...STANDING.slice(0, -1), last];
-  const choose = (tool: Tool) => {
+  const last = STANDING.at(-1) ?? "";
+  const tools = [...STANDING.slice(0, -1), extra === null || shown === last ? last : extra];
+  const choose = (tool: string) => {
     openTool(tool);
     if (isStanding(tool)) {
       changePerson({ tabs: { ...usePerson.getState().tabs, [view]: tool } });
@@ -67,12 +49,12 @@ export function Dock() {
   };
   const close = () => {
     flushSync(() => {
-      usePage.setState({ extra: null });
+      usePage.setState({ opened: [] });
       setVisited(visited.filter((tool) => tool !== extra));
     });
     tabs.current?.querySelector<HTMLElement>('[aria-selected="true"]')?.focus();
   };
-  const key = (event: KeyboardEvent, tool: Tool) => {
+  const key = (event: KeyboardEvent, tool: string) => {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key] ?? 0;
     const next = tools[(tools.indexOf(tool) + step + tools.length) % tools.length];
     if (step !== 0 && next !== undefined) {
@@ -103,7 +85,7 @@ export function Dock() {
               onClick={() => choose(tool)}
               onKeyDown={(event) => key(event, tool)}
             >
-              <span className="one-line">{TOOLS[tool].title}</span>
+              <span className="one-line">{TOOLS.get(tool)?.title}</span>
               {/* A tab may not contain a button: screen readers do not reach it. */}
               {tool === extra && (
                 <span
@@ -123,13 +105,16 @@ export function Dock() {
         </div>
         <PanelMenu />
       </div>
-      {visited.map((tool) => (
-        <Activity key={tool} mode={tool === shown ? "visible" : "hidden"}>
-          <div className={classes.tool} id={`tool-${tool}`} role="tabpanel" aria-label={TOOLS[tool].title}>
-            <NeedsServer>{CONTENT[tool]?.()}</NeedsServer>
-          </div>
-        </Activity>
-      ))}
+      {visited.map((tool) => {
+        const { title, component: Content } = TOOLS.get(tool) ?? {};
+        return (
+          <Activity key={tool} mode={tool === shown ? "visible" : "hidden"}>
+            <div className={classes.tool} id={`tool-${tool}`} role="tabpanel" aria-label={title}>
+              <NeedsServer>{Content !== undefined && <Content />}</NeedsServer>
+            </div>
+          </Activity>
+        );
+      })}
     </aside>
   );
 }
@@ -179,19 +164,5 @@ function Edge() {
       onDoubleClick={() => changePerson({ dock: 0 })}
       onKeyDown={key}
     />
-  );
-}
-
-// The notes of the document to read. They are changed in the inspector.
-function Notes() {
-  const notes = useStudio((state) => state.document?.notes ?? "");
-  return (
-    <div className={classes.notes} role="document" aria-label="Notes of the document" tabIndex={0}>
-      {notes === "" ? (
-        <p>This document has no notes. Write them in the inspector, with no element selected.</p>
-      ) : (
-        notes
-      )}
-    </div>
   );
 }

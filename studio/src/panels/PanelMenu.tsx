@@ -1,13 +1,29 @@
-// The menu of all tools, which adds plots too.
+// The menu of all tools and of what the views have besides plots, which adds plots too.
 
 import { ActionIcon, Menu, ScrollArea } from "@mantine/core";
 import { IconChartLine, IconPlus } from "@tabler/icons-react";
 import { useState } from "react";
+import { showView } from "../state/page";
+import { changePerson } from "../state/person";
+import { openTool } from "../state/tool";
 import { useStudio } from "../store";
 import { openInThisView, restoreFrame } from "./author";
-import { openPlot, openTool } from "./openPlot";
-import { TOOL_NAMES, TOOLS } from "./tools";
+import { openPlot } from "./openPlot";
+import { TITLES } from "./titles";
+import { TOOLS } from "./tools";
 
+const PARTS = [
+  { title: TITLES.graph, open: () => showView("build") },
+  {
+    title: TITLES.palette,
+    open: () => {
+      showView("build");
+      changePerson({ palette: true });
+    },
+  },
+  { title: TITLES.experiment, open: () => showView("experiment") },
+  { title: TITLES.world, open: () => showView("robot") },
+];
 const MOST = 60;
 
 /** What contains a search is no menu, which Mantine makes of it: the menu is the list below the search. */
@@ -21,7 +37,11 @@ export function PanelMenu() {
   const elements = useStudio((state) => state.document?.elements);
   const edited = useStudio((state) => state.document?.record == null);
   const wanted = search.trim().toLowerCase();
-  const tools = TOOL_NAMES.filter((tool) => TOOLS[tool].title.toLowerCase().includes(wanted));
+  const panels = [
+    ...[...TOOLS].map(([name, { title }]) => ({ title, open: () => openTool(name) })),
+    ...PARTS,
+  ];
+  const tools = panels.filter(({ title }) => title.toLowerCase().includes(wanted));
   const found = (elements ?? []).filter((element) => element.path.toLowerCase().includes(wanted));
   return (
     <Menu position="bottom-end" width={280} shadow="md" onClose={() => setSearch("")}>
@@ -39,9 +59,9 @@ export function PanelMenu() {
           onChange={(event) => setSearch(event.currentTarget.value)}
         />
         <div role="menu" aria-label="Panels and plots">
-          {tools.map((tool) => (
-            <Menu.Item key={tool} onClick={() => openTool(tool)}>
-              {TOOLS[tool].title}
+          {tools.map(({ title, open }) => (
+            <Menu.Item key={title} onClick={open}>
+              {title}
             </Menu.Item>
           ))}
           {tools.length > 0 && <Menu.Divider />}

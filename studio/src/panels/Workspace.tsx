@@ -16,7 +16,7 @@ import { Dock } from "./Dock";
 import { firstTiles, tilesOf } from "./firstTiles";
 import classes from "./Workspace.module.css";
 import { TileGrid } from "./TileGrid";
-import { TOOLS } from "./tools";
+import { TITLES } from "./titles";
 
 // What a page does not need at first is loaded when it is first shown.
 const Experiment = later(async () => (await import("../experiment/Experiment")).Experiment);
@@ -52,7 +52,7 @@ function Body() {
   return (
     <main className={classes.frame} data-view={view}>
       {view === "build" && (
-        <Part title={TOOLS.palette.title} className={classes.palette}>
+        <Part title={TITLES.palette} className={classes.palette}>
           <NeedsServer>
             <PalettePanel />
           </NeedsServer>
@@ -60,19 +60,19 @@ function Body() {
       )}
       <div className={classes.centre} data-tiled={tiled || undefined}>
         {(built || view === "build") && (
-          <Part title={TOOLS.graph.title} className={classes.stage} hidden={view !== "build"}>
+          <Part title={TITLES.graph} className={classes.stage} hidden={view !== "build"}>
             <Graph />
           </Part>
         )}
         {view === "experiment" && (
-          <Part title={TOOLS.experiment.title} className={classes.stage}>
+          <Part title={TITLES.experiment} className={classes.stage}>
             <NeedsServer>
               <Experiment />
             </NeedsServer>
           </Part>
         )}
         {view === "robot" && (
-          <Part title={TOOLS.world.title} className={classes.stage}>
+          <Part title={TITLES.world} className={classes.stage}>
             <NeedsServer>
               <World />
             </NeedsServer>

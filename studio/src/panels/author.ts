@@ -13,11 +13,11 @@ export function viewOfAuthor(layout: Record<string, unknown>): View | null {
 
 // Show views, tools and plots as the document was opened first.
 export function restoreFrame(): void {
-  const { tabs, extra } = emptyPage(0);
+  const { tabs, opened } = emptyPage(0);
   const { document } = useStudio.getState();
   const { [document?.file ?? ""]: _, ...views } = usePerson.getState().views;
   changePerson({ ...STANDARD, views });
-  usePage.setState({ tabs, extra });
+  usePage.setState({ tabs, opened });
   showView(viewOfAuthor(document?.layout ?? {}) ?? "build");
   restoreTiles();
 }

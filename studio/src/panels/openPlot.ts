@@ -1,15 +1,13 @@
-// Opening plots and tools from anywhere.
+// Opening plots from anywhere.
 
 import { mainPort, type PlotKind, portAxes, portsOf } from "../model/ports";
 import { plotKinds } from "../plots/kinds/plots";
 import { readSettings } from "../plots/settings";
 import { shownPorts } from "../plots/shownPorts";
 import type { RecordedPort } from "../protocol";
-import { showView, usePage, type View } from "../state/page";
-import { changePerson } from "../state/person";
+import { showView, usePage } from "../state/page";
 import { addTile, tilesIn, useTiles } from "../state/tiles";
 import { useStudio } from "../store";
-import { isStanding, TOOLS, type Tool } from "./tools";
 
 export type PlotWish = { element: string; kind?: PlotKind; port?: string };
 
@@ -53,24 +51,6 @@ export function plottedPorts(): RecordedPort[] {
   }
   return [...ports.values()];
 }
-
-// Show a tool: in the dock, or the view whose centre it is.
-export function openTool(tool: Tool): void {
-  const { view } = TOOLS[tool];
-  if (view !== undefined) {
-    showView(view);
-    if (tool === "palette") {
-      changePerson({ palette: true });
-    }
-    return;
-  }
-  usePage.setState((page) => ({
-    tabs: { ...page.tabs, [page.view]: tool },
-    extra: isStanding(tool) ? page.extra : tool,
-  }));
-}
-
-export const isInView = (view: View): boolean => usePage.getState().view === view;
 
 type Plot = { element: string; kind: PlotKind; port: string };
 

@@ -2,8 +2,7 @@
 // opened.
 
 import { getStage } from "../build/stage";
-import { usePage } from "../state/page";
-import { isInView, openTool } from "./openPlot";
+import { showView, usePage } from "../state/page";
 
 // An element by its id, or a group by its key on the canvas.
 export type CanvasGoal = { element: string } | { group: string };
@@ -18,12 +17,12 @@ export function showGoal(goal: CanvasGoal): void {
 
 // Do something on the canvas, in the view that has it; the tool in the dock stays.
 export function onCanvas(run: () => unknown): void {
-  if (isInView("build")) {
+  if (usePage.getState().view === "build") {
     run();
     return;
   }
   usePage.setState(({ view, tabs }) => ({ tabs: { ...tabs, build: tabs[view] ?? tabs.build } }));
-  openTool("graph");
+  showView("build");
   whenStill(run, FRAMES, "", 0);
 }
 

@@ -1,45 +1,23 @@
-// The tools of the page: their titles, and the views in whose centre some of them are; the others are tabs of
-// the dock.
+// The tools of the dock: each file `NAME.tool.tsx` of the page declares one.
 
 import type { View } from "../state/page";
+import type { DockTool } from "../state/tool";
 
-export type Tool =
-  | "inspector"
-  | "pins"
-  | "regime"
-  | "notes"
-  | "activity"
-  | "costs"
-  | "report"
-  | "graph"
-  | "palette"
-  | "experiment"
-  | "world";
+const FILES = import.meta.glob<DockTool>("../**/*.tool.tsx", { eager: true, import: "tool" });
 
-export const TOOLS: Record<Tool, { title: string; view?: View }> = {
-  inspector: { title: "Inspector" },
-  pins: { title: "Sliders" },
-  regime: { title: "Regime" },
-  notes: { title: "Notes" },
-  activity: { title: "Activity" },
-  costs: { title: "Costs" },
-  report: { title: "Import report" },
-  graph: { title: "Architecture", view: "build" },
-  palette: { title: "Elements", view: "build" },
-  experiment: { title: "Experiment", view: "experiment" },
-  world: { title: "World", view: "robot" },
-};
+// By name; first those that the dock always has, in the order of their tabs, then by title.
+export const TOOLS: ReadonlyMap<string, DockTool> = new Map(
+  Object.entries(FILES)
+    .map(([file, tool]) => [file.replace(/^.*\/|\.tool\.tsx$/g, ""), tool] as const)
+    .sort(
+      ([, a], [, b]) => (a.tab ?? Infinity) - (b.tab ?? Infinity) || a.title.localeCompare(b.title, "en"),
+    ),
+);
 
-export const TOOL_NAMES = Object.keys(TOOLS) as Tool[];
+export const STANDING = [...TOOLS].flatMap(([name, { tab }]) => (tab === undefined ? [] : [name]));
 
-// The tabs that the dock always has; one more shows a tool that was opened besides.
-export const STANDING: readonly Tool[] = ["inspector", "pins", "regime", "notes"];
+export const isStanding = (name: string): boolean => STANDING.includes(name);
 
-export const FIRST_TOOL: Record<View, Tool> = {
-  build: "inspector",
-  run: "pins",
-  experiment: "inspector",
-  robot: "pins",
-};
-
-export const isStanding = (value: unknown): value is Tool => STANDING.includes(value as Tool);
+// The tool that a view shows first.
+export const firstTool = (view: View): string =>
+  [...TOOLS].find(([, { firstIn }]) => firstIn?.includes(view))?.[0] ?? "";

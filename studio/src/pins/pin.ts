@@ -1,6 +1,6 @@
 // Pinned parameters: the rows of the panel of sliders, as they are kept in the document's layout.
 
-import { openTool } from "../panels/openPlot";
+import { openTool } from "../state/tool";
 import type { DocumentView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";

@@ -3,7 +3,7 @@
 import { Button } from "@mantine/core";
 import { IconFileImport } from "@tabler/icons-react";
 
-import { openTool } from "../panels/openPlot";
+import { openTool } from "../state/tool";
 import { useStudio } from "../store";
 import { countOf, lossesText } from "./reportItems";
 

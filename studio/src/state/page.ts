@@ -14,8 +14,8 @@ export type PageState = Readonly<{
   chosen: boolean;
   // The tool that the dock shows in each view; without one, what the person used last there.
   tabs: Readonly<Partial<Record<View, string>>>;
-  // The tool that was opened beside those that the dock always has.
-  extra: string | null;
+  // The tools that were opened in any view, the newest last.
+  opened: readonly string[];
   // The key of the tile that covers the centre.
   enlarged: number | null;
 }>;
@@ -25,7 +25,7 @@ export const emptyPage = (session: number, view: View = "build"): PageState => (
   view,
   chosen: false,
   tabs: {},
-  extra: null,
+  opened: [],
   enlarged: null,
 });
 

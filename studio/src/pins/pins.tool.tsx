@@ -1,4 +1,4 @@
-// The panel of sliders: parameters of any element and document parameters, side by side, kept with the
+// The tool of sliders: parameters of any element and document parameters, side by side, kept with the
 // document.
 
 import "../inspector/inspector.css";
@@ -9,13 +9,16 @@ import { useState } from "react";
 
 import { AddButton } from "../widgets/AddButton";
 import { moved } from "../inspector/parameters/part";
+import type { DockTool } from "../state/tool";
 import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import { KeptPresets } from "./KeptPresets";
 import { PinRow } from "./PinRow";
 import { isAt, keepPins, pinsOf, withPin } from "./pin";
 
-export function Pins() {
+export const tool: DockTool = { title: "Sliders", tab: 2, firstIn: ["run", "robot"], component: Pins };
+
+function Pins() {
   const pins = useStudio((state) => pinsOf(state.document?.layout));
   const open = useStudio((state) => state.document !== null);
   const record = useStudio((state) => state.document?.record != null);

@@ -5,13 +5,21 @@ import "./inspector.css";
 
 import { usePicked } from "../build/picked";
 import { useFocus } from "../graph/focus";
+import type { DockTool } from "../state/tool";
 import { useStudio } from "../store";
 import { DocumentInspector } from "./document/DocumentInspector";
 import { ElementInspector } from "./element/ElementInspector";
 import { ManyInspector } from "./element/ManyInspector";
 import { WireInspector } from "./wire/WireInspector";
 
-export function Inspector() {
+export const tool: DockTool = {
+  title: "Inspector",
+  tab: 1,
+  firstIn: ["build", "experiment"],
+  component: Inspector,
+};
+
+function Inspector() {
   const selected = useStudio((state) => state.selected);
   const open = useStudio((state) => state.document !== null);
   const record = useStudio((state) => state.document?.record != null);

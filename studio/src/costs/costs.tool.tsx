@@ -1,4 +1,4 @@
-// The panel of costs: the time of each element in a step, measured on request.
+// The tool of costs: the time of each element in a step, measured on request.
 
 import "./costs.css";
 
@@ -7,10 +7,13 @@ import { IconStopwatch } from "@tabler/icons-react";
 
 import { ProblemText } from "../problems/ProblemText";
 import { request } from "../socket";
+import type { DockTool } from "../state/tool";
 import { useStudio } from "../store";
 import { type CostRow, costRows, microsecondsText, sumOf } from "./costRows";
 
-export function CostsPanel() {
+export const tool: DockTool = { title: "Costs", component: CostsPanel };
+
+function CostsPanel() {
   const costs = useStudio((state) => state.costs);
   const elements = useStudio((state) => state.elements);
   const measuring = costs?.measuring ?? false;

@@ -13,6 +13,7 @@ import { showGoal } from "../panels/showGoal";
 import { useLevels } from "../plots/useLevels";
 import { useStreams } from "../plots/useStreams";
 import type { ElementView } from "../protocol";
+import type { DockTool } from "../state/tool";
 import { type Studio, useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { unitText } from "../transport/format";
@@ -22,7 +23,9 @@ import { COLUMNS, STRIP_COLORS, STRIP_RANGE, STRIP_TIME, stripOf } from "./strip
 
 const PORT = "activation";
 
-export function ActivityPanel() {
+export const tool: DockTool = { title: "Activity", component: ActivityPanel };
+
+function ActivityPanel() {
   const structure = useStructure();
   const kinds = useStudio((state) => state.kinds);
   const unit = useStudio((state) => state.document?.time_unit ?? "");
