@@ -8,13 +8,12 @@ import { Dialogs } from "./dialogs/Dialogs";
 import { DropArea } from "./files/DropArea";
 import { GalleryPage } from "./gallery/GalleryPage";
 import { Header } from "./header/Header";
-import { LostBanner } from "./connection/LostBanner";
 import { NeedsServer } from "./connection/NeedsServer";
 import { Notices } from "./problems/Notices";
 import { ProblemsPage } from "./problems/ProblemsPage";
-import { RecoveryBar } from "./files/RecoveryBar";
-import { Splash } from "./connection/Splash";
-import { useView } from "./gallery/view";
+import { RecoveryBar } from "./gallery/RecoveryCard";
+import { LostBanner, Splash } from "./connection/Splash";
+import { usePage } from "./state/page";
 import { ComparisonBar } from "./replay/ComparisonBar";
 import { RecordNotes } from "./replay/RecordNotes";
 import { forgetMoment } from "./replay/replay";
@@ -49,7 +48,7 @@ function Page() {
   const ready = useStudio((state) => state.welcome !== null);
   const fileProblems = useStudio((state) => state.fileProblems);
   const open = useStudio((state) => state.document !== null);
-  const gallery = useView((view) => view.gallery);
+  const gallery = usePage((page) => page.gallery);
   if (!ready) {
     return <Splash />;
   }
@@ -102,7 +101,7 @@ function useAskBeforeLeaving(): void {
 function useFreshStart(): void {
   const session = useStudio((state) => state.session);
   useEffect(() => {
-    useView.setState({ gallery: false });
+    usePage.setState({ gallery: false });
     return forgetMoment;
   }, [session]);
 }

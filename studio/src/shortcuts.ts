@@ -14,10 +14,10 @@ import { getStage, isOnCanvas } from "./build/stage";
 import { ask, useDialogs } from "./dialogs/questions";
 import * as experiment from "./experiment/actions";
 import { open, save, saveAs } from "./files/flows";
-import { useView } from "./gallery/view";
 import { isPressed, isTyping, type Press, type Shortcut } from "./keys";
 import { isPast, seekFirst, seekFrames, seekLast } from "./replay/replay";
 import { request } from "./socket";
+import { usePage } from "./state/page";
 import { undo } from "./state/undo";
 import { useStudio } from "./store";
 import { play, reset, step } from "./transport/run";
@@ -133,7 +133,7 @@ function onKey(event: KeyboardEvent, focusSeen: boolean): void {
   }
   event.preventDefault();
   const { document, fileProblems } = useStudio.getState();
-  const shown = document !== null && fileProblems === null && !useView.getState().gallery;
+  const shown = document !== null && fileProblems === null && !usePage.getState().gallery;
   const ready = shown || shortcut.always === true;
   if (!ready || useDialogs.getState().asked !== null || (event.repeat && shortcut.repeats !== true)) {
     return;

@@ -62,7 +62,7 @@ export const theme = createTheme({
     },
     ActionIcon: { defaultProps: { variant: "subtle", color: "gray" } },
     // the placeholder for the first focus is no entry, and a menu may contain only entries
-    Menu: { defaultProps: { withInitialFocusPlaceholder: false } },
+    Menu: { defaultProps: { withInitialFocusPlaceholder: false, shadow: "md" } },
   },
 });
 

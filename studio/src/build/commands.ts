@@ -1,6 +1,6 @@
 // All commands, elements and kinds in one list (Ctrl+K), and those for the selection at a right click.
 
-import { exportScript } from "../files/exportScript";
+import { exportScript } from "../files/flows";
 import type { Point } from "../graph/layout/rects";
 import { keysText } from "../keys";
 import { onCanvas, showGoal } from "../panels/showGoal";
@@ -34,16 +34,9 @@ const WITHOUT_KEYS: ListEntry[] = [
 ];
 
 export function openCommands(shortcuts: readonly Shortcut[]): void {
-  const { document, kinds, offered } = useStudio.getState();
+  const { kinds, offered } = useStudio.getState();
   const at = getPointer();
   const add: Add = (kind, values, name) => addElement(kind.name, spotFor(kind, at), { values, name });
-  const elements = (document?.elements ?? []).map(({ id, path, kind }) => ({
-    id: `element ${id}`,
-    family: "Go to",
-    title: path,
-    note: kinds.get(kind)?.title ?? kind,
-    run: () => showGoal({ element: id }),
-  }));
   const added = isEditable()
     ? [
         ...kindEntries(kinds, selectedOne(), add),
@@ -59,7 +52,7 @@ export function openCommands(shortcuts: readonly Shortcut[]): void {
       ...commandEntries(shortcuts),
       ...WITHOUT_KEYS,
       ...alignmentEntries(),
-      ...elements,
+      ...elementEntries(),
       ...added.map((entry) => ({
         ...entry,
         family: `Add: ${entry.family.toLowerCase()}`,
@@ -68,6 +61,29 @@ export function openCommands(shortcuts: readonly Shortcut[]): void {
     ],
     empty: "Nothing matches",
   });
+}
+
+// The elements alone, in the order of their paths.
+export function openSearch(): void {
+  useChooser.getState().open({
+    label: "Search for an element",
+    placeholder: "Name, path or kind",
+    at: null,
+    entries: elementEntries().sort((a, b) => a.title.localeCompare(b.title)),
+    empty: "No element matches",
+  });
+}
+
+function elementEntries(): ListEntry[] {
+  const { document, kinds } = useStudio.getState();
+  return (document?.elements ?? []).map(({ id, path, kind }) => ({
+    id: `element ${id}`,
+    family: "Go to",
+    title: path,
+    note: kinds.get(kind)?.title ?? kind,
+    words: kind,
+    run: () => showGoal({ element: id }),
+  }));
 }
 
 // What can be done with the selection.

@@ -1,9 +1,9 @@
 // A part of the page whose code is loaded when it is first shown. Where that fails, it says so in its place.
 
-import { Button } from "@mantine/core";
 import { Component, type ComponentType, lazy, type ReactNode, Suspense, useState } from "react";
 
-import classes from "./Later.module.css";
+import { PanelButton } from "../widgets/Buttons";
+import classes from "./connection.module.css";
 
 class NotLoaded extends Error {
   override message =
@@ -65,15 +65,13 @@ class Boundary extends Component<{ again: () => void; children: ReactNode }, { f
       this.props.again();
     };
     return (
-      <div className={classes.failed} role="alert">
+      <div className={`wrapped ${classes.failed}`} role="alert">
         <p>
           {failure instanceof NotLoaded
             ? failure.message
             : `This part of the page failed: ${String(failure)}`}
         </p>
-        <Button size="compact-xs" variant="default" onClick={again}>
-          Try again
-        </Button>
+        <PanelButton onClick={again}>Try again</PanelButton>
       </div>
     );
   }

@@ -3,7 +3,7 @@
 import { Fragment, type ReactNode } from "react";
 
 import { useStudio } from "../store";
-import classes from "./NeedsServer.module.css";
+import classes from "./connection.module.css";
 
 export function NeedsServer({ children }: { children: ReactNode }) {
   const off = useOffline();

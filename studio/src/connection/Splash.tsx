@@ -1,14 +1,17 @@
-// Shown before the first message of the server.
+// Before the first message of the server, and while the connection is lost: the page stays as it was then.
 
-import { useStudio } from "../store";
+import { IconPlugConnectedX } from "@tabler/icons-react";
+
 import { Logo } from "../gallery/Logo";
-import classes from "./Splash.module.css";
+import { useStudio } from "../store";
+import classes from "./connection.module.css";
 
-const WORDS = {
+const REFUSED = "The studio was started again: open the address that it printed";
+const BEFORE = {
   connecting: "Connecting",
   open: "Connecting",
   lost: "The studio does not answer. Is deodar studio running?",
-  refused: "The studio was started again: open the address that it printed",
+  refused: REFUSED,
 };
 
 export function Splash() {
@@ -16,7 +19,21 @@ export function Splash() {
   return (
     <main className={classes.splash} aria-busy="true">
       <Logo size={56} color="var(--edge)" />
-      <p role="status">{WORDS[connection]}</p>
+      <p role="status">{BEFORE[connection]}</p>
     </main>
+  );
+}
+
+export function LostBanner() {
+  const connection = useStudio((state) => (state.welcome === null ? "connecting" : state.connection));
+  return (
+    <div role="status">
+      {(connection === "lost" || connection === "refused") && (
+        <div className={`banner ${classes.lost}`}>
+          <IconPlugConnectedX size={16} aria-hidden="true" />
+          {connection === "lost" ? "Connection lost, trying again" : REFUSED}
+        </div>
+      )}
+    </div>
   );
 }

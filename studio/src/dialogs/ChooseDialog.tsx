@@ -4,10 +4,10 @@ import { Button, FileButton, Group, Text } from "@mantine/core";
 import { useState } from "react";
 
 import { useStudio } from "../store";
-import { FolderBrowser } from "./FolderBrowser";
+import { FolderBrowser, useFolder } from "./FolderBrowser";
+import { CancelButton } from "./MessageDialogs";
 import type { Asking } from "./questions";
 import { parent } from "../files/paths";
-import { useFolder } from "./useFolder";
 
 const ACCEPTED = {
   files: "application/json,.json,.deodar,.dnf,.m",
@@ -51,9 +51,7 @@ export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) 
             )}
           </FileButton>
         )}
-        <Button variant="subtle" color="gray" onClick={() => answer(null)}>
-          Cancel
-        </Button>
+        <CancelButton cancel={() => answer(null)} />
       </Group>
     </>
   );

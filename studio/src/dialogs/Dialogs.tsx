@@ -1,63 +1,28 @@
 // The question in a modal window.
 
 import { Modal } from "@mantine/core";
+import { type ComponentType, useEffect } from "react";
 
-import { useEffect } from "react";
-
-import { ChooseDialog } from "./ChooseDialog";
 import { useOffline } from "../connection/NeedsServer";
-import { ReplaceDialog } from "./ReplaceDialog";
+import { WorldDialog } from "../world/WorldDialog";
+import { ChooseDialog } from "./ChooseDialog";
+import { ReplaceDialog, TakenDialog, UnsavedDialog } from "./MessageDialogs";
+import { type Asked, type Asking, useDialogs } from "./questions";
 import { SaveAsDialog } from "./SaveAsDialog";
 import { ShortcutsDialog } from "./ShortcutsDialog";
-import { TakenDialog } from "./TakenDialog";
-import { WorldDialog } from "../world/WorldDialog";
-import { UnsavedDialog } from "./UnsavedDialog";
-import { type Asked, useDialogs } from "./questions";
 
-export function Dialogs() {
-  const { asked, cancel } = useDialogs();
-  const offline = useOffline();
-  useEffect(() => {
-    if (offline && asked !== null && asked.name !== "shortcuts") {
-      cancel();
-    }
-  }, [offline, asked, cancel]);
-  return (
-    <Modal
-      opened={asked !== null}
-      onClose={cancel}
-      title={asked === null ? "" : titleOf(asked)}
-      size={sizeOf(asked)}
-      centered
-      zIndex={350}
-      transitionProps={{ duration: 0 }}
-      overlayProps={{ backgroundOpacity: 0.4 }}
-      closeButtonProps={{ "aria-label": "Close" }}
-      styles={{ title: { fontSize: 16, fontWeight: 600 } }}
-    >
-      {asked !== null && contentOf(asked)}
-    </Modal>
-  );
-}
+type Name = Asked["name"];
+type Shown<P> = { title: string; size: number; Content: ComponentType<P> };
 
-function contentOf(asked: Asked) {
-  switch (asked.name) {
-    case "unsaved":
-      return <UnsavedDialog {...asked} />;
-    case "replace":
-      return <ReplaceDialog {...asked} />;
-    case "choose":
-      return <ChooseDialog {...asked} />;
-    case "save_as":
-      return <SaveAsDialog {...asked} />;
-    case "taken":
-      return <TakenDialog {...asked} />;
-    case "shortcuts":
-      return <ShortcutsDialog />;
-    case "world":
-      return <WorldDialog {...asked} />;
-  }
-}
+const DIALOGS: { [K in Name]: Shown<Asking<K>> } = {
+  unsaved: { title: "Keep the unsaved edits?", size: 440, Content: UnsavedDialog },
+  replace: { title: "Overwrite the file?", size: 440, Content: ReplaceDialog },
+  choose: { title: "Open a file", size: 560, Content: ChooseDialog },
+  save_as: { title: "Save as", size: 560, Content: SaveAsDialog },
+  taken: { title: "What did not match", size: 560, Content: TakenDialog },
+  shortcuts: { title: "Keys and mouse", size: 660, Content: ShortcutsDialog },
+  world: { title: "World of the sensors and motors", size: 560, Content: WorldDialog },
+};
 
 const WANTED = {
   files: "Open a file",
@@ -67,33 +32,29 @@ const WANTED = {
   experiments: "Open an experiment",
 };
 
-function titleOf(asked: Asked): string {
-  switch (asked.name) {
-    case "unsaved":
-      return "Keep the unsaved edits?";
-    case "replace":
-      return "Overwrite the file?";
-    case "choose":
-      return WANTED[asked.question.wants];
-    case "save_as":
-      return "Save as";
-    case "taken":
-      return "What did not match";
-    case "shortcuts":
-      return "Keys and mouse";
-    case "world":
-      return "World of the sensors and motors";
-  }
-}
-
-function sizeOf(asked: Asked | null): number {
-  switch (asked?.name) {
-    case "unsaved":
-    case "replace":
-      return 440;
-    case "shortcuts":
-      return 660;
-    default:
-      return 560;
-  }
+export function Dialogs() {
+  const { asked, cancel } = useDialogs();
+  const offline = useOffline();
+  useEffect(() => {
+    if (offline && asked !== null && asked.name !== "shortcuts") {
+      cancel();
+    }
+  }, [offline, asked, cancel]);
+  const { title = "", size, Content } = asked === null ? {} : (DIALOGS[asked.name] as Shown<Asked>);
+  return (
+    <Modal
+      opened={asked !== null}
+      onClose={cancel}
+      title={asked?.name === "choose" ? WANTED[asked.question.wants] : title}
+      size={size}
+      centered
+      zIndex={350}
+      transitionProps={{ duration: 0 }}
+      overlayProps={{ backgroundOpacity: 0.4 }}
+      closeButtonProps={{ "aria-label": "Close" }}
+      styles={{ title: { fontSize: 16, fontWeight: 600 } }}
+    >
+      {asked !== null && Content !== undefined && <Content {...asked} />}
+    </Modal>
+  );
 }

@@ -7,13 +7,33 @@ import { useEffect, useRef, useState } from "react";
 import { useStudio } from "../store";
 import { ProblemText } from "../problems/ProblemText";
 import { joined, rootName, steps } from "../files/paths";
-import type { useFolder } from "./useFolder";
-import classes from "./FolderBrowser.module.css";
+import type { Folder, ListedProblem } from "../protocol";
+import { socket } from "../socket";
+import classes from "./dialogs.module.css";
+
+type Listing = { folder: Folder | null; problem: ListedProblem | null };
+
+// What lies in a folder below the root.
+export function useFolder(path: string): Listing {
+  const [listing, setListing] = useState<Listing>({ folder: null, problem: null });
+  useEffect(() => {
+    let wanted = true;
+    void socket.ask({ type: "list_folder", path }).then(({ answer, folder }) => {
+      if (wanted) {
+        setListing({ folder, problem: answer.problems?.[0] ?? null });
+      }
+    });
+    return () => {
+      wanted = false;
+    };
+  }, [path]);
+  return listing;
+}
 
 type Props = {
   // The present folder and its content; from useFolder.
   path: string;
-  listing: ReturnType<typeof useFolder>;
+  listing: Listing;
   wants: "files" | "pictures" | "records";
   // Endings of the files that are shown in place of those.
   endings?: string[];
@@ -27,20 +47,10 @@ type Props = {
   first?: boolean;
 };
 
-export function FolderBrowser({
-  path,
-  listing: { folder, problem },
-  wants,
-  endings,
-  onFolder,
-  onFile,
-  marked,
-  records = false,
-  first = false,
-}: Props) {
+export function FolderBrowser(props: Props) {
+  const { path, listing, wants, endings, onFolder, onFile, marked, records = false, first = false } = props;
+  const { folder, problem } = listing;
   const [typed, setTyped] = useState("");
-  const matches = (name: string) => name.toLowerCase().includes(typed.trim().toLowerCase());
-  const facts = (name: string) => factsText(folder?.facts[name]);
   const root = useStudio((state) => state.welcome?.root ?? "");
   const list = useRef<HTMLUListElement>(null);
   const before = useRef(path);
@@ -52,7 +62,6 @@ export function FolderBrowser({
       list.current?.focus();
     }
   }, [path]);
-  const FileIcon = wants === "files" ? IconFileText : IconPhoto;
   const at = (name: string) => joined(folder?.path ?? path, name);
   const all = [...(folder?.files ?? []), ...(folder?.pictures ?? []), ...(folder?.others ?? [])];
   const names =
@@ -61,19 +70,41 @@ export function FolderBrowser({
       : wants === "records"
         ? []
         : (folder?.[wants] ?? []);
-  const runs = records ? [] : (folder?.records ?? []).filter((name) => !name.endsWith(".nc"));
-  const folders = [...(folder?.folders ?? []), ...runs];
-  const empty = folder !== null && folder.folders.length + folder.records.length + names.length === 0;
+  const runs = folder?.records ?? [];
+  const folders = [...(folder?.folders ?? []), ...runs.filter((name) => !records && !name.endsWith(".nc"))];
+  const empty = folder !== null && folder.folders.length + runs.length + names.length === 0;
+  const entries = (shown: string[], Icon: typeof IconFolder, choose: typeof onFile, label?: string) =>
+    shown
+      .filter((name) => name.toLowerCase().includes(typed.trim().toLowerCase()))
+      .map((name) => (
+        <li key={`${name} ${label}`}>
+          <button
+            type="button"
+            className="list-entry"
+            title={name}
+            data-marked={at(name) === marked || undefined}
+            onClick={() => choose(at(name))}
+          >
+            <Icon size={17} stroke={1.6} aria-label={label} aria-hidden={label === undefined} />
+            <span className="one-line">{name}</span>
+            <span className={`dim numbers ${classes.facts}`} aria-hidden>
+              {factsText(folder?.facts[name])}
+            </span>
+          </button>
+        </li>
+      ));
   return (
     <div className={classes.browser}>
       <nav className={classes.steps} aria-label="Folder">
-        <button type="button" className={classes.step} title={root} onClick={() => onFolder("")}>
-          {rootName(root)}
-        </button>
-        {steps(path).map((step) => (
+        {[{ name: rootName(root), path: "" }, ...steps(path)].map((step, i) => (
           <span key={step.path}>
-            <span className={classes.slash}>/</span>
-            <button type="button" className={classes.step} onClick={() => onFolder(step.path)}>
+            {i > 0 && <span className="dim">/</span>}
+            <button
+              type="button"
+              className={`bare-button one-line ${classes.step}`}
+              title={i === 0 ? root : undefined}
+              onClick={() => onFolder(step.path)}
+            >
               {step.name}
             </button>
           </span>
@@ -88,63 +119,17 @@ export function FolderBrowser({
       />
       <ul
         ref={list}
-        className={classes.list}
+        className={`bare-list ${classes.list}`}
         aria-label="Content of the folder"
         tabIndex={-1}
         data-autofocus={first || undefined}
       >
-        {folders.filter(matches).map((name) => (
-          <li key={`${name}/`}>
-            <button type="button" className={classes.entry} title={name} onClick={() => onFolder(at(name))}>
-              <IconFolder size={17} stroke={1.6} aria-label="Folder" />
-              <span className="one-line">{name}</span>
-            </button>
-          </li>
-        ))}
-        {records &&
-          folder?.records.filter(matches).map((name) => (
-            <li key={`${name} record`}>
-              <button type="button" className={classes.entry} title={name} onClick={() => onFile(at(name))}>
-                <IconMovie size={17} stroke={1.6} aria-label="Record" />
-                <span className="one-line">{name}</span>
-                <span className={classes.facts} aria-hidden>
-                  {facts(name)}
-                </span>
-              </button>
-            </li>
-          ))}
-        {names.filter(matches).map((name) => (
-          <li key={name}>
-            <button
-              type="button"
-              className={classes.entry}
-              title={name}
-              data-marked={at(name) === marked || undefined}
-              onClick={() => onFile(at(name))}
-            >
-              <FileIcon size={17} stroke={1.6} aria-hidden="true" />
-              <span className="one-line">{name}</span>
-              <span className={classes.facts} aria-hidden>
-                {facts(name)}
-              </span>
-            </button>
-          </li>
-        ))}
-        {empty && (
-          <li className={classes.empty}>
-            {endings !== undefined
-              ? `No files here that end in ${endings.join(", ")}`
-              : wants === "pictures"
-                ? "No pictures here"
-                : wants === "records"
-                  ? "No records here"
-                  : records
-                    ? "No documents (.json, .deodar) or records here"
-                    : "No documents (.json, .deodar) here"}
-          </li>
-        )}
+        {entries(folders, IconFolder, onFolder, "Folder")}
+        {records && entries(runs, IconMovie, onFile, "Record")}
+        {entries(names, wants === "files" ? IconFileText : IconPhoto, onFile)}
+        {empty && <li className="dim list-entry">{emptyText(endings, wants, records)}</li>}
         {problem !== null && (
-          <li className={classes.empty}>
+          <li className="list-entry">
             <ProblemText problem={problem} />
           </li>
         )}
@@ -153,17 +138,21 @@ export function FolderBrowser({
   );
 }
 
+function emptyText(endings: string[] | undefined, wants: Props["wants"], records: boolean): string {
+  if (endings !== undefined) {
+    return `No files here that end in ${endings.join(", ")}`;
+  }
+  const documents = `documents (.json, .deodar)${records ? " or records" : ""}`;
+  return `No ${wants === "files" ? documents : wants} here`;
+}
+
 // "12 kB, 29/11/2026", in the words of the browser; empty for a folder.
 function factsText(facts: unknown[] | undefined): string {
   if (facts === undefined) {
     return "";
   }
   const [bytes, seconds] = facts as [number, number];
-  const size =
-    bytes < 1e3
-      ? `${bytes} B`
-      : bytes < 1e6
-        ? `${Math.round(bytes / 1e3)} kB`
-        : `${(bytes / 1e6).toFixed(1)} MB`;
-  return `${size}, ${new Date(1000 * seconds).toLocaleDateString()}`;
+  const [scale, unit] = bytes < 1e3 ? [1, "B"] : bytes < 1e6 ? [1e3, "kB"] : [1e6, "MB"];
+  const size = (bytes / scale).toFixed(unit === "MB" ? 1 : 0);
+  return `${size} ${unit}, ${new Date(1000 * seconds).toLocaleDateString()}`;
 }

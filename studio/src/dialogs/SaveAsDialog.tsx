@@ -3,10 +3,10 @@
 import { Button, Group, TextInput } from "@mantine/core";
 import { type FormEvent, useState } from "react";
 
-import { FolderBrowser } from "./FolderBrowser";
+import { FolderBrowser, useFolder } from "./FolderBrowser";
+import { CancelButton } from "./MessageDialogs";
 import type { Asking } from "./questions";
 import { joined, lastPart, nameProblem, parent, withEnding } from "../files/paths";
-import { useFolder } from "./useFolder";
 
 export function SaveAsDialog({ question, answer }: Asking<"save_as">) {
   const [path, setPath] = useState(parent(question.path));
@@ -53,9 +53,7 @@ export function SaveAsDialog({ question, answer }: Asking<"save_as">) {
         }
       />
       <Group gap="xs" mt="md" justify="flex-end">
-        <Button variant="subtle" color="gray" onClick={() => answer(null)}>
-          Cancel
-        </Button>
+        <CancelButton cancel={() => answer(null)} />
         <Button type="submit">Save</Button>
       </Group>
     </form>

@@ -5,7 +5,7 @@ import { Fragment } from "react";
 
 import { keysText } from "../keys";
 import { SHORTCUTS } from "../shortcuts";
-import classes from "./ShortcutsDialog.module.css";
+import classes from "./dialogs.module.css";
 
 type Line = { keys: readonly string[]; does: string };
 
@@ -37,11 +37,11 @@ export function ShortcutsDialog() {
 
 function Lines({ title, lines, together }: { title: string; lines: readonly Line[]; together: string }) {
   return (
-    <section className={classes.section}>
-      <h3 className={classes.title}>{title}</h3>
-      <dl className={classes.lines}>
+    <section>
+      <h3>{title}</h3>
+      <dl>
         {lines.map(({ keys, does }) => (
-          <div key={does} className={classes.line}>
+          <div key={does} className={`across ${classes.line}`}>
             <dt>{does}</dt>
             <dd>
               {keys.map((key, i) => (

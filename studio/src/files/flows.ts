@@ -1,70 +1,38 @@
 // Conversations with the person and the server that take several steps: opening, saving, reading a file of
 // the person's own.
 
-import type {
-  Answer,
-  Close,
-  CloseExperiment,
-  NewDocument,
-  NewExperiment,
-  OpenExample,
-  OpenExperimentFile,
-  OpenFile,
-  OpenPackage,
-  OpenRecordModel,
-  OpenText,
-  ListedProblem,
-  Recover,
-  Save,
-  SaveExperiment,
-} from "../protocol";
+import { ask } from "../dialogs/questions";
 import { openTool } from "../state/tool";
+import { saveFile } from "../plots/export/save";
+import type { Answer, ListedProblem, Save, SaveExperiment, ToServer } from "../protocol";
 import { request, socket } from "../socket";
 import { settleTiles } from "../state/tiles";
 import { useStudio } from "../store";
-import { ask } from "../dialogs/questions";
 import { opening, sortOf } from "./paths";
 
 // The largest message that the server accepts, base64 included.
 const MOST_BYTES = 40 * 2 ** 20;
 
-type Leaving =
-  | NewDocument
-  | NewExperiment
-  | CloseExperiment
-  | OpenExperimentFile
-  | OpenFile
-  | OpenExample
-  | OpenText
-  | OpenPackage
-  | OpenRecordModel
-  | Recover
-  | Close;
+// Messages that lead to another document, or to none.
+type Leaving = Extract<ToServer, { discard?: boolean } | { discard_experiment?: boolean }>;
 
-// Go to another document, or to none. Unsaved edits are asked about. True where it was done.
+// Unsaved edits are asked about. True where it was done.
 export async function leave(message: Leaving): Promise<boolean> {
   settleTiles();
   const { answer } = await socket.ask(message);
-  if (answer.ask === "unsaved_experiment") {
-    const saved = openExperiment();
-    switch (await ask("unsaved", { title: `The experiment ${saved.name}` })) {
-      case "save":
-        return (await write(saved)) && leave(message);
-      case "discard":
-        return leave({ ...message, discard_experiment: true } as Leaving);
-      case "cancel":
-        return false;
-    }
-  }
-  if (answer.ask !== "unsaved") {
+  const { experiment, document } = useStudio.getState();
+  const ofExperiment = answer.ask === "unsaved_experiment";
+  if (!ofExperiment && answer.ask !== "unsaved") {
     return done(answer) && arrived(answer);
   }
-  const choice = await ask("unsaved", { title: useStudio.getState().document?.title ?? "" });
-  switch (choice) {
+  const name = `The experiment ${String(experiment?.data?.["name"] ?? "")}`;
+  switch (await ask("unsaved", { title: ofExperiment ? name : (document?.title ?? "") })) {
     case "save":
-      return (await toModel()) && (await save()) && leave(message);
+      return (
+        (ofExperiment ? await write(openExperiment()) : (await toModel()) && (await save())) && leave(message)
+      );
     case "discard":
-      return leave({ ...message, discard: true } as Leaving);
+      return leave({ ...message, [ofExperiment ? "discard_experiment" : "discard"]: true } as Leaving);
     case "cancel":
       return false;
   }
@@ -78,10 +46,9 @@ async function toModel(): Promise<boolean> {
 
 export async function open(): Promise<boolean> {
   const chosen = await ask("choose", { wants: "files" });
-  if (chosen === null) {
-    return false;
-  }
-  return typeof chosen === "string" ? leave({ type: "open_file", path: chosen }) : takeFile(chosen);
+  return typeof chosen === "string"
+    ? leave({ type: "open_file", path: chosen })
+    : chosen !== null && takeFile(chosen);
 }
 
 // Open a document without elements and without a file.
@@ -91,12 +58,8 @@ export function openEmpty(): Promise<boolean> {
 
 // Compare the open record with another one.
 export async function compare(): Promise<boolean> {
-  const chosen = await ask("choose", { wants: "records" });
-  if (typeof chosen !== "string") {
-    return false;
-  }
-  const answer = await request({ type: "compare_record", path: chosen });
-  return (answer.problems ?? []).length === 0;
+  const path = await ask("choose", { wants: "records" });
+  return typeof path === "string" && succeeded(await request({ type: "compare_record", path }));
 }
 
 // Something that the server writes below the root.
@@ -106,28 +69,21 @@ export type Saved = {
   // Its name where it has no file.
   name: string;
   message: (path: string, replace: boolean) => Save | SaveExperiment;
-  // Whether the dialog before a file is replaced is about its own file.
-  isOwn: (path: string) => boolean;
 };
 
 // Write it, to its own file where the path is empty. True where it was written.
 export async function write(saved: Saved, path = "", replace = false): Promise<boolean> {
-  const { file, message, isOwn } = saved;
+  const { file, message } = saved;
   if (path === "" && file === "") {
     return writeAs(saved);
   }
   settleTiles();
   const { answer } = await socket.ask(message(path, replace));
   if (answer.ask !== "replace") {
-    if (done(answer)) {
-      useStudio.getState().notify({ what: `Saved as ${answer.file || path || file}` }, "info");
-      return true;
-    }
-    return false;
+    return done(answer) && told(`Saved as ${answer.file || path || file}`);
   }
   const inTheWay = answer.file || path || file;
-  const choice = await ask("replace", { path: inTheWay, own: isOwn(inTheWay) });
-  switch (choice) {
+  switch (await ask("replace", { path: inTheWay, own: inTheWay === file })) {
     case "replace":
       return write(saved, path, true);
     case "elsewhere":
@@ -144,28 +100,29 @@ export async function writeAs(saved: Saved): Promise<boolean> {
 }
 
 function openDocument(): Saved {
-  const { file = "", title = "" } = useStudio.getState().document ?? {};
-  return {
-    file,
-    name: title,
-    message: (path, replace) => ({ type: "save", path, replace }),
-    isOwn: (path) => path === file,
-  };
+  const { file = "", title: name = "" } = useStudio.getState().document ?? {};
+  return { file, name, message: (path, replace) => ({ type: "save", path, replace }) };
 }
 
 export function openExperiment(): Saved {
   const { experiment } = useStudio.getState();
-  const file = experiment?.file ?? "";
   return {
-    file,
+    file: experiment?.file ?? "",
     name: String(experiment?.data?.["name"] ?? ""),
     message: (path, replace) => ({ type: "save_experiment", path, replace }),
-    isOwn: (path) => path === file,
   };
 }
 
 export const save = (path = ""): Promise<boolean> => write(openDocument(), path);
 export const saveAs = (): Promise<boolean> => writeAs(openDocument());
+
+// The document as a Python script that makes the same document, written to the folder of downloads.
+export async function exportScript(): Promise<void> {
+  const { text = "" } = await request({ type: "export_script" });
+  if (text !== "") {
+    saveFile(new Blob([text], { type: "text/x-python" }), openDocument().name, "py");
+  }
+}
 
 // Opens a dropped or chosen file: a document, or a file for the sensors, such as a picture.
 export async function takeFile(file: File): Promise<boolean> {
@@ -237,13 +194,13 @@ async function showToSensors(file: string | File, name: string): Promise<boolean
     typeof file === "string"
       ? await request({ type: "use_world", kind: world.name, path: file })
       : await request({ type: "use_world_content", kind: world.name, name, content: await base64(file) });
-  return (answer.problems ?? []).length === 0;
+  return succeeded(answer);
 }
 
 // Shows the report of a file of another tool, and says what a package was.
 function arrived({ imported = "", text = "" }: Answer): boolean {
   if (text !== "") {
-    useStudio.getState().notify({ what: text }, "info");
+    told(text);
   }
   if (imported !== "") {
     useStudio
@@ -253,16 +210,19 @@ function arrived({ imported = "", text = "" }: Answer): boolean {
   return true;
 }
 
+export const succeeded = ({ problems = [] }: Answer): boolean => problems.length === 0;
+
 // Problems become a notice.
 export function done(answer: Answer): boolean {
-  const problems = answer.problems ?? [];
-  if (problems.length > 0) {
-    useStudio.getState().notify(problems);
-  }
-  return problems.length === 0;
+  return succeeded(answer) || refuse(answer.problems ?? []);
 }
 
-function refuse(problem: ListedProblem): boolean {
+function told(what: string): true {
+  useStudio.getState().notify({ what }, "info");
+  return true;
+}
+
+function refuse(problem: ListedProblem | readonly ListedProblem[]): false {
   useStudio.getState().notify(problem);
   return false;
 }

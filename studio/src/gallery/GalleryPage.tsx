@@ -2,39 +2,38 @@
 
 import { Button, Group } from "@mantine/core";
 import { IconArrowLeft, IconFile, IconFilePlus, IconFolderOpen, IconWalk } from "@tabler/icons-react";
+import { useState } from "react";
 
+import type { ExampleView } from "../protocol";
+import { usePage } from "../state/page";
 import { useStudio } from "../store";
 import { startTour } from "../tour/tour";
-import { ExampleCard } from "./ExampleCard";
 import { Logo } from "./Logo";
 import { RecoveryCard } from "./RecoveryCard";
 import { SchemeToggle } from "../header/SchemeToggle";
 import { leave, open, openEmpty } from "../files/flows";
 import { lastPart, parent } from "../files/paths";
-import { useView } from "./view";
-import classes from "./GalleryPage.module.css";
+import classes from "./gallery.module.css";
 
 export function GalleryPage() {
   const title = useStudio((state) => state.document?.title ?? null);
   const welcome = useStudio((state) => state.welcome);
-  const gallery = useStudio((state) => state.gallery);
-  const recent = gallery?.recent ?? [];
-  const recoveries = gallery?.recoveries ?? [];
+  const { recent = [], recoveries = [] } = useStudio((state) => state.gallery) ?? {};
   return (
     <main className={classes.page}>
-      <div className={classes.column}>
-        <header className={classes.header}>
+      <div className="down">
+        <header className="across">
           <Logo size={40} />
-          <div className={classes.titles}>
+          <div className="grow">
             <h1>deodar studio</h1>
-            <p>Open an architecture of neural fields, run it, and watch its response.</p>
+            <p className="dim">Open an architecture of neural fields, run it, and watch its response.</p>
           </div>
           {title !== null && (
             <Button
               variant="default"
               maw={260}
               leftSection={<IconArrowLeft size={16} />}
-              onClick={() => useView.setState({ gallery: false })}
+              onClick={() => usePage.setState({ gallery: false })}
             >
               Back to {title}
             </Button>
@@ -46,8 +45,8 @@ export function GalleryPage() {
           <RecoveryCard key={recovery.name} recovery={recovery} />
         ))}
 
-        <section className={classes.files} aria-label="Files">
-          <Group gap="sm" className={classes.open}>
+        <section aria-label="Files">
+          <Group gap="sm">
             <Button leftSection={<IconFolderOpen size={17} />} onClick={() => void open()}>
               Open a file
             </Button>
@@ -58,7 +57,7 @@ export function GalleryPage() {
             >
               Empty document
             </Button>
-            <span className={classes.hint}>or drop a file on this page</span>
+            <span className="dim">or drop a file on this page</span>
             <Button
               variant="default"
               ml="auto"
@@ -74,13 +73,13 @@ export function GalleryPage() {
                 <li key={path}>
                   <button
                     type="button"
-                    className={classes.file}
+                    className="list-entry"
                     title={path}
                     onClick={() => void leave({ type: "open_file", path })}
                   >
                     <IconFile size={16} stroke={1.5} aria-hidden="true" />
                     <span className="one-line">{lastPart(path)}</span>
-                    <span className={`${classes.folder} one-line`}>{parent(path)}</span>
+                    <span className="one-line grow dim small">{parent(path)}</span>
                   </button>
                 </li>
               ))}
@@ -89,9 +88,7 @@ export function GalleryPage() {
         </section>
 
         <section aria-labelledby="examples">
-          <h2 id="examples" className={classes.heading}>
-            Examples
-          </h2>
+          <h2 id="examples">Examples</h2>
           <ul className={classes.grid}>
             {welcome?.examples.map((example) => (
               <li key={example.name}>
@@ -101,11 +98,32 @@ export function GalleryPage() {
           </ul>
         </section>
 
-        <footer className={classes.footer}>
+        <footer className="dim small wrapped">
           deodar {welcome?.version}{" "}
           <span title="Files are read and written below this folder">{welcome?.root}</span>
         </footer>
       </div>
     </main>
+  );
+}
+
+// Its picture and its first sentence.
+function ExampleCard({ example: { name, title, sentence, picture } }: { example: ExampleView }) {
+  const [missing, setMissing] = useState(picture === "");
+  return (
+    <button
+      type="button"
+      className={`card ${classes.example}`}
+      onClick={() => void leave({ type: "open_example", name })}
+    >
+      <span className={classes.picture}>
+        {missing && <Logo size={40} color="var(--edge)" />}
+        {!missing && <img src={picture} alt="" loading="lazy" onError={() => setMissing(true)} />}
+      </span>
+      <span className={`down ${classes.text}`}>
+        <b>{title}</b>
+        <span className="dim small">{sentence}</span>
+      </span>
+    </button>
   );
 }

@@ -1,31 +1,41 @@
-// Unsaved edits that were kept when the studio ended.
+// Unsaved edits that were stored when the studio ended.
 
-import { Button } from "@mantine/core";
 import { IconRestore } from "@tabler/icons-react";
 
+import { leave } from "../files/flows";
+import { belowRoot } from "../files/paths";
+import { whenText } from "../files/when";
 import type { Recovery } from "../protocol";
 import { request } from "../socket";
-import { leave } from "../files/flows";
-import { whenText } from "../files/when";
-import classes from "./RecoveryCard.module.css";
+import { useStudio } from "../store";
+import { PanelButton } from "../widgets/Buttons";
 
-export function RecoveryCard({ recovery: { name, title, file, when, experiment } }: { recovery: Recovery }) {
+export function RecoveryCard({ recovery, open = false }: { recovery: Recovery; open?: boolean }) {
+  const { name, title, file, when, experiment } = recovery;
   const what = experiment === "" ? title : `the experiment ${experiment}`;
   return (
-    <section className={classes.card} aria-label={`Unsaved edits of ${what}`}>
-      <IconRestore size={20} stroke={1.6} className={classes.icon} aria-hidden="true" />
-      <div className={classes.text}>
-        <div>
-          Unsaved edits of <b>{what}</b>, kept {whenText(when, new Date())}
-        </div>
-        {file !== "" && <div className={classes.file}>{file}</div>}
+    <section
+      className={open ? "banner" : "banner card"}
+      aria-label={`Unsaved edits${open ? "" : ` of ${what}`}`}
+    >
+      <IconRestore size={18} stroke={1.6} aria-hidden="true" />
+      <div className="wrapped">
+        Unsaved edits of <b>{what}</b>, stored {whenText(when, new Date())}, were found.
+        {!open && <div className="dim small">{file}</div>}
       </div>
-      <Button size="xs" onClick={() => void leave({ type: "recover", name })}>
-        Open
-      </Button>
-      <Button size="xs" variant="default" onClick={() => void request({ type: "forget", name })}>
-        Discard
-      </Button>
+      <PanelButton variant="filled" onClick={() => void leave({ type: "recover", name })}>
+        Open them
+      </PanelButton>
+      <PanelButton onClick={() => void request({ type: "forget", name })}>Discard</PanelButton>
     </section>
   );
+}
+
+// Those of the file that is open.
+export function RecoveryBar() {
+  const file = useStudio((state) => state.document?.file ?? "");
+  const root = useStudio((state) => state.welcome?.root ?? "");
+  const recoveries = useStudio((state) => state.gallery?.recoveries);
+  const recovery = recoveries?.find((one) => file !== "" && belowRoot(root, one.file) === file);
+  return recovery === undefined ? null : <RecoveryCard recovery={recovery} open />;
 }

@@ -3,7 +3,7 @@
 import { useEffect } from "react";
 
 import { useStudio } from "../store";
-import classes from "./DocumentName.module.css";
+import classes from "./header.module.css";
 
 export function DocumentName() {
   const title = useStudio((state) => state.document?.title ?? "");
@@ -17,7 +17,7 @@ export function DocumentName() {
   }, [title, unsaved]);
   return (
     <div className={classes.name}>
-      <div className={classes.title}>
+      <div className="across">
         <h1 className="one-line" title={title}>
           {title}
         </h1>
@@ -25,7 +25,7 @@ export function DocumentName() {
           <span className={classes.dot} role="img" aria-label="Unsaved edits" title="Unsaved edits" />
         )}
       </div>
-      <div className={`${classes.file} one-line`} title={file}>
+      <div className="one-line dim" title={file}>
         {file === "" ? "not in a file yet" : file}
       </div>
     </div>

@@ -1,6 +1,6 @@
 // The mark of deodar and, behind it, everything about files.
 
-import { Menu, UnstyledButton } from "@mantine/core";
+import { Menu } from "@mantine/core";
 import {
   IconBrandPython,
   IconChevronDown,
@@ -18,51 +18,44 @@ import {
 
 import { useStudio } from "../store";
 import { Logo } from "../gallery/Logo";
-import { exportScript } from "../files/exportScript";
-import { leave, open, openEmpty, save, saveAs } from "../files/flows";
+import { exportScript, leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";
-import { useView } from "../gallery/view";
 import { openTool } from "../state/tool";
-import { keysText } from "../keys";
+import { usePage } from "../state/page";
+import { MenuEntry } from "../widgets/Buttons";
 import { MenuList } from "../widgets/MenuList";
-import classes from "./FileMenu.module.css";
-
-const ICON = { size: 16, stroke: 1.6 };
+import classes from "./header.module.css";
 
 export function FileMenu() {
-  const recent = useStudio((state) => state.gallery?.recent);
+  const recent = useStudio((state) => state.gallery?.recent) ?? [];
   const noted = useStudio((state) => (state.document?.notes ?? "") !== "");
   const imported = useStudio((state) => state.report !== null);
   return (
-    <Menu position="bottom-start" shadow="md" width={260} withinPortal>
+    <Menu position="bottom-start" width={260}>
       <Menu.Target>
-        <UnstyledButton className={classes.target} aria-label="File menu">
+        <button type="button" className={classes.mark} aria-label="File menu">
           <Logo size={26} />
           <IconChevronDown size={13} aria-hidden="true" />
-        </UnstyledButton>
+        </button>
       </Menu.Target>
       <MenuList>
-        <Menu.Item leftSection={<IconFilePlus {...ICON} />} onClick={() => void openEmpty()}>
+        <MenuEntry icon={IconFilePlus} onClick={() => void openEmpty()}>
           New
-        </Menu.Item>
-        <Menu.Item
-          leftSection={<IconFolderOpen {...ICON} />}
-          rightSection={<Keys keys="Ctrl+O" />}
-          onClick={() => void open()}
-        >
+        </MenuEntry>
+        <MenuEntry icon={IconFolderOpen} keys="Ctrl+O" onClick={() => void open()}>
           Open…
-        </Menu.Item>
+        </MenuEntry>
         <Menu.Sub>
           <Menu.Sub.Target>
             <Menu.Sub.Item
-              leftSection={<IconHistory {...ICON} />}
-              disabled={recent === undefined || recent.length === 0}
+              leftSection={<IconHistory size={16} stroke={1.6} />}
+              disabled={recent.length === 0}
             >
               Open recent
             </Menu.Sub.Item>
           </Menu.Sub.Target>
           <Menu.Sub.Dropdown>
-            {recent?.map((path) => (
+            {recent.map((path) => (
               <Menu.Item
                 key={path}
                 maw={360}
@@ -74,53 +67,34 @@ export function FileMenu() {
             ))}
           </Menu.Sub.Dropdown>
         </Menu.Sub>
-        <Menu.Item
-          leftSection={<IconLayoutGrid {...ICON} />}
-          onClick={() => useView.setState({ gallery: true })}
-        >
+        <MenuEntry icon={IconLayoutGrid} onClick={() => usePage.setState({ gallery: true })}>
           Examples
-        </Menu.Item>
+        </MenuEntry>
         <Menu.Divider />
-        <Menu.Item
-          leftSection={<IconDeviceFloppy {...ICON} />}
-          rightSection={<Keys keys="Ctrl+S" />}
-          onClick={() => void save()}
-        >
+        <MenuEntry icon={IconDeviceFloppy} keys="Ctrl+S" onClick={() => void save()}>
           Save
-        </Menu.Item>
-        <Menu.Item
-          leftSection={<IconFileExport {...ICON} />}
-          rightSection={<Keys keys="Ctrl+Shift+S" />}
-          onClick={() => void saveAs()}
-        >
+        </MenuEntry>
+        <MenuEntry icon={IconFileExport} keys="Ctrl+Shift+S" onClick={() => void saveAs()}>
           Save as…
-        </Menu.Item>
-        <Menu.Item leftSection={<IconBrandPython {...ICON} />} onClick={() => void exportScript()}>
+        </MenuEntry>
+        <MenuEntry icon={IconBrandPython} onClick={() => void exportScript()}>
           Export as Python script
-        </Menu.Item>
+        </MenuEntry>
         <Menu.Divider />
-        <Menu.Item leftSection={<IconFileImport {...ICON} />} onClick={() => void takeValues()}>
+        <MenuEntry icon={IconFileImport} onClick={() => void takeValues()}>
           Take over values…
-        </Menu.Item>
-        <Menu.Item leftSection={<IconNotes {...ICON} />} disabled={!noted} onClick={() => openTool("notes")}>
+        </MenuEntry>
+        <MenuEntry icon={IconNotes} disabled={!noted} onClick={() => openTool("notes")}>
           Notes
-        </Menu.Item>
-        <Menu.Item
-          leftSection={<IconReport {...ICON} />}
-          disabled={!imported}
-          onClick={() => openTool("report")}
-        >
+        </MenuEntry>
+        <MenuEntry icon={IconReport} disabled={!imported} onClick={() => openTool("report")}>
           Import report
-        </Menu.Item>
+        </MenuEntry>
         <Menu.Divider />
-        <Menu.Item leftSection={<IconX {...ICON} />} onClick={() => void leave({ type: "close" })}>
+        <MenuEntry icon={IconX} onClick={() => void leave({ type: "close" })}>
           Close
-        </Menu.Item>
+        </MenuEntry>
       </MenuList>
     </Menu>
   );
-}
-
-function Keys({ keys }: { keys: string }) {
-  return <span className={classes.keys}>{keysText(keys)}</span>;
 }

@@ -1,11 +1,11 @@
 // The bar above an open document: files, history, views, problems, help.
 
-import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconHelp, IconSearch } from "@tabler/icons-react";
 
 import { openCommands } from "../build/commands";
 import { keysText } from "../keys";
 import { SHORTCUTS } from "../shortcuts";
+import { IconButton } from "../widgets/Buttons";
 import { DocumentName } from "./DocumentName";
 import { FileMenu } from "./FileMenu";
 import { NeedsServer } from "../connection/NeedsServer";
@@ -15,12 +15,12 @@ import { SchemeToggle } from "./SchemeToggle";
 import { UndoButtons } from "./UndoButtons";
 import { Views } from "./Views";
 import { ask } from "../dialogs/questions";
-import classes from "./Header.module.css";
+import classes from "./header.module.css";
 
 export function Header() {
   return (
     <header className={classes.header}>
-      <div className={classes.left}>
+      <div className={classes.side}>
         <NeedsServer>
           <FileMenu />
           <DocumentName />
@@ -28,20 +28,22 @@ export function Header() {
         </NeedsServer>
       </div>
       <Views />
-      <div className={classes.right}>
+      <div className={classes.side}>
         <ReportButton />
         <ProblemsMenu />
-        <Tooltip label={`Find a command or an element (${keysText("Ctrl+K")})`}>
-          <ActionIcon aria-label="Find" size={28} onClick={() => openCommands(SHORTCUTS)}>
-            <IconSearch size={17} />
-          </ActionIcon>
-        </Tooltip>
+        <IconButton
+          icon={IconSearch}
+          label="Find"
+          tip={`Find a command or an element (${keysText("Ctrl+K")})`}
+          onClick={() => openCommands(SHORTCUTS)}
+        />
         <SchemeToggle />
-        <Tooltip label="Help and keys (?)">
-          <ActionIcon aria-label="Help and keys" size={28} onClick={() => void ask("shortcuts", null)}>
-            <IconHelp size={18} />
-          </ActionIcon>
-        </Tooltip>
+        <IconButton
+          icon={IconHelp}
+          label="Help and keys"
+          tip="Help and keys (?)"
+          onClick={() => void ask("shortcuts", null)}
+        />
       </div>
     </header>
   );

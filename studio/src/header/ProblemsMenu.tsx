@@ -1,6 +1,6 @@
 // Problems and warnings of the open document, in a list; a click selects the element. Absent without either.
 
-import { Button, Popover, UnstyledButton } from "@mantine/core";
+import { Button, Popover } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";
 
 import { RepairButtons } from "../build/RepairButtons";
@@ -8,7 +8,7 @@ import type { ListedProblem } from "../protocol";
 import { useStudio } from "../store";
 import { countText, isWarning } from "../problems/severity";
 import { ProblemText } from "../problems/ProblemText";
-import classes from "./ProblemsMenu.module.css";
+import classes from "./header.module.css";
 
 const NONE: ListedProblem[] = [];
 
@@ -18,13 +18,12 @@ export function ProblemsMenu() {
     return null;
   }
   const label = countText(problems);
-  const color = problems.every(isWarning) ? "yellow" : "red";
   return (
     <Popover position="bottom-end" withArrow shadow="md" trapFocus returnFocus>
       <Popover.Target>
         <Button
           size="compact-sm"
-          color={color}
+          color={problems.every(isWarning) ? "yellow" : "red"}
           variant="light"
           px={7}
           styles={{ label: { color: "var(--text)" } }}
@@ -36,7 +35,7 @@ export function ProblemsMenu() {
         </Button>
       </Popover.Target>
       <Popover.Dropdown p={6} w={400}>
-        <ul className={classes.list} aria-label={label}>
+        <ul className={classes.problems} aria-label={label}>
           {problems.map((problem, i) => (
             <li key={i}>
               <Entry problem={problem} />
@@ -52,17 +51,13 @@ export function ProblemsMenu() {
 }
 
 function Entry({ problem }: { problem: ListedProblem }) {
-  const element = problem.element ?? "";
-  if (element === "") {
-    return (
-      <div className={classes.entry}>
-        <ProblemText problem={problem} />
-      </div>
-    );
-  }
-  return (
-    <UnstyledButton className={classes.entry} onClick={() => useStudio.getState().select([element])}>
-      <ProblemText problem={problem} />
-    </UnstyledButton>
+  const { element = "" } = problem;
+  const text = <ProblemText problem={problem} />;
+  return element === "" ? (
+    <div className="list-entry">{text}</div>
+  ) : (
+    <button type="button" className="list-entry" onClick={() => useStudio.getState().select([element])}>
+      {text}
+    </button>
   );
 }

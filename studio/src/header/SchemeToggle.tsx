@@ -1,21 +1,18 @@
 // Light or dark. Until it is pressed the page follows the system.
 
-import { ActionIcon, Tooltip, useComputedColorScheme, useMantineColorScheme } from "@mantine/core";
+import { useComputedColorScheme, useMantineColorScheme } from "@mantine/core";
 import { IconMoon, IconSun } from "@tabler/icons-react";
 
+import { IconButton } from "../widgets/Buttons";
+
 export function SchemeToggle() {
-  const scheme = useComputedColorScheme("light");
   const { setColorScheme } = useMantineColorScheme();
-  const other = scheme === "dark" ? "light" : "dark";
+  const light = useComputedColorScheme("light") === "light";
   return (
-    <Tooltip label={other === "dark" ? "Dark colours" : "Light colours"}>
-      <ActionIcon
-        size={28}
-        aria-label={other === "dark" ? "Dark colours" : "Light colours"}
-        onClick={() => setColorScheme(other)}
-      >
-        {other === "dark" ? <IconMoon size={17} /> : <IconSun size={17} />}
-      </ActionIcon>
-    </Tooltip>
+    <IconButton
+      icon={light ? IconMoon : IconSun}
+      label={light ? "Dark colours" : "Light colours"}
+      onClick={() => setColorScheme(light ? "dark" : "light")}
+    />
   );
 }

@@ -6,8 +6,8 @@ import { IconAlertTriangle, IconCircleCheck } from "@tabler/icons-react";
 import { useEffect } from "react";
 
 import { type Notice, useStudio } from "../store";
-import { ProblemText } from "./ProblemText";
-import classes from "./Notices.module.css";
+import { ProblemTexts } from "./ProblemText";
+import classes from "./problems.module.css";
 
 const INFO_MS = 6000;
 
@@ -32,12 +32,10 @@ function NoticeCard({ notice: { level, problems, offers } }: { notice: Notice })
   }, [stays, dismiss]);
   const Icon = level === "error" ? IconAlertTriangle : IconCircleCheck;
   return (
-    <div className={classes.notice} data-level={level}>
-      <Icon size={18} className={classes.icon} aria-label={level === "error" ? "Problem" : "Done"} />
-      <div className={classes.text}>
-        {problems.map((problem, i) => (
-          <ProblemText key={i} problem={problem} />
-        ))}
+    <div className={`card ${classes.notice}`} data-level={level}>
+      <Icon size={18} aria-label={level === "error" ? "Problem" : "Done"} />
+      <div className="grow">
+        <ProblemTexts problems={problems} />
         <Group gap={6}>
           {offers.map(({ label, run }) => (
             <Button

@@ -1,20 +1,23 @@
-// One thing that is wrong: where, what, what to do about it.
+// What is wrong: where, what, what to do about it.
 
 import type { ListedProblem } from "../protocol";
+import classes from "./problems.module.css";
 import { isWarning } from "./severity";
-import classes from "./ProblemText.module.css";
 
 export function ProblemText({ problem }: { problem: ListedProblem }) {
+  const { where = "", what, fix = "" } = problem;
   return (
-    <div className={classes.problem}>
-      {problem.where !== undefined && problem.where !== "" && (
-        <div className={classes.where}>{problem.where}</div>
-      )}
+    <div className={`wrapped ${classes.text}`}>
+      {where !== "" && <div className={`dim small ${classes.where}`}>{where}</div>}
       <div className={classes.what}>
         {isWarning(problem) && "Warning: "}
-        {problem.what}
+        {what}
       </div>
-      {problem.fix !== undefined && problem.fix !== "" && <div className={classes.fix}>{problem.fix}</div>}
+      {fix !== "" && <div className="dim">{fix}</div>}
     </div>
   );
+}
+
+export function ProblemTexts({ problems = [] }: { problems: readonly ListedProblem[] | undefined }) {
+  return problems.map((problem, i) => <ProblemText key={i} problem={problem} />);
 }

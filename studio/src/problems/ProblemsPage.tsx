@@ -9,39 +9,41 @@ import { useStudio } from "../store";
 import { ProblemText } from "./ProblemText";
 import { leave } from "../files/flows";
 import { belowRoot, isWhole } from "../files/paths";
-import classes from "./ProblemsPage.module.css";
+import classes from "./problems.module.css";
 
-export function ProblemsPage({ fileProblems }: { fileProblems: FileProblems }) {
+export function ProblemsPage({ fileProblems: { file, problems } }: { fileProblems: FileProblems }) {
   const root = useStudio((state) => state.welcome?.root ?? "");
   const [trying, setTrying] = useState(false);
   const again = async () => {
     setTrying(true);
-    await leave({ type: "open_file", path: fileProblems.file });
+    await leave({ type: "open_file", path: file });
     setTrying(false);
   };
-  const count = fileProblems.problems.length;
+  const count = problems.length;
   return (
     <main className={classes.page}>
-      <div className={classes.column}>
-        <header className={classes.header}>
-          <IconFileAlert size={34} stroke={1.5} className={classes.icon} aria-hidden="true" />
-          <div className={classes.titles}>
-            <h1>{belowRoot(root, fileProblems.file)} cannot be opened</h1>
-            <p>{count === 1 ? "There is one problem." : `There are ${count} problems.`}</p>
+      <div className={`down wrapped ${classes.column}`}>
+        <header className="across">
+          <IconFileAlert size={34} stroke={1.5} color="var(--error)" aria-hidden="true" />
+          <div className="grow">
+            <h1>{belowRoot(root, file)} cannot be opened</h1>
+            <span className="dim">
+              {count === 1 ? "There is one problem." : `There are ${count} problems.`}
+            </span>
           </div>
         </header>
-        <ol className={classes.list} aria-label="Problems">
-          {fileProblems.problems.map((problem, i) => (
-            <li key={i} className={classes.problem}>
-              <span className={`${classes.number} numbers`} aria-hidden="true">
+        <ol className="card" aria-label="Problems">
+          {problems.map((problem, i) => (
+            <li key={i}>
+              <span className="dim" aria-hidden="true">
                 {i + 1}
               </span>
-              <ProblemText problem={within(fileProblems.file, problem)} />
+              <ProblemText problem={within(file, problem)} />
             </li>
           ))}
         </ol>
         <Group gap="xs">
-          {isWhole(fileProblems.file) && (
+          {isWhole(file) && (
             <Button
               leftSection={<IconRefresh size={16} />}
               loading={trying}

@@ -18,6 +18,8 @@ export type PageState = Readonly<{
   opened: readonly string[];
   // The key of the tile that covers the centre.
   enlarged: number | null;
+  // Whether the gallery covers the document.
+  gallery: boolean;
 }>;
 
 export const emptyPage = (session: number, view: View = "build"): PageState => ({
@@ -27,6 +29,7 @@ export const emptyPage = (session: number, view: View = "build"): PageState => (
   tabs: {},
   opened: [],
   enlarged: null,
+  gallery: false,
 });
 
 export const usePage = create<PageState>(() => emptyPage(0));

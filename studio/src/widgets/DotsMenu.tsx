@@ -19,7 +19,7 @@ export function DotsMenu({ label, children, opened, onOpened }: DotsMenuProps) {
       opened={opened}
       onChange={onOpened}
       position="bottom-end"
-      shadow="md"
+
       classNames={{ dropdown: "compact-menu" }}
     >
       <Menu.Target>

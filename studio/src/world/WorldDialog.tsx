@@ -5,12 +5,11 @@ import "./world.css";
 import { Button, Checkbox, FileButton, Group, NativeSelect, TextInput } from "@mantine/core";
 import { useEffect, useRef, useState } from "react";
 
-import { FolderBrowser } from "../dialogs/FolderBrowser";
+import { FolderBrowser, useFolder } from "../dialogs/FolderBrowser";
 import { ProblemText } from "../problems/ProblemText";
 import type { Asking } from "../dialogs/questions";
 import { base64, isTooLarge } from "../files/flows";
 import { lastPart } from "../files/paths";
-import { useFolder } from "../dialogs/useFolder";
 import { pageInk } from "../plots/colors/look";
 import { paintBytes } from "../draw/paint";
 import type { Answer, Kind, ListedProblem, WorldPreview, WorldSettingView } from "../protocol";

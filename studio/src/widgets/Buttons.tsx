@@ -1,0 +1,54 @@
+// The small buttons of panels, bars and menus.
+
+import { ActionIcon, type ActionIconProps, Button, type ButtonProps, Menu, Tooltip } from "@mantine/core";
+import type { MenuItemProps } from "@mantine/core";
+import type { IconPlus } from "@tabler/icons-react";
+import type { ComponentPropsWithRef } from "react";
+
+import { keysText } from "../keys";
+
+type Icon = typeof IconPlus;
+type Of<P> = P & Omit<ComponentPropsWithRef<"button">, keyof P>;
+
+export function PanelButton({ icon: Icon, ...rest }: Of<ButtonProps> & { icon?: Icon }) {
+  return (
+    <Button
+      size="compact-sm"
+      variant="default"
+      leftSection={Icon && <Icon size={15} aria-hidden />}
+      {...rest}
+    />
+  );
+}
+
+// An icon with its name below the pointer; `tip` says more.
+export type IconButtonProps = Of<ActionIconProps> & {
+  icon: Icon;
+  label: string;
+  tip?: string;
+  position?: "right";
+};
+
+export function IconButton({
+  icon: Icon,
+  label,
+  tip = label,
+  position,
+  size = 28,
+  ...rest
+}: IconButtonProps) {
+  return (
+    <Tooltip label={tip} position={position}>
+      <ActionIcon aria-label={label} size={size} {...rest}>
+        <Icon size={Math.round(0.6 * Number(size))} />
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+type MenuEntryProps = Of<MenuItemProps> & { icon: Icon; keys?: string };
+
+export function MenuEntry({ icon: Icon, keys, ...rest }: MenuEntryProps) {
+  const right = keys !== undefined && <span className="dim small">{keysText(keys)}</span>;
+  return <Menu.Item leftSection={<Icon size={16} stroke={1.6} />} rightSection={right} {...rest} />;
+}
