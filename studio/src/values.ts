@@ -8,6 +8,17 @@ export function valueAt(values: unknown, path: string): unknown {
     .reduce<unknown>((inner, step) => (isHolder(inner) ? inner[step] : undefined), values);
 }
 
+// Items by a key of theirs, in the order in which the keys first occur.
+export function grouped<T>(items: readonly T[], keyOf: (item: T) => string): [string, T[]][] {
+  const groups = new Map<string, T[]>();
+  for (const item of items) {
+    const members = groups.get(keyOf(item)) ?? [];
+    members.push(item);
+    groups.set(keyOf(item), members);
+  }
+  return [...groups];
+}
+
 // A copy with one value replaced; everything beside the path is shared.
 export function replaced(values: Values, path: string, value: unknown): Values {
   return put(values, path.split("."), value) as Values;

@@ -2,13 +2,13 @@
 
 import "./costs.css";
 
-import { Button } from "@mantine/core";
 import { IconStopwatch } from "@tabler/icons-react";
 
-import { ProblemText } from "../problems/ProblemText";
+import { ProblemTexts } from "../problems/ProblemText";
 import { request } from "../socket";
 import type { DockTool } from "../state/tool";
 import { useStudio } from "../store";
+import { PanelButton } from "../widgets/Buttons";
 import { type CostRow, costRows, microsecondsText, sumOf } from "./costRows";
 
 export const tool: DockTool = { title: "Costs", component: CostsPanel };
@@ -21,29 +21,24 @@ function CostsPanel() {
   const again = rows.length > 0;
   return (
     <div className="costs">
-      <div className="costs-head">
-        <Button
-          size="compact-sm"
-          variant="default"
-          leftSection={<IconStopwatch size={15} />}
+      <div className="across wrapped small">
+        <PanelButton
+          icon={IconStopwatch}
           loading={measuring}
           onClick={() => void request({ type: "measure_costs" })}
         >
           {again ? "Measure costs again" : "Measure costs"}
-        </Button>
+        </PanelButton>
         {costs !== null && again && (
-          <span className="numbers" role="status">
+          <span role="status">
             A step takes {microsecondsText(costs.step)} µs; the elements, each measured alone, add up to{" "}
             {microsecondsText(sumOf(costs))} µs
           </span>
         )}
       </div>
-      {(costs?.problems ?? []).map((problem, i) => (
-        <ProblemText key={i} problem={problem} />
-      ))}
+      <ProblemTexts problems={costs?.problems} />
       {again ? (
-        <table className="cost-table numbers">
-          <caption>Time that each element takes of a step</caption>
+        <table className="table wrapped cost-table" aria-label="Time that each element takes of a step">
           <thead>
             <tr>
               <th scope="col">Element</th>
@@ -77,7 +72,7 @@ function Line({ row }: { row: CostRow }) {
         {element === null ? (
           <span className="dim">{row.path}</span>
         ) : (
-          <button type="button" className="cost-element" onClick={() => select([element])}>
+          <button type="button" onClick={() => select([element])}>
             {row.path}
           </button>
         )}

@@ -13,7 +13,7 @@ export function Bars({ rows, column }: { rows: TrialRow[]; column: Column }) {
   const range = rangeOf(numbers);
   const texts = [...new Set(cells.filter((cell) => typeof cell === "string"))].sort();
   return (
-    <figure className="experiment-bars" aria-label={`${column.name} in each condition`}>
+    <figure className="down experiment-bars" aria-label={`${column.name} in each condition`}>
       {conditions.map((condition) => (
         <div key={condition.label} className="experiment-bar">
           <span className="one-line" title={condition.label}>
@@ -32,7 +32,7 @@ export function Bars({ rows, column }: { rows: TrialRow[]; column: Column }) {
         </div>
       ))}
       {column.sort === "number" && (
-        <figcaption className="experiment-bar numbers dim">
+        <figcaption className="experiment-bar dim">
           <span className="one-line">{Object.keys(rows[0]?.levels ?? {}).join(", ")}</span>
           <span className="experiment-ends">
             <span>{shortText(range[0])}</span>
@@ -69,7 +69,6 @@ function Numbers({ label, values, range, of }: NumbersProps) {
             count > 0 && (
               <rect
                 key={i}
-                className="experiment-bin"
                 x={i + 0.05}
                 width={0.9}
                 y={HEIGHT * (1 - count / most)}
@@ -77,17 +76,9 @@ function Numbers({ label, values, range, of }: NumbersProps) {
               />
             ),
         )}
-        {middle !== null && (
-          <line
-            className="experiment-median"
-            x1={share * counts.length}
-            x2={share * counts.length}
-            y1={0}
-            y2={HEIGHT}
-          />
-        )}
+        {middle !== null && <line x1={share * counts.length} x2={share * counts.length} y2={HEIGHT} />}
       </svg>
-      <span className="numbers">
+      <span>
         {said}, {values.length === of ? of : `${values.length} of ${of}`}
       </span>
     </>
@@ -95,10 +86,7 @@ function Numbers({ label, values, range, of }: NumbersProps) {
 }
 
 function Texts({ texts, counts }: { texts: string[]; counts: number[] }) {
-  const total = Math.max(
-    1,
-    counts.reduce((a, b) => a + b, 0),
-  );
+  const total = counts.reduce((a, b) => a + b, 0) || 1;
   return (
     <>
       <span className="experiment-shares">
@@ -114,9 +102,7 @@ function Texts({ texts, counts }: { texts: string[]; counts: number[] }) {
           </span>
         ))}
       </span>
-      <span className="numbers">
-        {texts.flatMap((text, i) => (counts[i] ? [`${text} ${counts[i]}`] : [])).join(", ")}
-      </span>
+      <span>{texts.flatMap((text, i) => (counts[i] ? [`${text} ${counts[i]}`] : [])).join(", ")}</span>
     </>
   );
 }

@@ -1,22 +1,29 @@
 // The cards of an experiment: what differs, what is detected, what is done and what is measured.
 
 import { Menu } from "@mantine/core";
-import { useMemo } from "react";
 
 import { AddButton } from "../widgets/AddButton";
 import { Fields } from "../inspector/forms/PartFields";
 import { TextBox } from "../inspector/forms/TextBox";
 import { PlaceContext } from "../inspector/place";
-import { ProblemText } from "../problems/ProblemText";
+import { ProblemTexts } from "../problems/ProblemText";
 import type { ExperimentForms, Kind } from "../protocol";
 import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import { edit } from "./actions";
+import { succeeded } from "../files/flows";
 import { add, type Group, partsOf } from "./draft";
 import { FactorCard } from "./FactorCard";
 import { PartCard } from "./PartCard";
-import { useData, useDesignPlace } from "./cardPlace";
+import { useCardPlace, useData, withDefaults } from "./cardPlace";
 import { otherProblems } from "./problems";
+
+const GROUPS: { group: Group; title: string; about: string }[] = [
+  { group: "factors", title: "Factors", about: "what differs between trials" },
+  { group: "conditions", title: "Conditions", about: "events that are detected, and may end the trial" },
+  { group: "actions", title: "Actions", about: "changes during each trial, at a time or after an event" },
+  { group: "measures", title: "Measures", about: "one number of each trial" },
+];
 
 // Parameters of the experiment that are always shown.
 const FIRST = 2;
@@ -24,22 +31,13 @@ const FIRST = 2;
 export function Design({ forms }: { forms: ExperimentForms }) {
   const data = useData();
   const problems = useStudio((state) => state.experiment?.problems) ?? [];
-  const place = useDesignPlace(forms.design);
-  const shown = useMemo(
-    () => Object.fromEntries(forms.design.map((p) => [p.name, data[p.name] ?? p.default])),
-    [forms, data],
-  );
-  const groups: Group[] = ["factors", "conditions", "actions", "measures"];
-  const places = groups.flatMap((group) => partsOf(data, group).map(({ key }) => `${group}.${key}`));
-  const rename = async (name: string) => {
-    const answer = await edit((now) => ({ ...now, name: name.trim() }));
-    return (answer.problems ?? []).length === 0;
-  };
+  const place = useCardPlace(forms.design, data);
+  const shown = withDefaults(data, forms.design);
+  const places = GROUPS.flatMap(({ group }) => partsOf(data, group).map(({ key }) => `${group}.${key}`));
+  const rename = async (name: string) => succeeded(await edit((now) => ({ ...now, name: name.trim() })));
   return (
     <PlaceContext.Provider value={place}>
-      {otherProblems(problems, places).map((problem, i) => (
-        <ProblemText key={i} problem={problem} />
-      ))}
+      <ProblemTexts problems={otherProblems(problems, places)} />
       <section aria-label="Trials" className="experiment-group">
         <div className="row row-inline">
           <div className="row-label">Name</div>
@@ -53,28 +51,15 @@ export function Design({ forms }: { forms: ExperimentForms }) {
           <Fields forms={forms.design.slice(FIRST)} values={shown} prefix="" />
         </details>
       </section>
-      <Cards group="factors" title="Factors" about="what differs between trials" kinds={[]} usual="" />
-      <Cards
-        group="conditions"
-        title="Conditions"
-        about="events that are detected, and may end the trial"
-        kinds={forms.conditions}
-        usual=""
-      />
-      <Cards
-        group="actions"
-        title="Actions"
-        about="changes during each trial, at a time or after an event"
-        kinds={forms.actions}
-        usual=""
-      />
-      <Cards
-        group="measures"
-        title="Measures"
-        about="one number of each trial"
-        kinds={forms.measures}
-        usual={forms.usual}
-      />
+      {GROUPS.map(({ group, ...said }) => (
+        <Cards
+          key={group}
+          group={group}
+          {...said}
+          kinds={group === "factors" ? [] : forms[group]}
+          usual={group === "measures" ? forms.usual : ""}
+        />
+      ))}
     </PlaceContext.Provider>
   );
 }
@@ -114,7 +99,7 @@ function Adding({ group, title, kinds, usual }: Omit<CardsProps, "about">) {
     return <AddButton aria-label={`Add to ${title}`} onClick={() => insert(kinds[0])} />;
   }
   return (
-    <Menu position="bottom-end" shadow="md" classNames={{ dropdown: "compact-menu" }}>
+    <Menu position="bottom-end" classNames={{ dropdown: "compact-menu" }}>
       <Menu.Target>
         <AddButton aria-label={`Add to ${title}`} />
       </Menu.Target>

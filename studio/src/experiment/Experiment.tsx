@@ -2,7 +2,7 @@
 
 import "./experiment.css";
 
-import { Button, Menu, Progress, SegmentedControl } from "@mantine/core";
+import { Menu, Progress, SegmentedControl } from "@mantine/core";
 import {
   IconArrowBackUp,
   IconFolderOpen,
@@ -13,8 +13,9 @@ import {
 import { useEffect, useState } from "react";
 
 import { HistoryButtons } from "../header/UndoButtons";
+import { PanelButton } from "../widgets/Buttons";
 import { DotsMenu } from "../widgets/DotsMenu";
-import { ProblemText } from "../problems/ProblemText";
+import { ProblemTexts } from "../problems/ProblemText";
 import type { ExperimentView, ListedProblem, RunView } from "../protocol";
 import { useStudio } from "../store";
 import { backToModel, close, create, open, redo, run, save, saveAs, stop, undo } from "./actions";
@@ -27,7 +28,9 @@ export function Experiment() {
   const experiment = useStudio((state) => state.experiment);
   const open_ = experiment !== null && experiment.data !== null;
   return (
-    <div className="experiment inspector">{open_ ? <Opened experiment={experiment} /> : <Nothing />}</div>
+    <div className="experiment inspector down">
+      {open_ ? <Opened experiment={experiment} /> : <Nothing />}
+    </div>
   );
 }
 
@@ -38,27 +41,22 @@ function Nothing() {
         An experiment runs many trials of the model, detects events, changes parameters, and stores one row of
         measures for each trial.
       </p>
-      <div className="experiment-head">
-        <Button
-          size="compact-sm"
-          variant="default"
-          leftSection={<IconPlus size={15} />}
-          onClick={() => void create()}
-        >
+      <div className="across experiment-head">
+        <PanelButton icon={IconPlus} onClick={() => void create()}>
           New experiment
-        </Button>
-        <Button
-          size="compact-sm"
-          variant="default"
-          leftSection={<IconFolderOpen size={15} />}
-          onClick={() => void open()}
-        >
+        </PanelButton>
+        <PanelButton icon={IconFolderOpen} onClick={() => void open()}>
           Open…
-        </Button>
+        </PanelButton>
       </div>
     </>
   );
 }
+
+const PARTS = [
+  { value: "design", label: "Design" },
+  { value: "results", label: "Results" },
+];
 
 function Opened({ experiment }: { experiment: ExperimentView }) {
   const forms = useStudio((state) => state.welcome?.experiment);
@@ -72,10 +70,7 @@ function Opened({ experiment }: { experiment: ExperimentView }) {
         size="xs"
         fullWidth
         aria-label="Part of the experiment"
-        data={[
-          { value: "design", label: "Design" },
-          { value: "results", label: "Results" },
-        ]}
+        data={PARTS}
         value={shown}
         onChange={setShown}
       />
@@ -94,38 +89,34 @@ function Head({ experiment }: { experiment: ExperimentView }) {
   useEffect(() => setRefused([]), [place, present?.state]);
   return (
     <>
-      <div className="experiment-head">
+      <div className="across experiment-head">
         {running ? (
-          <Button
-            size="compact-sm"
-            variant="default"
-            leftSection={<IconPlayerStopFilled size={14} />}
+          <PanelButton
+            icon={IconPlayerStopFilled}
             aria-label="Stop the experiment"
             disabled={present.stopping}
             onClick={() => void stop()}
           >
             Stop
-          </Button>
+          </PanelButton>
         ) : (
-          <Button
-            size="compact-sm"
-            leftSection={<IconPlayerPlayFilled size={14} />}
+          <PanelButton
+            variant="filled"
+            icon={IconPlayerPlayFilled}
             aria-label={`${present?.state === "stopped" ? "Continue" : "Run"} the experiment`}
             disabled={problems.length > 0 || repeated !== null || (followed && !unsaved) || !isStated(place)}
             onClick={() => void run().then(setRefused)}
           >
             {present?.state === "stopped" ? "Continue" : "Run"}
-          </Button>
+          </PanelButton>
         )}
-        <Button
-          size="compact-sm"
-          variant="default"
+        <PanelButton
           aria-label="Save the experiment"
           disabled={!unsaved && file !== ""}
           onClick={() => void save()}
         >
           Save
-        </Button>
+        </PanelButton>
         <HistoryButtons
           undo={experiment.undo}
           redo={experiment.redo}
@@ -154,20 +145,13 @@ function Head({ experiment }: { experiment: ExperimentView }) {
       )}
       {present !== null && <Standing run={present} />}
       {!running && !(followed && !unsaved) && <Where />}
-      {[...(present?.problems ?? []), ...refused].map((problem, i) => (
-        <ProblemText key={i} problem={problem} />
-      ))}
+      <ProblemTexts problems={[...(present?.problems ?? []), ...refused]} />
       {repeated !== null && (
-        <div className="experiment-head experiment-repeated">
+        <div className="across experiment-head experiment-repeated">
           <span className="grow">Trial {repeated} is open as a record.</span>
-          <Button
-            size="compact-sm"
-            variant="default"
-            leftSection={<IconArrowBackUp size={15} />}
-            onClick={() => void backToModel()}
-          >
+          <PanelButton icon={IconArrowBackUp} onClick={() => void backToModel()}>
             Back to the model
-          </Button>
+          </PanelButton>
         </div>
       )}
     </>
@@ -178,7 +162,7 @@ function Standing({ run: present }: { run: RunView }) {
   const lines = standingLines(present);
   return (
     lines.length > 0 && (
-      <ul className="experiment-standing dim numbers" aria-label="Standing of the experiment">
+      <ul className="wrapped dim" aria-label="Standing of the experiment">
         {lines.map((line) => (
           <li key={line}>{line}</li>
         ))}
@@ -188,14 +172,13 @@ function Standing({ run: present }: { run: RunView }) {
 }
 
 function statusText(present: RunView | null, trials: number, problems: number): string {
-  if (present !== null) {
-    const { rows, state, left } = present;
-    if (state !== "running" && state !== "followed") {
-      return `${rows} of ${present.trials} trials, ${state}`;
-    }
-    const share = `${Math.floor((100 * rows) / Math.max(1, present.trials))} %`;
-    const time = left === null ? "" : `, ${secondsText(left)} left`;
-    return `${rows} of ${present.trials} trials (${share})${time}`;
+  if (present === null) {
+    return problems > 0 ? "cannot run yet" : `${trials} trials`;
   }
-  return problems > 0 ? "cannot run yet" : `${trials} trials`;
+  const { rows, state, left, trials: all } = present;
+  if (state !== "running" && state !== "followed") {
+    return `${rows} of ${all} trials, ${state}`;
+  }
+  const time = left === null ? "" : `, ${secondsText(left)} left`;
+  return `${rows} of ${all} trials (${Math.floor((100 * rows) / Math.max(1, all))} %)${time}`;
 }

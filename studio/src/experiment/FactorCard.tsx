@@ -10,8 +10,19 @@ import { typedValue, valueText } from "../inspector/forms/value";
 import { fresh, without } from "../inspector/parameters/part";
 import { useStudio } from "../store";
 import type { Values } from "../values";
+import { succeeded } from "../files/flows";
 import { edit } from "./actions";
-import { isNamed, mapLevels, type NamedLevels, type Part, partsOf, pathsOf, put, withNumber } from "./draft";
+import {
+  isNamed,
+  mapped,
+  type NamedLevels,
+  omitted,
+  type Part,
+  partsOf,
+  pathsOf,
+  put,
+  withNumber,
+} from "./draft";
 import { CardFrame } from "./PartCard";
 import { parametersOf, valueAt } from "./cardPlace";
 
@@ -25,7 +36,7 @@ export function FactorCard({ part: { key, values } }: { part: Part }) {
       const now = partsOf(data, "factors").find((part) => part.key === key);
       return now === undefined ? data : put(data, "factors", key, change(now.values));
     });
-    return (answer.problems ?? []).length === 0;
+    return succeeded(answer);
   };
   const how = (chosen: string) =>
     void commit(() => (chosen === "named" ? { levels: { level: {} } } : { levels: [], path: "" }));
@@ -61,14 +72,9 @@ type LevelsProps = {
   commit: (change: NewFrom<Values>) => Promise<boolean>;
 };
 
-function One({
-  name,
-  names,
-  elements,
-  commit,
-  path,
-  levels,
-}: LevelsProps & { path: string; levels: unknown[] }) {
+type OneProps = LevelsProps & { path: string; levels: unknown[] };
+
+function One({ name, names, elements, commit, path, levels }: OneProps) {
   const set = (change: NewFrom<unknown[]>) =>
     commit((now) => (isNamed(now["levels"]) ? now : { ...now, levels: change(listed(now)) }));
   const choose = (chosen: string) => {
@@ -86,9 +92,9 @@ function One({
   return (
     <>
       <NameBox label={`Parameter of ${name}`} value={path} names={names} onCommit={choose} />
-      <div className="experiment-levels">
+      <div className="across experiment-levels">
         {levels.map((level, i) => (
-          <span key={i} className="experiment-level">
+          <span key={i} className="across experiment-level">
             <TextBox
               label={`Level ${i + 1} of ${name}`}
               value={valueText(level)}
@@ -117,7 +123,7 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
     commit((now) => (isNamed(now["levels"]) ? { levels: change(now["levels"]) } : now));
   const labels = Object.keys(levels);
   const addPath = (path: string) =>
-    set((now) => mapLevels(now, (level) => ({ ...level, [path]: valueAt(elements, path) ?? 0 })));
+    set((now) => mapped(now, (level) => ({ ...level, [path]: valueAt(elements, path) ?? 0 })));
   const renamed = (old: string, typed: string) =>
     set((now) => Object.fromEntries(Object.entries(now).map(([k, v]) => [k === old ? typed : k, v])));
   const addLevel = (now: NamedLevels) => {
@@ -126,13 +132,13 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
   };
   return (
     <div className="experiment-scroll">
-      <table className="experiment-table experiment-named">
+      <table className="table experiment-named">
         <thead>
           <tr>
             <th scope="col">Parameter</th>
             {labels.map((label, i) => (
               <th scope="col" key={label}>
-                <span className="experiment-level">
+                <span className="across experiment-level">
                   <TextBox
                     label={`Name of level ${i + 1} of ${name}`}
                     value={label}
@@ -140,9 +146,7 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
                   />
                   <Cross
                     label={`Remove ${label} from ${name}`}
-                    onClick={() =>
-                      void set((now) => Object.fromEntries(Object.entries(now).filter(([k]) => k !== label)))
-                    }
+                    onClick={() => void set((now) => omitted(now, label) as NamedLevels)}
                   />
                 </span>
               </th>
@@ -172,13 +176,7 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
               <td>
                 <Cross
                   label={`Remove ${path} from ${name}`}
-                  onClick={() =>
-                    void set((now) =>
-                      mapLevels(now, (level) =>
-                        Object.fromEntries(Object.entries(level).filter(([k]) => k !== path)),
-                      ),
-                    )
-                  }
+                  onClick={() => void set((now) => mapped(now, (level) => omitted(level, path)))}
                 />
               </td>
             </tr>

@@ -1,8 +1,8 @@
 // The card of a condition, an action or a measure: its kind, its name and the forms of its parameters.
 
-import { Menu } from "@mantine/core";
 import { IconTrash } from "@tabler/icons-react";
 
+import { MenuEntry } from "../widgets/Buttons";
 import { DotsMenu } from "../widgets/DotsMenu";
 import { Fields } from "../inspector/forms/PartFields";
 import { TextBox } from "../inspector/forms/TextBox";
@@ -10,10 +10,10 @@ import { PlaceContext } from "../inspector/place";
 import { ProblemLine } from "../widgets/ProblemLine";
 import type { Kind } from "../protocol";
 import { useStudio } from "../store";
-import type { Values } from "../values";
+import { succeeded } from "../files/flows";
 import { edit } from "./actions";
 import { type Group, type Part, remove, rename } from "./draft";
-import { usePartPlace } from "./cardPlace";
+import { useCardPlace, withDefaults } from "./cardPlace";
 import { problemsAt } from "./problems";
 
 type PartCardProps = { group: Group; part: Part; kinds: Kind[]; usual: string };
@@ -21,19 +21,14 @@ type PartCardProps = { group: Group; part: Part; kinds: Kind[]; usual: string };
 export function PartCard({ group, part: { key, values }, kinds, usual }: PartCardProps) {
   const kind = kinds.find(({ name }) => name === (values["kind"] ?? usual));
   const forms = kind?.parameters ?? [];
-  const place = usePartPlace(group, key, values, forms);
-  const shown = withDefaults(values, kind);
+  const place = useCardPlace(forms, values, group, key);
   return (
     <CardFrame group={group} name={key} title={kind?.title ?? String(values["kind"])} kinds={kinds}>
       <PlaceContext.Provider value={place}>
-        <Fields forms={forms} values={shown} prefix={`${key}.`} />
+        <Fields forms={forms} values={withDefaults(values, forms)} prefix={`${key}.`} />
       </PlaceContext.Provider>
     </CardFrame>
   );
-}
-
-function withDefaults(values: Values, kind: Kind | undefined): Values {
-  return Object.fromEntries((kind?.parameters ?? []).map((p) => [p.name, values[p.name] ?? p.default]));
 }
 
 type CardProps = {
@@ -50,11 +45,14 @@ export function CardFrame({ group, name, title, kinds, children }: CardProps) {
   const own = problemsAt(problems, `${group}.${name}`);
   const label = group === "actions" ? `${title} ${Number(name) + 1}` : `${title} ${name}`;
   const take = async (typed: string) =>
-    typed.trim() === "" ||
-    ((await edit((data) => rename(data, group, name, typed.trim(), kinds))).problems ?? []).length === 0;
+    typed.trim() === "" || succeeded(await edit((data) => rename(data, group, name, typed.trim(), kinds)));
   return (
-    <section className="experiment-card" aria-label={label} data-wrong={own.length > 0 || undefined}>
-      <div className="experiment-card-head">
+    <section
+      className="card down experiment-card"
+      aria-label={label}
+      data-wrong={own.length > 0 || undefined}
+    >
+      <div className="across">
         <span className="part-title">{title}</span>
         {group === "actions" ? (
           <span className="grow" />
@@ -62,12 +60,9 @@ export function CardFrame({ group, name, title, kinds, children }: CardProps) {
           <TextBox label={`Name of ${name}`} value={name} onCommit={take} />
         )}
         <DotsMenu label={`More for ${label}`}>
-          <Menu.Item
-            leftSection={<IconTrash size={14} />}
-            onClick={() => void edit((data) => remove(data, group, name))}
-          >
+          <MenuEntry icon={IconTrash} onClick={() => void edit((data) => remove(data, group, name))}>
             Remove
-          </Menu.Item>
+          </MenuEntry>
         </DotsMenu>
       </div>
       {children}

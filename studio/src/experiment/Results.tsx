@@ -1,6 +1,5 @@
 // The rows of a run: the distribution of one column in each combination of levels, and the table.
 
-import { UnstyledButton } from "@mantine/core";
 import { useMemo, useState } from "react";
 
 import { AddButton } from "../widgets/AddButton";
@@ -14,10 +13,9 @@ import { cellText, type Column, columnsOf, type TrialRow } from "./trialRows";
 const MORE = 200;
 
 export function Results() {
-  const rows = useStudio((state) => state.trials.rows);
-  const number = useStudio((state) => state.experiment?.run?.number);
-  const received = useStudio((state) => state.trials.run);
-  const own = number === received ? rows : NO_ROWS;
+  const own = useStudio(({ trials, experiment }) =>
+    experiment?.run?.number === trials.run ? trials.rows : NO_ROWS,
+  );
   const columns = useMemo(() => columnsOf(own), [own]);
   const [chosen, setChosen] = useState("");
   const shown = columns.filter(({ sort }) => sort !== "level");
@@ -27,7 +25,7 @@ export function Results() {
   }
   return (
     <>
-      <div className="experiment-choice">
+      <div className="across">
         <ChoiceBox
           label="Shown column"
           value={column.name}
@@ -58,7 +56,7 @@ function Table({ rows, columns }: { rows: TrialRow[]; columns: Column[] }) {
   };
   return (
     <div className="experiment-scroll">
-      <table className="experiment-table numbers">
+      <table className="table experiment-rows">
         <caption>
           {followed
             ? "The trials can be run again when the experiment is complete."
@@ -83,14 +81,13 @@ function Table({ rows, columns }: { rows: TrialRow[]; columns: Column[] }) {
               onClick={() => void replay(row.trial)}
             >
               <th scope="row">
-                <UnstyledButton
-                  mih={24}
-                  miw={24}
+                <button
+                  type="button"
                   aria-label={`Replay trial ${row.trial}`}
                   disabled={busy !== null || followed}
                 >
                   {row.trial}
-                </UnstyledButton>
+                </button>
               </th>
               {columns.map(({ name, of }) => (
                 <td key={name}>{cellText(of(row))}</td>

@@ -4,7 +4,7 @@ import { Checkbox, SegmentedControl, TextInput } from "@mantine/core";
 
 import { useStudio } from "../store";
 import { NumberField } from "../widgets/NumberField";
-import { PATIENCE, placeText, useRunPlace } from "./runPlace";
+import { PATIENCE, placeText, type RunPlace, useRunPlace } from "./runPlace";
 
 export function Where() {
   const place = useRunPlace();
@@ -12,23 +12,25 @@ export function Where() {
   return (
     <details className="experiment-more experiment-where">
       <summary>
-        Where: <span className="numbers">{placeText(place, usual)}</span>
+        Where: <span>{placeText(place, usual)}</span>
       </summary>
       <SegmentedControl
         size="xs"
         fullWidth
         aria-label="Where the trials run"
-        data={[
-          { value: "machine", label: "This machine" },
-          { value: "cluster", label: "A cluster" },
-        ]}
+        data={PLACES}
         value={place.on}
-        onChange={(on) => useRunPlace.setState({ on: on === "cluster" ? "cluster" : "machine" })}
+        onChange={(on) => useRunPlace.setState({ on })}
       />
       {place.on === "machine" ? <Processes /> : <ClusterForm />}
     </details>
   );
 }
+
+const PLACES: { value: RunPlace["on"]; label: string }[] = [
+  { value: "machine", label: "This machine" },
+  { value: "cluster", label: "A cluster" },
+];
 
 function Processes() {
   const workers = useRunPlace((place) => place.workers);

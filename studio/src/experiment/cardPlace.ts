@@ -6,7 +6,7 @@ import { axesOf, type Kinds, leavesOf } from "../inspector/parameters/leaf";
 import type { Names, Place } from "../inspector/place";
 import type { AxisView, DocumentView, ElementView, ParameterForm } from "../protocol";
 import { useStudio } from "../store";
-import type { Values } from "../values";
+import { type Values, valueAt as inside } from "../values";
 import { edit } from "./actions";
 import { type Data, type Group, partsOf, put, setAt } from "./draft";
 
@@ -43,12 +43,7 @@ export function parametersOf(elements: ElementView[], kinds: Kinds): string[] {
 // The value that a parameter has in the document; undefined without such a number.
 export function valueAt(elements: ElementView[], path: string): unknown {
   const element = elements.find((e) => path.startsWith(`${e.path}.`));
-  return element === undefined
-    ? undefined
-    : path
-        .slice(element.path.length + 1)
-        .split(".")
-        .reduce<unknown>((value, key) => (value as Values | undefined)?.[key], element.values);
+  return element && inside(element.values, path.slice(element.path.length + 1));
 }
 
 // The axes of the first element that a card names.
@@ -65,42 +60,31 @@ function axesNamed(values: Values, forms: ParameterForm[], document: DocumentVie
   return [] as AxisView[];
 }
 
-// The forms of one part of the experiment.
-export function usePartPlace(group: Group, key: string, values: Values, forms: ParameterForm[]): Place {
-  const document = useStudio((state) => state.document);
-  const kinds = useStudio((state) => state.kinds);
-  const data = useData();
-  return useMemo(() => {
-    const below = `${key}.`.length;
-    return {
-      element: "",
-      axes: axesNamed(values, forms, document, kinds),
-      own: false,
-      timeUnit: document?.time_unit ?? "",
-      send: (path, value) =>
-        edit((now) => {
-          const found = partsOf(now, group).find((part) => part.key === key)?.values ?? values;
-          return put(now, group, key, setAt(found, forms, path.slice(below), value));
-        }),
-      names: (of) => namesOf(of, document, kinds, data).filter((name) => name !== key),
-    };
-  }, [group, key, values, forms, document, kinds, data]);
-}
-
-// The forms of the experiment itself.
-export function useDesignPlace(forms: ParameterForm[]): Place {
+// The forms of the experiment itself, or of one of its parts.
+export function useCardPlace(forms: ParameterForm[], values: Values, group?: Group, key = ""): Place {
   const document = useStudio((state) => state.document);
   const kinds = useStudio((state) => state.kinds);
   const data = useData();
   return useMemo(
     () => ({
       element: "",
-      axes: [],
+      axes: axesNamed(values, forms, document, kinds),
       own: false,
       timeUnit: document?.time_unit ?? "",
-      send: (path, value) => edit((now) => setAt(now, forms, path, value)),
-      names: (of) => namesOf(of, document, kinds, data),
+      send: (path, value) =>
+        edit((now) => {
+          if (group === undefined) {
+            return setAt(now, forms, path, value);
+          }
+          const present = partsOf(now, group).find((part) => part.key === key)?.values ?? values;
+          return put(now, group, key, setAt(present, forms, path.slice(key.length + 1), value));
+        }),
+      names: (of) => namesOf(of, document, kinds, data).filter((name) => name !== key),
     }),
-    [forms, document, kinds, data],
+    [group, key, values, forms, document, kinds, data],
   );
 }
+
+// The values of the forms, those that are not stated as their defaults.
+export const withDefaults = (values: Values, forms: ParameterForm[]): Values =>
+  Object.fromEntries(forms.map((form) => [form.name, values[form.name] ?? form.default]));

@@ -1,6 +1,6 @@
 // The plain data of an experiment, and its changes: each returns new data.
 
-import { fresh, same, without } from "../inspector/parameters/part";
+import { fresh, same } from "../inspector/parameters/part";
 import type { Kind, ParameterForm } from "../protocol";
 import type { Values } from "../values";
 
@@ -17,9 +17,17 @@ export function partsOf(data: Data, group: Group): Part[] {
   return Object.entries((held ?? {}) as Record<string, Values>).map(([key, values]) => ({ key, values }));
 }
 
+export function omitted(values: Values, name: string): Values {
+  return Object.fromEntries(Object.entries(values).filter(([key]) => key !== name));
+}
+
+function mapParts(data: Data, group: Group, change: (part: Part) => Part): Data {
+  return withParts(data, group, partsOf(data, group).map(change));
+}
+
 function withParts(data: Data, group: Group, parts: Part[]): Data {
   if (parts.length === 0) {
-    return Object.fromEntries(Object.entries(data).filter(([key]) => key !== group));
+    return omitted(data, group);
   }
   const held =
     group === "actions"
@@ -41,32 +49,17 @@ export function add(data: Data, group: Group, values: Values, name: string): Dat
 }
 
 export function put(data: Data, group: Group, key: string, values: Values): Data {
-  return withParts(
-    data,
-    group,
-    partsOf(data, group).map((part) => (part.key === key ? { key, values } : part)),
-  );
+  return mapParts(data, group, (part) => (part.key === key ? { key, values } : part));
 }
 
 export function remove(data: Data, group: Group, key: string): Data {
-  const parts = partsOf(data, group);
-  return withParts(
-    data,
-    group,
-    without(
-      parts,
-      parts.findIndex((part) => part.key === key),
-    ),
-  );
+  const rest = partsOf(data, group).filter((part) => part.key !== key);
+  return withParts(data, group, rest);
 }
 
 // Another name for a part, at its place; parts that name an event follow it.
 export function rename(data: Data, group: Group, key: string, name: string, kinds: Kind[]): Data {
-  const next = withParts(
-    data,
-    group,
-    partsOf(data, group).map((part) => (part.key === key ? { ...part, key: name } : part)),
-  );
+  const next = mapParts(data, group, (part) => (part.key === key ? { ...part, key: name } : part));
   if (group !== "conditions") {
     return next;
   }
@@ -74,19 +67,12 @@ export function rename(data: Data, group: Group, key: string, name: string, kind
     Array.isArray(value) ? value.map(swap) : value === key ? name : value;
   return (["conditions", "actions", "measures"] as const).reduce(
     (out, each) =>
-      withParts(
-        out,
-        each,
-        partsOf(out, each).map(({ key: at, values }) => ({
-          key: at,
-          values: Object.fromEntries(
-            Object.entries(values).map(([field, value]) => [
-              field,
-              formOf(kinds, values, field)?.names === "event" ? swap(value) : value,
-            ]),
-          ),
-        })),
-      ),
+      mapParts(out, each, ({ key: at, values }) => ({
+        key: at,
+        values: mapped(values, (value, field) =>
+          formOf(kinds, values, field)?.names === "event" ? swap(value) : value,
+        ),
+      })),
     next,
   );
 }
@@ -104,8 +90,7 @@ export function setAt(values: Values, forms: ParameterForm[], path: string, valu
     index === undefined
       ? value
       : ((values[head] ?? form?.default ?? []) as unknown[]).map((v, i) => (i === Number(index) ? value : v));
-  const rest = Object.fromEntries(Object.entries(values).filter(([key]) => key !== head));
-  return whole === null || same(whole, form?.default) ? rest : { ...values, [head]: whole };
+  return whole === null || same(whole, form?.default) ? omitted(values, head) : { ...values, [head]: whole };
 }
 
 // ------------------------------------------------------------------------------------------- levels
@@ -121,8 +106,11 @@ export function pathsOf(levels: NamedLevels): string[] {
   return [...new Set(Object.values(levels).flatMap((level) => Object.keys(level)))];
 }
 
-export function mapLevels(levels: NamedLevels, change: (level: Values) => Values): NamedLevels {
-  return Object.fromEntries(Object.entries(levels).map(([name, level]) => [name, change(level)]));
+export function mapped<T>(
+  values: Record<string, T>,
+  change: (value: T, name: string) => T,
+): Record<string, T> {
+  return Object.fromEntries(Object.entries(values).map(([name, value]) => [name, change(value, name)]));
 }
 
 // Set a parameter in one level, if there still is such a level.

@@ -2,7 +2,7 @@
 
 import { create } from "zustand";
 
-import type { RunView } from "../protocol";
+import type { RunExperiment, RunView } from "../protocol";
 
 export type RunPlace = {
   on: "machine" | "cluster";
@@ -27,13 +27,7 @@ export const useRunPlace = create<RunPlace>(() => ({
   mixed: false,
 }));
 
-export type RunPlaceRequest = {
-  workers?: number;
-  cluster?: string;
-  patience?: number;
-  trust_network?: boolean;
-  mixed?: boolean;
-};
+type RunPlaceRequest = Omit<RunExperiment, "type" | "request" | "session">;
 
 // What a request to run says of the place.
 export function requestOf({ on, workers, address, patience, trust, mixed }: RunPlace): RunPlaceRequest {
@@ -54,18 +48,16 @@ const processes = (count: number): string => (count === 1 ? "1 process" : `${cou
 
 // How far a run is, without its number of trials: a line each.
 export function standingLines(run: RunView): string[] {
-  const lines: string[] = [];
-  if (run.state === "running") {
-    lines.push(staffText(run));
-  } else if (run.state === "followed") {
-    lines.push("Another process runs this experiment. Its rows are read every second.");
-  } else {
-    return lines;
+  const { state, slowest, diverged } = run;
+  if (state !== "running" && state !== "followed") {
+    return [];
   }
-  if (run.slowest !== "") {
-    lines.push(`Slowest: ${run.slowest}`);
-  }
-  return [...lines, ...run.diverged.map((cell) => `Diverged: ${cell}`)];
+  const followed = "Another process runs this experiment. Its rows are read every second.";
+  return [
+    state === "running" ? staffText(run) : followed,
+    ...(slowest === "" ? [] : [`Slowest: ${slowest}`]),
+    ...diverged.map((cell) => `Diverged: ${cell}`),
+  ];
 }
 
 function staffText({ cluster, workers, pieces, stopping }: RunView): string {

@@ -1,5 +1,6 @@
 // The rows of trials as columns, and the distribution of a column in each combination of levels.
 
+import { grouped } from "../values";
 import { numberText } from "../widgets/number";
 
 export type TrialRow = {
@@ -25,32 +26,26 @@ export function columnsOf(rows: readonly TrialRow[]): Column[] {
   }
   const several = (name: string) =>
     Math.max(...rows.map(({ measures }) => (Array.isArray(measures[name]) ? measures[name].length : 0)));
+  const column = (name: string, sort: Column["sort"], of: (row: TrialRow) => unknown): Column => ({
+    name,
+    sort,
+    of: (row) => (of(row) ?? null) as Cell,
+  });
   return [
-    ...Object.keys(first.levels).map((name): Column => ({
-      name,
-      sort: "level",
-      of: ({ levels }) => levels[name] ?? null,
-    })),
-    { name: "outcome", sort: "text", of: ({ outcome }) => outcome },
-    { name: "duration", sort: "number", of: ({ duration }) => duration },
-    ...Object.keys(first.events).map((name): Column => ({
-      name,
-      sort: "number",
-      of: ({ events }) => events[name] ?? null,
-    })),
-    ...Object.keys(first.measures).flatMap((name): Column[] => {
+    ...Object.keys(first.levels).map((name) => column(name, "level", ({ levels }) => levels[name])),
+    column("outcome", "text", ({ outcome }) => outcome),
+    column("duration", "number", ({ duration }) => duration),
+    ...Object.keys(first.events).map((name) => column(name, "number", ({ events }) => events[name])),
+    ...Object.keys(first.measures).flatMap((name) => {
       const count = several(name);
-      if (count === 0) {
-        return [{ name, sort: "number", of: ({ measures }) => measures[name] as number | null }];
-      }
-      return Array.from({ length: count }, (_, i) => ({
-        name: `${name}.${i}`,
-        sort: "number",
-        of: ({ measures }) => (measures[name] as number[] | null)?.[i] ?? null,
-      }));
+      return count === 0
+        ? [column(name, "number", ({ measures }) => measures[name])]
+        : Array.from({ length: count }, (_, i) =>
+            column(`${name}.${i}`, "number", ({ measures }) => (measures[name] as number[] | null)?.[i]),
+          );
     }),
     ...(rows.some(({ machine }) => machine !== undefined)
-      ? [{ name: "machine", sort: "level", of: ({ machine }) => machine ?? null } satisfies Column]
+      ? [column("machine", "level", ({ machine }) => machine)]
       : []),
   ];
 }
@@ -60,20 +55,17 @@ export type Condition = { label: string; short: string; rows: TrialRow[] };
 
 // The rows of each combination of levels, in the order of the trials.
 export function conditionsOf(rows: readonly TrialRow[]): Condition[] {
-  const found = new Map<string, Condition>();
-  for (const row of rows) {
-    const label = Object.entries(row.levels)
+  const labelOf = ({ levels }: TrialRow) =>
+    Object.entries(levels)
       .map(([name, level]) => `${name} ${cellText(level)}`)
       .join(", ");
-    const condition = found.get(label) ?? {
-      label,
-      short: Object.values(row.levels).map(cellText).join(", "),
-      rows: [],
-    };
-    condition.rows.push(row);
-    found.set(label, condition);
-  }
-  return [...found.values()];
+  return grouped(rows, labelOf).map(([label, members]) => ({
+    label,
+    short: Object.values(members[0]?.levels ?? {})
+      .map(cellText)
+      .join(", "),
+    rows: members,
+  }));
 }
 
 export function cellText(cell: Cell): string {
@@ -84,13 +76,11 @@ const BINS = 24;
 
 // The range of all values; one value gets some space around it.
 export function rangeOf(values: readonly number[]): [number, number] {
-  const [lower, upper] = values.reduce(
-    ([low, high], value) => [Math.min(low, value), Math.max(high, value)],
-    [Infinity, -Infinity],
-  );
-  if (lower > upper) {
+  if (values.length === 0) {
     return [0, 1];
   }
+  const lower = values.reduce((a, b) => Math.min(a, b));
+  const upper = values.reduce((a, b) => Math.max(a, b));
   const some = lower === upper ? Math.max(Math.abs(lower) / 10, 0.5) : 0;
   return [lower - some, upper + some];
 }

@@ -54,9 +54,9 @@ function Item({ item, active, onFocus }: ItemProps) {
   const picked = usePicked((state) => group !== null && state.groups.includes(group));
   return (
     <div role="group" aria-label={note === "" ? title : `${title} (${note})`} className="report-item">
-      <div className="report-title" aria-hidden data-shown={selected || picked || undefined}>
-        <span className="report-name">{title}</span>
-        {note !== "" && <span className="report-note">{note}</span>}
+      <div className="wrapped report-title" aria-hidden data-shown={selected || picked || undefined}>
+        <b>{title}</b>
+        {note !== "" && <span className="dim">{note}</span>}
       </div>
       {lines.map((line) => (
         <LineOption key={line.key} line={line} goal={goal} active={line.key === active} onFocus={onFocus} />
@@ -77,7 +77,7 @@ const LineOption = memo(function LineOption({ line, goal, active, onFocus }: Lin
   const show = () => goal !== null && showGoal(goal);
   return (
     <div
-      className="report-line"
+      className="wrapped report-line"
       role="option"
       tabIndex={active ? 0 : -1}
       aria-selected={active}
@@ -85,13 +85,13 @@ const LineOption = memo(function LineOption({ line, goal, active, onFocus }: Lin
       onFocus={() => onFocus(line.key)}
       {...choosing(show)}
     >
-      <span className="report-verdict" data-verdict={verdict}>
+      <span className="dim" data-verdict={verdict}>
         {verdict}
       </span>
-      <span className="report-words">
-        <span className="report-part">{part}</span> {what}
+      <span>
+        <span className="dim">{part}</span> {what}
       </span>
-      {why !== "" && <span className="report-why">{why}</span>}
+      {why !== "" && <span className="report-why dim">{why}</span>}
     </div>
   );
 });

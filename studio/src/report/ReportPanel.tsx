@@ -3,7 +3,7 @@
 
 import "./report.css";
 
-import { ActionIcon, Button, SegmentedControl, TextInput } from "@mantine/core";
+import { SegmentedControl, TextInput } from "@mantine/core";
 import { IconSearch, IconTrash } from "@tabler/icons-react";
 import { type KeyboardEvent, useMemo, useState } from "react";
 
@@ -12,6 +12,7 @@ import { keyOf } from "../graph/layout/tree";
 import type { ImportReportView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { IconButton, PanelButton } from "../widgets/Buttons";
 import { countOf, FILTERS, lossesText, type Present, type ReportFilter, reportItems } from "./reportItems";
 import { ReportList } from "./ReportList";
 
@@ -19,11 +20,9 @@ export function ReportPanel() {
   const report = useStudio((state) => state.report);
   if (report === null) {
     return (
-      <div className="report">
-        <p className="dim">
-          This document was not made from a file of another tool, or does not contain the report of it.
-        </p>
-      </div>
+      <p className="report dim">
+        This document was not made from a file of another tool, or does not contain the report of it.
+      </p>
     );
   }
   // Another report starts with its own filter.
@@ -55,21 +54,20 @@ function Walk({ report }: { report: ImportReportView }) {
   return (
     <div className="report">
       <div className="report-head">
-        <div className="report-top">
-          <p className="report-summary">
+        <div className="across">
+          <span className="grow wrapped">
             <b>{report.file}</b> ({report.tool}): {summaryText(report)}
-          </p>
-          <ActionIcon
+          </span>
+          <IconButton
+            icon={IconTrash}
             size={24}
             disabled={offline}
-            aria-label="Remove the report"
-            title="Remove the report from the document; undo brings it back"
+            label="Remove the report"
+            tip="Remove the report from the document; undo brings it back"
             onClick={() => void removeReport()}
-          >
-            <IconTrash size={15} />
-          </ActionIcon>
+          />
         </div>
-        <div className="report-controls">
+        <div className="across report-controls">
           {losses > 0 && (
             <SegmentedControl
               size="xs"
@@ -81,7 +79,7 @@ function Walk({ report }: { report: ImportReportView }) {
           )}
           <TextInput
             size="xs"
-            className="report-search"
+            className="grow report-search"
             aria-label="Find in the report"
             placeholder="Find in the report"
             leftSection={<IconSearch size={14} aria-hidden />}
@@ -110,9 +108,9 @@ function Walk({ report }: { report: ImportReportView }) {
       )}
       {count > 0 && <ReportList items={items} most={most} />}
       {count > most && (
-        <Button size="compact-xs" variant="default" mt={6} onClick={() => setMost(count)}>
+        <PanelButton mt={6} onClick={() => setMost(count)}>
           Show {count - most} more lines
-        </Button>
+        </PanelButton>
       )}
     </div>
   );

@@ -20,18 +20,21 @@ function Shown({ step }: { step: number }) {
   const done = useTour((tour) => tour.done);
   const outline = useOutline(step);
   const { title, text, lesson } = STEPS[step] ?? { title: "", text: "", lesson: "" };
-  const last = step === STEPS.length - 1;
   return (
     <>
       {outline !== null && !done && (
         <div className={classes.outline} style={outline.style} aria-hidden="true" />
       )}
-      <aside className={classes.card} aria-label="Tour" data-left={outline?.right || undefined}>
-        <header className={classes.head}>
-          <span className={classes.number}>
+      <aside
+        className={`card down ${classes.card}`}
+        aria-label="Tour"
+        data-left={outline?.right || undefined}
+      >
+        <header className="across">
+          <span className="dim small">
             {step + 1} of {STEPS.length}
           </span>
-          <h2 className={classes.title}>{title}</h2>
+          <h2 className="grow">{title}</h2>
           <CloseButton size="sm" aria-label="End the tour" onClick={endTour} />
         </header>
         <p>{text}</p>
@@ -39,18 +42,15 @@ function Shown({ step }: { step: number }) {
           {done && <IconCircleCheck size={16} aria-label="Done." />}
           {done && lesson}
         </p>
-        <div className={classes.buttons}>
-          {!done && (
-            <Button size="compact-sm" variant="subtle" color="gray" onClick={() => goTo(step + 1)}>
-              Skip
-            </Button>
-          )}
-          {done && (
-            <Button size="compact-sm" onClick={() => goTo(step + 1)}>
-              {last ? "End" : "Next"}
-            </Button>
-          )}
-        </div>
+        <Button
+          ml="auto"
+          size="compact-sm"
+          variant={done ? "filled" : "subtle"}
+          color={done ? undefined : "gray"}
+          onClick={() => goTo(step + 1)}
+        >
+          {!done ? "Skip" : step === STEPS.length - 1 ? "End" : "Next"}
+        </Button>
       </aside>
     </>
   );
