@@ -34,7 +34,7 @@ function Opened({ choice }: { choice: Choice }) {
     return () => removeEventListener("pointerdown", outside, { capture: true });
   }, []);
   return (
-    <div className="chooser" role="dialog" aria-label={choice.label} ref={around} style={place}>
+    <div className="chooser down" role="dialog" aria-label={choice.label} ref={around} style={place}>
       <EntryList
         autoFocus
         label={choice.label}

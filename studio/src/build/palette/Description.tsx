@@ -2,7 +2,7 @@
 
 import { Tex } from "../../widgets/Tex";
 import type { Kind, TemplateView } from "../../protocol";
-import { TemplatePicture } from "./TemplatePicture";
+import { TemplatePicture } from "./Sketch";
 
 const LINES = 2;
 const MOST = 5;
@@ -19,7 +19,7 @@ export function Description({ kind }: { kind: Kind }) {
         </div>
       ))}
       {meanings.length > 0 && (
-        <p className="chooser-meanings" title={meanings.join(", ")}>
+        <p className="dim chooser-meanings" title={meanings.join(", ")}>
           {meanings.slice(0, MOST).join(", ")}
           {meanings.length > MOST && ", …"}
         </p>
@@ -31,9 +31,9 @@ export function Description({ kind }: { kind: Kind }) {
 // A model that is added whole: its picture and its first sentence.
 export function TemplateDescription({ template }: { template: TemplateView }) {
   return (
-    <div className="chooser-description chooser-template">
+    <div className="chooser-description across">
       <TemplatePicture key={template.name} template={template} className="chooser-picture" />
-      <p className="chooser-meanings">{template.sentence}</p>
+      <p className="dim grow chooser-meanings">{template.sentence}</p>
     </div>
   );
 }

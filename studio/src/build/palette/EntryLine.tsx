@@ -3,8 +3,7 @@
 
 import { carriedBy, carry } from "../wiring/carried";
 import type { ListEntry } from "./entries";
-import { Sketch } from "./Sketch";
-import { TemplatePicture } from "./TemplatePicture";
+import { Sketch, TemplatePicture } from "./Sketch";
 
 type Props = {
   id: string;
@@ -21,7 +20,7 @@ export function EntryLine({ id, entry, active, draggable, onLook, onChoose }: Pr
   return (
     <div
       id={id}
-      className="chooser-entry"
+      className="across chooser-entry"
       role="option"
       tabIndex={-1}
       aria-selected={active}
@@ -40,11 +39,11 @@ export function EntryLine({ id, entry, active, draggable, onLook, onChoose }: Pr
     >
       {kind !== undefined && <Sketch kind={kind} />}
       {template !== undefined && <TemplatePicture template={template} className="chooser-thumbnail" />}
-      <span className="chooser-words">
+      <span className="down grow">
         <span className="one-line">{title}</span>
-        {why !== undefined && <span className="chooser-why one-line">{why}</span>}
+        {why !== undefined && <span className="dim one-line chooser-note">{why}</span>}
       </span>
-      {note !== undefined && <span className="chooser-note one-line">{note}</span>}
+      {note !== undefined && <span className="dim one-line chooser-note">{note}</span>}
     </div>
   );
 }

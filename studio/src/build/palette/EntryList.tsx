@@ -7,6 +7,7 @@ import { type KeyboardEvent, useEffect, useId, useMemo, useState } from "react";
 import "./chooser.css";
 import { Description, TemplateDescription } from "./Description";
 import { type ListEntry, search } from "./entries";
+import { grouped } from "../../values";
 import { EntryLine } from "./EntryLine";
 
 type Props = {
@@ -89,12 +90,12 @@ export function EntryList({
         }}
         onKeyDown={onKey}
       />
-      {hint !== undefined && <p className="chooser-hint">{hint}</p>}
-      {found.length === 0 && <p className="chooser-empty">{empty}</p>}
+      {hint !== undefined && <p className="dim small chooser-hint">{hint}</p>}
+      {found.length === 0 && <p className="dim chooser-empty">{empty}</p>}
       <div className="chooser-list" role="listbox" id={list} aria-label={label} tabIndex={-1}>
-        {families(found).map(([family, members]) => (
+        {grouped(found, ({ family }) => family).map(([family, members]) => (
           <div role="group" aria-label={family} key={family}>
-            <div className="chooser-family" aria-hidden>
+            <div className="dim chooser-family" aria-hidden>
               {family}
             </div>
             {members.map((entry) => (
@@ -120,11 +121,3 @@ export function EntryList({
 const STEPS: Partial<Record<string, number>> = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
 
 const optionId = (list: string, entry: ListEntry): string => `${list}-${entry.id.replace(/[^\w-]/g, "_")}`;
-
-function families(found: ListEntry[]): [string, ListEntry[]][] {
-  const table = new Map<string, ListEntry[]>();
-  for (const entry of found) {
-    table.set(entry.family, [...(table.get(entry.family) ?? []), entry]);
-  }
-  return [...table];
-}

@@ -36,7 +36,7 @@ export function PalettePanel() {
   const Icon = named ? IconLayoutSidebarLeftCollapse : IconLayoutSidebarLeftExpand;
   return (
     <div className="palette-panel" inert={record} data-named={named || undefined}>
-      <div className="palette-names">
+      <div className="palette-names down">
         <EntryList
           label="Elements to add"
           placeholder="Add an element"
@@ -47,7 +47,7 @@ export function PalettePanel() {
           onChoose={(entry) => entry.run?.()}
         />
       </div>
-      <div className="palette-sketches">
+      <div className="palette-sketches down">
         {entries.map((entry) => entry.kind !== undefined && <SketchButton key={entry.id} entry={entry} />)}
       </div>
       <ActionIcon

@@ -1,17 +1,17 @@
 // The small picture of a kind: a curve, or a sign.
 
-import { memo } from "react";
+import { memo, useState } from "react";
 
-import type { Kind } from "../../protocol";
+import type { Kind, TemplateView } from "../../protocol";
 import { useStudio } from "../../store";
-import { type Shape, shapeOf } from "./shapes";
+import { shapeOf } from "./shapes";
 
 const SIZE = { width: 38, height: 24 };
 
 export const Sketch = memo(function Sketch({ kind }: { kind: Kind }) {
   const kinds = useStudio((state) => state.kinds);
   const shape = shapeOf(kind, kinds);
-  const { line, faint, sign } = DRAWN[shape];
+  const { line, faint, sign }: SketchDrawing = DRAWN[shape];
   return (
     <svg className="sketch" viewBox="0 0 38 24" {...SIZE} aria-hidden="true">
       {faint !== undefined && <path className="sketch-faint" d={faint} />}
@@ -24,6 +24,22 @@ export const Sketch = memo(function Sketch({ kind }: { kind: Kind }) {
     </svg>
   );
 });
+
+type Props = { template: TemplateView; className: string };
+
+// The picture of a model; without one, connected boxes.
+export function TemplatePicture({ template: { picture }, className }: Props) {
+  const [missing, setMissing] = useState(picture === "");
+  const failed = () => setMissing(true);
+  return missing ? (
+    <svg className={`sketch ${className}`} viewBox="0 0 38 24" aria-hidden="true">
+      <path className="sketch-faint" d="M14,7H20V17H24M14,17H24" />
+      <path className="sketch-line" d="M4,4H14V10H4ZM4,14H14V20H4ZM24,14H34V20H24Z" />
+    </svg>
+  ) : (
+    <img className={className} src={picture} alt="" loading="lazy" draggable={false} onError={failed} />
+  );
+}
 
 type SketchDrawing = { line?: string; faint?: string; sign?: string };
 
@@ -43,22 +59,8 @@ const MIDDLE = "M2,14H36";
 const RANDOM = [9, 15, 6, 18, 11, 4, 14, 19, 8, 13, 5, 16, 10, 18, 7, 12];
 const zigzag = RANDOM.map((y, i) => `${2 + (34 * i) / (RANDOM.length - 1)},${y}`).join("L");
 
-const DRAWN: Record<Shape, SketchDrawing> = {
-  bell: { line: curve((x) => bell(x)), faint: GROUND },
-  hat: { line: curve((x) => 0.35 + bell(x, 0.2) * 0.95 - bell(x, 0.5) * 0.45), faint: MIDDLE },
-  box: { line: "M2,21H12V4H26V21H36", faint: GROUND },
-  clipped: { line: "M2,21H11V14C14,8 16,3 19,3C22,3 24,8 27,14V21H36", faint: GROUND },
-  shifted: { line: curve((x) => bell(x - 0.4, 0.22)), faint: curve((x) => bell(x + 0.35, 0.22)) },
-  moving: { line: curve((x) => bell(x + 0.35, 0.25)), faint: "M22,8H34M30,4L34,8L30,12" },
-  samples: { line: "M5,21V13M12,21V8M19,21V3M26,21V10M33,21V15", faint: GROUND },
-  flat: { line: "M2,9H36", faint: GROUND },
-  noise: { line: `M${zigzag}` },
-  series: { line: "M2,18L8,15L14,6L20,9L26,4L32,14L36,12", faint: GROUND },
-  logistic: { line: curve((x) => 1 / (1 + Math.exp(-9 * x))), faint: "M19,2V22" },
-  soft: { line: curve((x) => 0.5 + (2.2 * x) / (1 + Math.abs(4 * x))), faint: "M19,2V22" },
-  step: { line: "M2,21H19V3H36", faint: "M19,2V22" },
-  ramp: { line: "M2,21H17L34,3", faint: GROUND },
-  line: { line: "M4,21L34,3", faint: "M2,12H36M19,2V22" },
+// In the order in which kinds are listed.
+export const DRAWN = {
   peak: { line: curve((x) => 0.08 + 0.92 * bell(x, 0.24)), faint: "M2,12H36" },
   trace: {
     line: curve((x) => 0.42 * bell(x + 0.3, 0.24) + 0.3 * bell(x - 0.4, 0.2)),
@@ -69,11 +71,28 @@ const DRAWN: Record<Shape, SketchDrawing> = {
     faint: curve((x) => 0.4 * bell(x + 0.62, 0.13) + 0.4 * bell(x - 0.62, 0.13)),
   },
   node: { line: "M10,12A9,9 0 1 1 28,12A9,9 0 1 1 10,12", faint: "M2,12H10M28,12H36" },
+  bell: { line: curve((x) => bell(x)), faint: GROUND },
+  box: { line: "M2,21H12V4H26V21H36", faint: GROUND },
+  moving: { line: curve((x) => bell(x + 0.35, 0.25)), faint: "M22,8H34M30,4L34,8L30,12" },
+  flat: { line: "M2,9H36", faint: GROUND },
+  noise: { line: `M${zigzag}` },
+  samples: { line: "M5,21V13M12,21V8M19,21V3M26,21V10M33,21V15", faint: GROUND },
+  series: { line: "M2,18L8,15L14,6L20,9L26,4L32,14L36,12", faint: GROUND },
   decay: { line: curve((x) => 1 - Math.exp(-2 * (x + 1))), faint: "M2,3H36" },
+  product: { sign: "×" },
   convolve: { line: curve((x) => bell(x - 0.05, 0.2) * 0.95), faint: "M2,12H12M26,12H36M32,8L36,12L32,16" },
-  weights: { line: "M8,4H30V20H8ZM15,4V20M23,4V20M8,9.5H30M8,15H30" },
   integral: { sign: "∫" },
   sum: { sign: "Σ" },
-  product: { sign: "×" },
+  weights: { line: "M8,4H30V20H8ZM15,4V20M23,4V20M8,9.5H30M8,15H30" },
+  hat: { line: curve((x) => 0.35 + bell(x, 0.2) * 0.95 - bell(x, 0.5) * 0.45), faint: MIDDLE },
+  clipped: { line: "M2,21H11V14C14,8 16,3 19,3C22,3 24,8 27,14V21H36", faint: GROUND },
+  shifted: { line: curve((x) => bell(x - 0.4, 0.22)), faint: curve((x) => bell(x + 0.35, 0.22)) },
+  logistic: { line: curve((x) => 1 / (1 + Math.exp(-9 * x))), faint: "M19,2V22" },
+  soft: { line: curve((x) => 0.5 + (2.2 * x) / (1 + Math.abs(4 * x))), faint: "M19,2V22" },
+  step: { line: "M2,21H19V3H36", faint: "M19,2V22" },
+  ramp: { line: "M2,21H17L34,3", faint: GROUND },
+  line: { line: "M4,21L34,3", faint: "M2,12H36M19,2V22" },
   pass: { line: "M4,12H33M27,6L33,12L27,18" },
-};
+} satisfies Record<string, SketchDrawing>;
+
+export type Shape = keyof typeof DRAWN;

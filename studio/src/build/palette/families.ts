@@ -2,36 +2,20 @@
 
 import type { Kind } from "../../protocol";
 
-export type Family =
-  | "Sources and stimuli"
-  | "Fields, nodes and memory"
-  | "Couplings"
-  | "Of packages"
-  | "Kernels"
-  | "Sigmoids"
-  | "Time windows";
-
-export const ELEMENTS: readonly Family[] = [
+const [DYNAMIC, SOURCES, COUPLINGS, PACKAGES] = [
   "Fields, nodes and memory",
   "Sources and stimuli",
   "Couplings",
   "Of packages",
 ];
+export const ELEMENTS = [DYNAMIC, SOURCES, COUPLINGS, PACKAGES];
 
-const PARTS: Record<string, Family> = { kernels: "Kernels", sigmoids: "Sigmoids", windows: "Time windows" };
+const PARTS: Record<string, string> = { kernels: "Kernels", sigmoids: "Sigmoids", windows: "Time windows" };
 
 // The family of a kind; null: a document has no such elements and parts (worlds).
-export function familyOf(kind: Kind): Family | null {
-  switch (kind.room) {
-    case "elements":
-      return isSource(kind) ? "Sources and stimuli" : "Fields, nodes and memory";
-    case "couplings":
-      return "Couplings";
-    case "own":
-      return "Of packages";
-    default:
-      return PARTS[kind.room] ?? null;
-  }
+export function familyOf(kind: Kind): string | null {
+  const elements = isSource(kind) ? SOURCES : DYNAMIC;
+  return { elements, couplings: COUPLINGS, own: PACKAGES, ...PARTS }[kind.room] ?? null;
 }
 
 // Whether a kind is a part of elements, such as a kernel.

@@ -13,7 +13,8 @@ import type { WireEnds } from "../wiring/ends";
 import type { ListEntry } from "./entries";
 import { isEditable } from "../editable";
 import { ELEMENTS, familyOf, isPart, isSource, takes } from "./families";
-import { SHAPES, shapeOf } from "./shapes";
+import { shapeOf } from "./shapes";
+import { DRAWN } from "./Sketch";
 import { afterAll, beside, near, type Placing, sizeOfKind, under } from "../placing";
 import { getPointer, getStage, middleOf } from "../stage";
 
@@ -22,7 +23,8 @@ export type Add = (kind: Kind, values?: Values, name?: string) => unknown;
 // All kinds as entries; `add` adds an element, whose axes follow from what it is connected with, or, where it
 // is added alone, from the entry.
 export function kindEntries(kinds: Kinds, selected: Selected | null, add: Add, alone = true): ListEntry[] {
-  const rank = (kind: Kind) => SHAPES.indexOf(shapeOf(kind, kinds));
+  const shapes = Object.keys(DRAWN);
+  const rank = (kind: Kind) => shapes.indexOf(shapeOf(kind, kinds));
   const known = [...kinds.values()]
     .filter((kind) => familyOf(kind) !== null)
     .sort((a, b) => rank(a) - rank(b) || a.title.localeCompare(b.title));

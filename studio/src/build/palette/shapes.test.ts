@@ -1,7 +1,8 @@
 import { expect, test } from "vitest";
 
 import { fakeForm, fakeKind, kindsOf } from "../../graph/fakes";
-import { type Shape, shapeOf } from "./shapes";
+import { shapeOf } from "./shapes";
+import type { Shape } from "./Sketch";
 
 const GAUSS = "\\exp\\!\\left( -\\frac{d^2}{2 \\sigma^2} \\right)";
 const CASES = "\\begin{cases} 1 & u > 0 \\\\ 0 & \\text{else} \\end{cases}";
