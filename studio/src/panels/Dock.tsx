@@ -1,20 +1,14 @@
 // The tools, one at a time, in a column of a fixed width that a person may drag.
 
 import { IconX } from "@tabler/icons-react";
-import {
-  Activity,
-  type CSSProperties,
-  type KeyboardEvent,
-  type PointerEvent,
-  useEffect,
-  useRef,
-  useState,
-} from "react";
+import { Activity, type CSSProperties, type KeyboardEvent, type PointerEvent } from "react";
+import { type RefObject, useRef, useState } from "react";
 import { flushSync } from "react-dom";
 import { NeedsServer } from "../connection/NeedsServer";
 import { usePage } from "../state/page";
 import { changePerson, usePerson } from "../state/person";
 import { openTool } from "../state/tool";
+import { useWidth } from "../widgets/useWidth";
 import classes from "./Dock.module.css";
 import { PanelMenu } from "./PanelMenu";
 import { firstTool, isStanding, STANDING, TOOLS } from "./tools";
@@ -31,6 +25,7 @@ export function Dock() {
   const isOpen = (tool: string | undefined) => tool !== undefined && (isStanding(tool) || tool === extra);
   const shown = [opened, habit].find(isOpen) ?? firstTool(view);
   const width = usePerson((person) => person.dock);
+  const dock = useRef<HTMLElement>(null);
   const tabs = useRef<HTMLDivElement>(null);
   // A tool that another one hides keeps what was typed and scrolled in it.
   const [visited, setVisited] = useState<readonly string[]>([]);
@@ -68,8 +63,8 @@ export function Dock() {
   };
   const style = (width === 0 ? {} : { "--dock": `${width}px` }) as CSSProperties;
   return (
-    <aside className={classes.dock} style={style} aria-label="Tools">
-      <Edge />
+    <aside ref={dock} className={`down ${classes.dock}`} style={style} aria-label="Tools">
+      <Edge dock={dock} />
       <div className={classes.head}>
         <div className={classes.tabs} role="tablist" aria-label="Tools" ref={tabs}>
           {tools.map((tool) => (
@@ -120,19 +115,9 @@ export function Dock() {
 }
 
 // The border that sets the width of the dock.
-function Edge() {
-  const edge = useRef<HTMLDivElement>(null);
+function Edge({ dock }: { dock: RefObject<HTMLElement | null> }) {
   // As it is drawn, which depends on the window too.
-  const [width, setWidth] = useState(0);
-  useEffect(() => {
-    const dock = edge.current?.parentElement;
-    if (dock == null) {
-      return;
-    }
-    const observer = new ResizeObserver(() => setWidth(dock.offsetWidth));
-    observer.observe(dock);
-    return () => observer.disconnect();
-  }, []);
+  const width = useWidth(dock);
   const set = (wanted: number) =>
     changePerson({ dock: Math.round(Math.min(WIDTH.most, Math.max(WIDTH.least, wanted))) });
   const drag = (event: PointerEvent) => {
@@ -149,7 +134,6 @@ function Edge() {
   };
   return (
     <div
-      ref={edge}
       className={classes.edge}
       role="separator"
       aria-label="Width of the tools"

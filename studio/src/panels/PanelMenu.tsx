@@ -44,7 +44,7 @@ export function PanelMenu() {
   const tools = panels.filter(({ title }) => title.toLowerCase().includes(wanted));
   const found = (elements ?? []).filter((element) => element.path.toLowerCase().includes(wanted));
   return (
-    <Menu position="bottom-end" width={280} shadow="md" onClose={() => setSearch("")}>
+    <Menu position="bottom-end" width={280} onClose={() => setSearch("")}>
       <Menu.Target>
         <ActionIcon size={28} aria-label="Open panels and plots" title="Open tools and plots">
           <IconPlus size={16} />

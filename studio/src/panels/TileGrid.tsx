@@ -1,19 +1,19 @@
 // The plots of a view as tiles of a grid: a row below the centre, or all of the centre in Run.
 
-import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconArrowsDiagonal, IconArrowsDiagonalMinimize, IconX } from "@tabler/icons-react";
 import {
   type CSSProperties,
   type KeyboardEvent,
   type PointerEvent,
-  type RefObject,
   useEffect,
   useRef,
   useState,
 } from "react";
 import { usePage, type View } from "../state/page";
 import { moveTile, removeTile, type PlotTile, settleTiles, tilesIn, useTiles } from "../state/tiles";
+import { IconButton } from "../widgets/Buttons";
 import { useVisible } from "../widgets/useVisible";
+import { useWidth } from "../widgets/useWidth";
 import { NARROW } from "./openPlot";
 import { PlotPanel } from "./PlotPanel";
 import classes from "./TileGrid.module.css";
@@ -57,7 +57,7 @@ export function TileGrid() {
       style={{ "--columns": Math.max(1, columns) } as CSSProperties}
     >
       {view === "run" && tiles.length === 0 && (
-        <p className={classes.none}>
+        <p className="dim">
           No plot is open. Double-click a box of the architecture, or press + on the right.
         </p>
       )}
@@ -101,22 +101,20 @@ function OneTile({ view, tile, place, enlarged }: OneTileProps) {
     >
       <PlotPanel tile={tile} view={view} visible={visible} />
       <div className={classes.buttons} onKeyDown={key}>
-        <Tooltip
-          label={enlarged ? "Back to the others (Esc)" : "Enlarge (double click; Shift+arrows move the plot)"}
-        >
-          <ActionIcon
-            size={24}
-            aria-label={enlarged ? "Reduce this plot" : "Enlarge this plot"}
-            onClick={enlarge}
-          >
-            {enlarged ? <IconArrowsDiagonalMinimize size={14} /> : <IconArrowsDiagonal size={14} />}
-          </ActionIcon>
-        </Tooltip>
-        <Tooltip label="Close (Delete)">
-          <ActionIcon size={24} aria-label="Close this plot" onClick={() => removeTile(view, tile.key)}>
-            <IconX size={14} />
-          </ActionIcon>
-        </Tooltip>
+        <IconButton
+          icon={enlarged ? IconArrowsDiagonalMinimize : IconArrowsDiagonal}
+          size={24}
+          label={enlarged ? "Reduce this plot" : "Enlarge this plot"}
+          tip={enlarged ? "Back to the others (Esc)" : "Enlarge (double click; Shift+arrows move the plot)"}
+          onClick={enlarge}
+        />
+        <IconButton
+          icon={IconX}
+          size={24}
+          label="Close this plot"
+          tip="Close (Delete)"
+          onClick={() => removeTile(view, tile.key)}
+        />
       </div>
     </div>
   );
@@ -146,28 +144,15 @@ function useDrag(view: View, key: number) {
         moveTile(view, key, Number(over.dataset["place"]));
       }
     };
+    const listening = new AbortController();
     const end = () => {
-      removeEventListener("pointermove", move);
-      removeEventListener("pointerup", end);
-      removeEventListener("pointercancel", end);
+      listening.abort();
       setDragging(false);
       settleTiles();
     };
-    addEventListener("pointermove", move);
-    addEventListener("pointerup", end);
-    addEventListener("pointercancel", end);
+    addEventListener("pointermove", move, listening);
+    addEventListener("pointerup", end, listening);
+    addEventListener("pointercancel", end, listening);
   };
   return { "data-dragging": dragging || undefined, onPointerDown };
-}
-
-function useWidth(around: RefObject<HTMLElement | null>): number {
-  const [width, setWidth] = useState(0);
-  useEffect(() => {
-    const observer = new ResizeObserver(([entry]) => setWidth(entry?.contentRect.width ?? 0));
-    if (around.current !== null) {
-      observer.observe(around.current);
-    }
-    return () => observer.disconnect();
-  }, [around]);
-  return width;
 }
