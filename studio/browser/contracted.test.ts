@@ -37,7 +37,7 @@ const inspected = (name: string) =>
 
 async function search(page: Page, text: string): Promise<void> {
   await page.keyboard.press("Control+f");
-  const field = page.getByRole("textbox", { name: "Search for an element" });
+  const field = page.getByRole("combobox", { name: "Search for an element" });
   await field.fill(text);
   await field.press("Enter");
   await field.waitFor({ state: "detached" });

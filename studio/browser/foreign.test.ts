@@ -55,7 +55,7 @@ const took = () => studio.page.getByRole("dialog", { name: "What did not match" 
 async function find(name: string): Promise<void> {
   const { page } = studio;
   await button(page, "Search (Ctrl+F)").click();
-  await page.getByRole("textbox", { name: "Search for an element" }).fill(name);
+  await page.getByRole("combobox", { name: "Search for an element" }).fill(name);
   await page
     .getByRole("option")
     .filter({ has: page.getByText(name, { exact: true }) })

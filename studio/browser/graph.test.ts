@@ -165,7 +165,7 @@ test("a dragged box keeps its position, also in the file", async () => {
 test("search finds an element, selects it and scrolls to it", async () => {
   const { page } = studio;
   await page.keyboard.press("Control+f");
-  const field = page.getByRole("textbox", { name: "Search for an element" });
+  const field = page.getByRole("combobox", { name: "Search for an element" });
   await field.fill("no such thing");
   await page.getByText("No element matches").waitFor();
   await field.fill("lift sat");

@@ -60,7 +60,7 @@ test("fixed weights are a heat map over target and source, opened beside their p
   const { page } = studio;
   await reopen(page, observer, "every.json");
   await page.keyboard.press("Control+f");
-  await page.getByRole("textbox", { name: "Search for an element" }).fill("map");
+  await page.getByRole("combobox", { name: "Search for an element" }).fill("map");
   await page.keyboard.press("Enter");
   await panel(page, "Inspector").getByRole("button", { name: "Plot weights" }).click();
   const map = plot("Weights of map");

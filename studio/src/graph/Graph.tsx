@@ -18,7 +18,7 @@ import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { copyDragged } from "../build/dragging";
 import { insertDropped, markWire } from "../build/wiring/inserting";
 import { RenameBox } from "../build/RenameBox";
-import { openSelectionCommands } from "../build/commands";
+import { openSearch, openSelectionCommands } from "../build/commands";
 import { pickGroup, usePicked } from "../build/picked";
 import { dropIntoGroup, markGroup } from "../build/regrouping";
 import { renameSelected } from "../build/renaming";
@@ -53,7 +53,6 @@ import { newPainting, PainterContext } from "./boxes/PainterContext";
 import { foldedAround, foldedOutside, groupKey, type GraphScene } from "./scene";
 import type { SceneNode } from "./nodes";
 import type { Structure } from "./contract";
-import { Search } from "./Search";
 import { SignMarks } from "./wires/SignMarks";
 import type { Tree } from "./layout/tree";
 import { useStructure } from "./layout/structure";
@@ -92,7 +91,6 @@ function Canvas({ structure }: { structure: Structure }) {
   const { nodes, onNodesChange, settle, forgetKeys, reset } = useNodes(now);
   const [painting] = useState(newPainting);
   const { painter, layer } = painting;
-  const [searching, setSearching] = useState(false);
   const { center, centerGroup } = useCenter(now);
   const shown = useCallback((canvas: HTMLCanvasElement) => layer.attach(canvas), [layer]);
   const repaint = useCallback(() => layer.change(), [layer]);
@@ -131,7 +129,7 @@ function Canvas({ structure }: { structure: Structure }) {
       const control = event.key.toLowerCase() === "f" && (event.ctrlKey || event.metaKey);
       if (!event.defaultPrevented && control && getStage() !== null && useDialogs.getState().asked === null) {
         event.preventDefault();
-        setSearching(true);
+        openSearch();
       }
     };
     window.addEventListener("keydown", key);
@@ -266,20 +264,10 @@ function Canvas({ structure }: { structure: Structure }) {
         {nodes.length === 0 && <EmptyHint />}
         <Controls
           onShow={() => showAll(glide(GLIDE_MS))}
-          onSearch={() => setSearching(true)}
           onTidy={() => void arranged(every === false ? toGrid() : place(tidied(structure, kinds)))}
           every={every}
           onEvery={(shown) => void arranged(showEvery(shown, contraction?.couplings ?? new Set()))}
         />
-        {searching && (
-          <Search
-            onClose={() => setSearching(false)}
-            onFound={(element) => {
-              setSearching(false);
-              getStage()?.center(element);
-            }}
-          />
-        )}
         <SignMarks />
         <ElementCard />
         <WiringHint />

@@ -1,7 +1,10 @@
 import { expect, test } from "vitest";
 import { contract, contractAll, contractionIn, everyElement } from "./contract";
 import { fakeConnections, fakeCosivina, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
-import { find } from "./find";
+import { openSearch } from "../build/commands";
+import { useChooser } from "../build/palette/choice";
+import { search } from "../build/palette/entries";
+import { useStudio } from "../store";
 import type { ElementView } from "../protocol";
 
 const KINDS = kindsOf(
@@ -36,8 +39,13 @@ test("the 168 elements of the scene representation are 20 boxes, 86 wires, dots 
 });
 
 test("a search for its name finds each of the 168 elements first", () => {
-  const { elements } = fakeCosivina("presetSceneRepresentation.json");
-  const missed = elements.filter(({ id, path }) => find(path, elements, KINDS)[0]?.element !== id);
+  const document = fakeCosivina("presetSceneRepresentation.json");
+  useStudio.setState({ document, kinds: KINDS });
+  openSearch();
+  const { entries = [] } = useChooser.getState().choice ?? {};
+  expect(entries).toHaveLength(168);
+  const best = (text: string) => search(text, entries).best?.id;
+  const missed = document.elements.filter(({ id, path }) => best(path) !== `element ${id}`);
   expect(missed.map(({ path }) => path)).toEqual([]);
 });
 

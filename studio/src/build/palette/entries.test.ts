@@ -29,6 +29,12 @@ test("the beginning of a title beats a word inside it, and that beats other word
   expect(best("gau")).toBe("Gaussian stimulus");
 });
 
+test("a title that is the typed text comes before one that begins with it", () => {
+  const [longer, same] = [entry("map2", "Go to"), entry("map", "Go to")];
+  expect(search("map", [longer, same]).best?.title).toBe("map");
+  expect(search("map ", [same, longer]).best?.title).toBe("map");
+});
+
 test("an entry that cannot be chosen is listed last, and is never the best", () => {
   expect(titles("gaussian").at(-1)).toBe("Gaussian");
   expect(best("mexican")).toBeUndefined();

@@ -51,11 +51,11 @@ export function search(text: string, entries: ListEntry[]): { found: ListEntry[]
   return { found, best: found.find((entry) => entry.why === undefined) ?? null };
 }
 
-// 0 is best; null: a word does not occur.
+// The least is best; null: a word does not occur.
 function rankOf({ title, family, words = "", note = "" }: ListEntry, typed: string[]): number | null {
   const name = title.toLowerCase();
   const rest = `${family} ${note} ${words}`.toLowerCase();
-  let rank = 0;
+  let rank = name === typed.join(" ") ? -1 : 0;
   for (const word of typed) {
     const found = [
       name.startsWith(word),
