@@ -2,12 +2,11 @@
  * A second page without a browser at the same server. It uses the studio's protocol, so that a test
  * reads exact numbers.
  */
+import { applied } from "../src/applied";
 import { decode, type Frame } from "../src/frames";
-import { patched } from "../src/patch";
 import type {
   Announced,
   Answer,
-  Changed,
   RunClock,
   DocumentView,
   ElementView,
@@ -15,7 +14,7 @@ import type {
   ToPage,
   ToServer,
 } from "../src/protocol";
-import { replaced, valueAt } from "../src/values";
+import { valueAt } from "../src/values";
 import { LiveWorld } from "../src/world/live";
 
 /** Time after which a wait fails; it is not a measurement. */
@@ -187,11 +186,8 @@ export class Observer {
         }
         this.session = message.session;
         break;
-      case "changed":
-        this.change(message);
-        break;
       case "edited":
-        if (this.document !== null) this.document = patched(this.document, message);
+        if (this.document !== null) this.document = applied(this.document, message.difference);
         break;
       case "checked":
         if (this.document !== null) this.document = { ...this.document, problems: message.problems };
@@ -221,17 +217,6 @@ export class Observer {
         this.say({ type: "drawn", frame: message.frame });
         break;
     }
-  }
-
-  private change({ element, parameter, value, unsaved, undo, redo }: Changed): void {
-    if (this.document === null) return;
-    const parameters = this.document.parameters.map((known) =>
-      element === "" && known.name === parameter ? { ...known, value: value as number } : known,
-    );
-    const elements = this.document.elements.map((e) =>
-      e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e,
-    );
-    this.document = { ...this.document, parameters, elements, unsaved, undo, redo };
   }
 
   private takeFrame(frame: Frame): void {

@@ -205,20 +205,7 @@ export type ChangeAxis = {
   axis: Record<string, unknown>;
 };
 
-// The new value of one parameter, the only difference to the previous version of the document.
-export type Changed = {
-  type: "changed";
-  version: number;
-  element: string;
-  parameter: string;
-  value: unknown;
-  cost: "live" | "rebuild" | "recompile";
-  unsaved: boolean;
-  undo: number;
-  redo: number;
-};
-
-// Problems and warnings of a version of the document that pages know from `changed` or `edited` messages.
+// Problems and warnings of a version of the document that pages know from `edited` messages.
 //
 // A whole document (`opened`) contains its own problems.
 export type Checked = {
@@ -369,6 +356,17 @@ export type Describe = {
   time_unit?: string | null;
 };
 
+// What an edit changes of an object or a list, by key.
+//
+// The keys in `removed` go, `inside` has the differences of entries that changed in part, `changed` the new
+// values of the others. A list has the indices of its entries as keys: in `removed` and `inside` those before
+// the edit, in `changed` those after it, where the entries are inserted in ascending order.
+export type Difference = {
+  removed?: string[];
+  inside?: Record<string, Difference>;
+  changed?: Record<string, unknown>;
+};
+
 // The first moment at which a port of two records differs, and the sample with the largest difference.
 //
 // `at` is the position of the sample, as text; `copy` the trial and the point of a sweep, as indices. A value
@@ -441,34 +439,14 @@ export type EditExperiment = {
   version: number;
 };
 
-// The difference to the previous version of the document.
+// The difference of a `DocumentView` to that of the previous version.
 //
-// The page removes the elements in `removed` with their connections, and the connections in `disconnected`.
-// Elements in `moved` have another path and are otherwise as before. It replaces `elements` that it knows,
-// then inserts the others at the index that `added` has for their ids, and `connected` at theirs, in this
-// order. What is None did not change. `layout` has the keys of the layout that changed, None for removed
-// ones, and `layout_entries` the entries that changed inside keys whose values are objects. `problems`: None
-// as long as the structure had none and has none; `checked` messages with warnings follow. `cost` is the cost
-// of the edit.
+// Its problems are part of it if the structure has or had any; `checked` messages with warnings follow.
+// `cost` is the cost of the edit.
 export type Edited = {
   type: "edited";
   version: number;
-  elements: ElementView[];
-  moved: Record<string, PathView>;
-  added: Record<string, number>;
-  removed: string[];
-  disconnected: EndsView[];
-  connected: PlacedConnection[];
-  groups: string[][] | null;
-  axes: AxisView[] | null;
-  parameters: DocumentParameterView[] | null;
-  general: GeneralView | null;
-  layout: Record<string, unknown>;
-  layout_entries: Record<string, Record<string, unknown>>;
-  problems: ListedProblem[] | null;
-  unsaved: boolean;
-  undo: number;
-  redo: number;
+  difference: Difference;
   cost: "live" | "rebuild" | "recompile";
 };
 
@@ -639,14 +617,6 @@ export type Gallery = {
   type: "gallery";
   recent: string[];
   recoveries: Recovery[];
-};
-
-// General properties of the document, as in `DocumentView`.
-export type GeneralView = {
-  title: string;
-  time_unit: string;
-  dt: number | null;
-  notes: string;
 };
 
 // The report on the file of another tool that the document was made from; an empty `tool`: none.
@@ -975,13 +945,6 @@ export type Paste = {
   at?: unknown[] | null;
 };
 
-// Another path of an element: as text, its last name, and its groups.
-export type PathView = {
-  path: string;
-  name: string;
-  group: string[];
-};
-
 // Pause the run.
 export type Pause = {
   type: "pause";
@@ -1015,12 +978,6 @@ export type PlaceObject = {
   width: number;
   height: number;
   color?: number[] | null;
-};
-
-// A connection, with its index in the list of all.
-export type PlacedConnection = {
-  index: number;
-  connection: ConnectionView;
 };
 
 // Start or continue the run.
@@ -1640,7 +1597,6 @@ export type ToPage =
   | Announced
   | Answer
   | Bodies
-  | Changed
   | Checked
   | Comparison
   | Costs

@@ -2,9 +2,9 @@
 // streams.ts.
 
 import { create } from "zustand";
+import { applied } from "./applied";
 import type { TrialRow } from "./experiment/trialRows";
 import type {
-  Changed,
   Comparison,
   RunClock,
   Costs,
@@ -23,8 +23,6 @@ import type {
   Welcome,
   WorldSignals,
 } from "./protocol";
-import { patched } from "./patch";
-import { replaced } from "./values";
 
 // refused: the server was restarted with another token
 export type Connection = "connecting" | "open" | "lost" | "refused";
@@ -138,18 +136,16 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
         notice: fresh ? null : state.notice,
       };
     }
-    case "changed":
-      return state.document === null ? {} : changed(state.document, message);
     case "edited": {
       if (state.document === null) {
         return {};
       }
-      const next = patched(state.document, message);
-      const elements = byId(next);
+      const document = applied(state.document, message.difference);
+      const elements = document.elements === state.document.elements ? state.elements : byId(document);
       const selected = state.selected.filter((id) => elements.has(id));
       return {
         version: message.version,
-        document: next,
+        document,
         elements,
         selected: selected.length === state.selected.length ? state.selected : selected,
       };
@@ -185,27 +181,6 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
     default:
       return {};
   }
-}
-
-function changed(document: DocumentView, message: Changed): Partial<Studio> {
-  const { version, unsaved, undo, redo, element, parameter, value } = message;
-  const general = { ...document, unsaved, undo, redo };
-  if (element === "") {
-    return {
-      version,
-      document: {
-        ...general,
-        parameters: document.parameters.map((k) =>
-          k.name === parameter ? { ...k, value: value as number } : k,
-        ),
-      },
-    };
-  }
-  const elements = document.elements.map((e) =>
-    e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e,
-  );
-  const next = { ...general, elements };
-  return { version, document: next, elements: byId(next) };
 }
 
 function byId(document: DocumentView | null): Map<string, ElementView> {

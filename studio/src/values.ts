@@ -19,23 +19,6 @@ export function grouped<T>(items: readonly T[], keyOf: (item: T) => string): [st
   return [...groups];
 }
 
-// A copy with one value replaced; everything beside the path is shared.
-export function replaced(values: Values, path: string, value: unknown): Values {
-  return put(values, path.split("."), value) as Values;
-}
-
-function put(holder: unknown, [head, ...rest]: string[], value: unknown): unknown {
-  if (head === undefined) {
-    return value;
-  }
-  const inner = isHolder(holder) ? holder[head] : undefined;
-  const next = put(inner, rest, value);
-  if (Array.isArray(holder)) {
-    return holder.map((item, i) => (String(i) === head ? next : item));
-  }
-  return { ...(holder as Values), [head]: next };
-}
-
 function isHolder(value: unknown): value is Values {
   return typeof value === "object" && value !== null;
 }

@@ -77,7 +77,7 @@ class Editor(Page):
         await super()._take(m)
         if m["type"] == "opened":
             self.version = self.checked = m["version"]
-        elif m["type"] in ("edited", "changed"):
+        elif m["type"] == "edited":
             self.version = m["version"]
         elif m["type"] == "checked":
             self.checked = m["version"]

@@ -60,52 +60,20 @@ def unpacked(message: bytes) -> tuple[int, int, float, np.ndarray]:
     return stream, frame, time, np.frombuffer(message, "<f4", offset=frames.HEADER.size)
 
 
-def replaced(values: Any, path: list[str], value: Any) -> Any:
-    """Return nested values with another one at a path."""
-    if not path:
-        return value
-    if isinstance(values, list):
-        return [replaced(v, path[1:], value) if i == int(path[0]) else v for i, v in enumerate(values)]
-    return {**values, path[0]: replaced(values[path[0]], path[1:], value)}
-
-
-def tuned(document: dict[str, Any], m: dict[str, Any]) -> dict[str, Any]:
-    """Return the document after the message `changed`."""
-    path = m["parameter"].split(".")
-    elements = [
-        {**e, "values": replaced(e["values"], path, m["value"])} if e["id"] == m["element"] else e
-        for e in document["elements"]
-    ]
-    return {**document, "elements": elements, **{key: m[key] for key in ("unsaved", "undo", "redo")}}
-
-
-def patched(document: dict[str, Any], m: dict[str, Any]) -> dict[str, Any]:
-    """Return the document after the message `edited`."""
-    new = {e["id"]: e for e in m["elements"]}
-    moved = {e["id"]: {**e, **m["moved"].get(e["id"], {})} for e in document["elements"]}
-    elements = [new.get(i, e) for i, e in moved.items() if i not in m["removed"]]
-    for ident, index in sorted(m["added"].items(), key=lambda item: item[1]):
-        elements.insert(index, new[ident])
-    connections = [
-        c
-        for c in document["connections"]
-        if {k: v for k, v in c.items() if k != "reads"} not in m["disconnected"]
-        and not {c["source"], c["target"]} & set(m["removed"])
-    ]
-    for placed in m["connected"]:
-        connections.insert(placed["index"], placed["connection"])
-    layout = {**document["layout"], **m["layout"]}
-    for key, entries in m["layout_entries"].items():
-        layout[key] = {k: v for k, v in {**layout[key], **entries}.items() if v is not None}
-    return {
-        **document,
-        "elements": elements,
-        "connections": connections,
-        "layout": {k: v for k, v in layout.items() if v is not None},
-        **{key: m[key] for key in ("groups", "axes", "parameters", "problems") if m[key] is not None},
-        **(m["general"] or {}),
-        **{key: m[key] for key in ("unsaved", "undo", "redo")},
-    }
+def applied(before: Any, difference: dict[str, Any]) -> Any:
+    """Return an object or a list after a difference of the message `edited`."""
+    after = {str(k): v for k, v in enumerate(before)} if isinstance(before, list) else dict(before)
+    for key, inside in difference.get("inside", {}).items():
+        after[key] = applied(after[key], inside)
+    for key in difference.get("removed", []):
+        del after[key]
+    changed = difference.get("changed", {})
+    if not isinstance(before, list):
+        return after | changed
+    entries = list(after.values())
+    for index, entry in changed.items():
+        entries.insert(int(index), entry)
+    return entries
 
 
 class Page:
@@ -163,9 +131,9 @@ class Page:
             self.lost[m["stream"]] = m
         elif m["type"] == "opened":
             self._late = True
-        elif m["type"] in ("edited", "changed"):
-            self._late = self._late or m["type"] == "edited"
-            document = (patched if m["type"] == "edited" else tuned)(self.document, m)
+        elif m["type"] == "edited":
+            self._late = True
+            document = applied(self.document, m["difference"])
             self.said["opened"] = self.said["opened"] | {"document": document, "version": m["version"]}
         elif m["type"] == "clock":
             self.clocks += 1

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+import msgspec
+
 from deodar.declarations import Cost, FormSection, Names
 from deodar.family import Family
 from deodar.importers.report import Verdict
@@ -413,80 +415,35 @@ class Comparison(Message, frozen=True, tag="comparison"):
     problems: list[ListedProblem]
 
 
-@MESSAGES.register
-class Changed(Message, frozen=True, tag="changed"):
-    """The new value of one parameter, the only difference to the previous version of the document."""
+class Difference(Data, frozen=True, omit_defaults=True):
+    """What an edit changes of an object or a list, by key.
 
-    version: int
-    element: Id
-    parameter: str
-    value: Any
-    cost: Cost
-    unsaved: bool
-    undo: int
-    redo: int
+    The keys in `removed` go, `inside` has the differences of entries that changed in part, `changed` the new
+    values of the others. A list has the indices of its entries as keys: in `removed` and `inside` those
+    before the edit, in `changed` those after it, where the entries are inserted in ascending order.
+    """
 
-
-class PlacedConnection(Data, frozen=True):
-    """A connection, with its index in the list of all."""
-
-    index: int
-    connection: ConnectionView
-
-
-class GeneralView(Data, frozen=True):
-    """General properties of the document, as in `DocumentView`."""
-
-    title: str
-    time_unit: str
-    dt: float | None
-    notes: str
-
-
-class PathView(Data, frozen=True):
-    """Another path of an element: as text, its last name, and its groups."""
-
-    path: str
-    name: str
-    group: list[str]
+    removed: list[str] = msgspec.field(default_factory=list[str])
+    inside: dict[str, Difference] = msgspec.field(default_factory=dict[str, Any])
+    changed: dict[str, Any] = msgspec.field(default_factory=dict[str, Any])
 
 
 @MESSAGES.register
 class Edited(Message, frozen=True, tag="edited"):
-    """The difference to the previous version of the document.
+    """The difference of a `DocumentView` to that of the previous version.
 
-    The page removes the elements in `removed` with their connections, and the connections in `disconnected`.
-    Elements in `moved` have another path and are otherwise as before. It replaces `elements` that it knows,
-    then inserts the others at the index that `added` has for their ids,
-    and `connected` at theirs, in this order. What is None did not change. `layout` has the keys of the layout
-    that changed, None for removed ones, and `layout_entries` the entries that changed inside keys whose
-    values are objects. `problems`: None as long as the structure had none and has none; `checked` messages
-    with warnings follow. `cost` is the cost of the edit.
+    Its problems are part of it if the structure has or had any; `checked` messages with warnings follow.
+    `cost` is the cost of the edit.
     """
 
     version: int
-    elements: list[ElementView]
-    moved: dict[Id, PathView]
-    added: dict[Id, int]
-    removed: list[Id]
-    disconnected: list[EndsView]
-    connected: list[PlacedConnection]
-    groups: list[list[str]] | None
-    axes: list[AxisView] | None
-    parameters: list[DocumentParameterView] | None
-    general: GeneralView | None
-    layout: dict[str, Any]
-    layout_entries: dict[str, dict[str, Any]]
-    problems: list[ListedProblem] | None
-    unsaved: bool
-    undo: int
-    redo: int
+    difference: Difference
     cost: Cost
 
 
 @MESSAGES.register
 class Checked(Message, frozen=True, tag="checked"):
-    """Problems and warnings of a version of the document that pages know from `changed` or `edited` messages.
+    """Problems and warnings of a version of the document that pages know from `edited` messages.
 
     A whole document (`opened`) contains its own problems.
     """

@@ -7,6 +7,8 @@ import dataclasses as dc
 from collections.abc import Awaitable, Callable
 from typing import Any
 
+import msgspec
+
 from deodar.declarations import Cost
 from deodar.errors import DocumentError, ModelError
 from deodar.importers import stored_report
@@ -15,14 +17,12 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.sketch import effect
 from deodar.numerics.signs import Sign
-from deodar_studio.messages.message import made_of
-from deodar_studio.messages.to_page import Changed, ImportReportView
+from deodar_studio.messages.to_page import Difference, Edited, ImportReportView
 from deodar_studio.project.change_queue import ChangeQueue
 from deodar_studio.project.checker import Checker
 from deodar_studio.project.conversions import Conversions
-from deodar_studio.project.recent_changes import DocumentChange, RecentChanges
+from deodar_studio.project.recent_changes import RecentChanges
 from deodar_studio.views import converted, repairs, view
-from deodar_studio.views.converted import Status
 
 
 class DocumentHistory:
@@ -104,7 +104,7 @@ class DocumentHistory:
             raise DocumentError("no document is open")
         return self.model
 
-    def changes_since(self, version: int) -> list[DocumentChange] | None:
+    def changes_since(self, version: int) -> list[Edited] | None:
         """Return the changes from a version to the present one; None if a page needs the whole document."""
         return self._recent.between(version, self.version)
 
@@ -130,8 +130,7 @@ class DocumentHistory:
             new = edit.document_parameter(doc, parameter, value)
             return await self._commit(new, gesture)
         new = plain_values.put(doc, [element], parameter, value)
-        shown = view.shown_value(new, element, parameter)
-        return await self._commit(new, gesture, (element, parameter, shown))
+        return await self._commit(new, gesture, (element, parameter))
 
     async def change(self, how: Callable[[Document], Document], gesture: object = None) -> Cost:
         """Apply a function to the document, as one step of undo.
@@ -230,7 +229,7 @@ class DocumentHistory:
         self._gesture = None
         self._edited(before, cost)
 
-    async def _commit(self, doc: Document, gesture: object, leaf: tuple[str, str, Any] | None = None) -> Cost:
+    async def _commit(self, doc: Document, gesture: object, leaf: tuple[str, str] | None = None) -> Cost:
         model = self.require_edited()
         before = model.document
         if doc is before or doc == before:
@@ -244,34 +243,31 @@ class DocumentHistory:
         if leaf is None or cost == "recompile" or _effect(before, leaf[0]) != _effect(doc, leaf[0]):
             self._edited(before, cost)
         else:
-            element, parameter, value = leaf
-            status = self._status(cost)
-            self._add(made_of(Changed, status, element=element, parameter=parameter, value=value))
+            self._add(view.one_parameter(doc, *leaf), {}, cost)
         return cost
 
     # ----------------------------------------------------------------------------------------------- versions
 
     def _edited(self, before: Document, cost: Cost) -> None:
-        """Start a new version after an edit, which pages receive as a patch."""
+        """Start a new version after an edit, of which pages receive the difference."""
         model = self._require()
         old, new = self._conversions.of(before), self._conversions.of(model.document)
-        found = converted.patch(
-            old, new, self._status(cost), lambda: view.problems(new.problems, model.document)
-        )
-        if found is None:
+        changes = converted.changes(old, new)
+        if changes is None:
             self.touch()
         else:
-            self._add(found)
+            structural = bool(old.problems or new.problems)
+            self._add(
+                changes, {"problems": view.problems(new.problems, model.document)} if structural else {}, cost
+            )
 
-    def _status(self, cost: Cost) -> Status:
-        """Return what the next version states besides its document."""
+    def _add(self, changes: Difference, others: dict[str, Any], cost: Cost) -> None:
+        """Start a new version, of which pages receive what changed and other fields of the document."""
         history = self._require().history
-        return Status(self.version + 1, self.unsaved, history.depth, history.ahead, cost)
-
-    def _add(self, change: DocumentChange) -> None:
-        """Start a new version by a change, which pages receive alone."""
-        self.version = change.version
-        self._recent.add(change)
+        status = {"unsaved": self.unsaved, "undo": history.depth, "redo": history.ahead}
+        changes = msgspec.structs.replace(changes, changed=changes.changed | others | status)
+        self.version += 1
+        self._recent.add(Edited(version=self.version, difference=changes, cost=cost))
         self._changed()
         if self.record is None:
             self.checker.start()

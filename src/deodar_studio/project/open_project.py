@@ -27,14 +27,13 @@ from deodar_studio.files.state_store import StateStore
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.live.compilation import CompileTimes
 from deodar_studio.live.engine import Engine
-from deodar_studio.messages.to_page import DocumentView, Opened
+from deodar_studio.messages.to_page import DocumentView, Edited, Opened
 from deodar_studio.project.change_queue import ChangeQueue
 from deodar_studio.project.confirmation import ConfirmationRequired
 from deodar_studio.project.conversions import Conversions
 from deodar_studio.project.file import DocumentFile
 from deodar_studio.project.file_state import plain
 from deodar_studio.project.history import DocumentHistory
-from deodar_studio.project.recent_changes import DocumentChange
 from deodar_studio.project.record import OpenRecord, SetAside
 from deodar_studio.project.run import DocumentRun
 from deodar_studio.streams import record_frames
@@ -139,7 +138,7 @@ class OpenProject:
             shown = msgspec.structs.replace(shown, record=record, problems=[], elements=elements)
         return Opened(session=session, version=version, document=shown)
 
-    def changes_since(self, session: int, version: int) -> list[DocumentChange] | None:
+    def changes_since(self, session: int, version: int) -> list[Edited] | None:
         """Return the changes from a version to the present one; None if a page needs the whole document."""
         return self.history.changes_since(version) if session == self.session else None
 

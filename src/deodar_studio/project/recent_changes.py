@@ -4,24 +4,22 @@ from __future__ import annotations
 
 from collections import deque
 
-from deodar_studio.messages.to_page import Changed, Edited
-
-DocumentChange = Changed | Edited
+from deodar_studio.messages.to_page import Edited
 
 MOST = 256
 """Number of changes that a page may lag behind before the server sends the whole document."""
 
 
 class RecentChanges:
-    """The newest changes: of single parameters (`Changed`), and patches (`Edited`).
+    """The newest differences between versions.
 
-    What a patch cannot express clears them, and pages then need the whole document.
+    What no difference expresses clears them, and pages then need the whole document.
     """
 
     def __init__(self) -> None:
-        self._changes: deque[DocumentChange] = deque(maxlen=MOST)
+        self._changes: deque[Edited] = deque(maxlen=MOST)
 
-    def add(self, change: DocumentChange) -> None:
+    def add(self, change: Edited) -> None:
         """Add a change."""
         self._changes.append(change)
 
@@ -29,7 +27,7 @@ class RecentChanges:
         """Remove all changes."""
         self._changes.clear()
 
-    def between(self, version: int, now: int) -> list[DocumentChange] | None:
+    def between(self, version: int, now: int) -> list[Edited] | None:
         """Return the changes from one version to another; None if these are not sufficient."""
         found = [change for change in self._changes if change.version > version]
         return found if len(found) == now - version else None

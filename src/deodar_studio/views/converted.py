@@ -1,4 +1,4 @@
-"""A document as parts of messages, and the difference of two documents as a patch.
+"""A document as parts of messages, and what an edit changes of them.
 
 What did not change between two versions is converted once: an edit costs what it changes.
 """
@@ -6,12 +6,9 @@ What did not change between two versions is converted once: an edit costs what i
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from typing import Any, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-import msgspec
-
-from deodar.declarations import Cost
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.importers import stored_report
@@ -28,20 +25,16 @@ from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import (
     AxisView,
     ConnectionView,
+    Difference,
     DocumentParameterView,
-    Edited,
     ElementView,
-    EndsView,
-    GeneralView,
     LinkView,
-    PathView,
-    PlacedConnection,
 )
+from deodar_studio.views.difference import difference
 
 MOST_RESOLVED = 2000
 """About the largest number of elements that are resolved in order to try the repairs of one document."""
 
-H = TypeVar("H", bound=Hashable)
 Ports = Mapping[str, Axes]
 
 
@@ -55,6 +48,7 @@ class Converted:
         arrays: its arrays by their keys.
         ports: axes of the ports of each element, by id.
         elements: its elements as sent to the page, in their order, by id.
+        connections: its connections as sent to the page.
         problems: problems of its structure, without warnings; those with edits are solved by them.
         nodes: its resolved nodes, for the warnings.
         warnings: its warnings in the present world.
@@ -65,6 +59,7 @@ class Converted:
     arrays: Mapping[str, FrozenArray]
     ports: Mapping[str, Ports]
     elements: Mapping[str, ElementView]
+    connections: list[ConnectionView]
     problems: Sequence[Problem]
     nodes: Sequence[Node]
     warnings: Sequence[Problem] = ()
@@ -88,9 +83,14 @@ def convert(doc: Document, before: Converted | None = None) -> Converted:
             elements[e.id] = before.elements[e.id]
         else:
             elements[e.id] = _element(e, ports[e.id], named, arrays)
+    wires = doc.connections
+    if before is not None and before.document.connections is wires:
+        connections = before.connections
+    else:
+        connections = [made_of(ConnectionView, wire) for wire in wires]
     most = min(proposed.MOST_TRIED, 1 + MOST_RESOLVED // (1 + len(doc.entries)))
     problems = proposed.proven(doc, resolved.problems, most)
-    return Converted(doc, axes, arrays, ports, elements, problems, resolved.nodes)
+    return Converted(doc, axes, arrays, ports, elements, connections, problems, resolved.nodes)
 
 
 def _same_model(old: Document, new: Document) -> bool:
@@ -117,125 +117,33 @@ def parameters(doc: Document) -> list[DocumentParameterView]:
     ]
 
 
-@dc.dataclass(frozen=True)
-class Status:
-    """What a patch states besides the document: as in `DocumentView`."""
+def parts(converted: Converted) -> dict[str, Any]:
+    """Return the fields of a `DocumentView` that follow from the document alone."""
+    doc = converted.document
+    return {
+        "title": doc.name,
+        "time_unit": doc.time_unit,
+        "dt": doc.dt,
+        "notes": doc.notes,
+        "axes": axes(converted),
+        "elements": list(converted.elements.values()),
+        "connections": converted.connections,
+        "groups": [list(g) for g in doc.groups],
+        "parameters": parameters(doc),
+        "layout": dict(shown_layout(doc)),
+    }
 
-    version: int
-    unsaved: bool
-    undo: int
-    redo: int
-    cost: Cost
 
-
-def patch(
-    before: Converted, after: Converted, status: Status, problems: Callable[[], Sequence[Any]]
-) -> Edited | None:
-    """Return the difference of two documents; None if the page needs the whole document.
-
-    Args:
-        before: the document that the page has.
-        after: the document that it needs.
-        status: numbers of the message.
-        problems: converts the problems of the structure of `after`.
-    """
+def changes(before: Converted, after: Converted) -> Difference | None:
+    """Return the difference of two documents; None if pages need the whole document."""
     if not (_same_axes(before.axes, after.axes) and _same_arrays(before.arrays, after.arrays)):
         return None
-    old, new = before.document, after.document
-    removed = [i for i in before.elements if i not in after.elements]
-    added = _added(list(before.elements), list(after.elements))
-    disconnected, connected = _wires(old, new, set(removed))
-    if added is None or disconnected is None:
-        return None
-    changed = [e for i, e in after.elements.items() if before.elements.get(i) != e]
-    moved = {e.id: made_of(PathView, e) for e in changed if _has_moved(before.elements.get(e.id), e)}
-    layout, boxes = _layout(shown_layout(old), shown_layout(new))
-    return made_of(
-        Edited,
-        status,
-        elements=[e for e in changed if e.id not in moved],
-        moved=moved,
-        added=added,
-        removed=removed,
-        disconnected=disconnected,
-        connected=connected,
-        groups=None if old.groups == new.groups else [list(g) for g in new.groups],
-        axes=None if list(before.axes.items()) == list(after.axes.items()) else axes(after),
-        parameters=None if old.parameters == new.parameters else parameters(new),
-        general=_general(old, new),
-        layout=layout,
-        layout_entries=boxes,
-        problems=list(problems()) if after.problems or before.problems else None,
-    )
-
-
-def _has_moved(before: ElementView | None, after: ElementView) -> bool:
-    """Return whether only the path of an element is another one."""
-    if before is None or before.path == after.path:
-        return False
-    moved = msgspec.structs.replace(before, path=after.path, name=after.name, group=after.group)
-    return moved == after
-
-
-def _added(before: Sequence[H], after: Sequence[H]) -> dict[H, int] | None:
-    """Return what is new in a sequence, with its index; None if the order of the rest changed."""
-    known, there = set(before), set(after)
-    if [x for x in before if x in there] != [x for x in after if x in known]:
-        return None
-    return {x: k for k, x in enumerate(after) if x not in known}
-
-
-def _wires(
-    old: Document, new: Document, removed: Collection[str]
-) -> tuple[list[EndsView] | None, list[PlacedConnection]]:
-    """Return the connections that were removed beside those of removed elements, and the new ones.
-
-    The first is None if the order of the others changed.
-    """
-    if old.connections is new.connections:
-        return [], []
-    added = _added(old.connections, new.connections)
-    if added is None:
-        return None, []
-    kept = set(new.connections)
-    gone = [
-        made_of(EndsView, c)
-        for c in old.connections
-        if c not in kept and c.source not in removed and c.target not in removed
-    ]
-    return gone, [PlacedConnection(index=k, connection=made_of(ConnectionView, c)) for c, k in added.items()]
-
-
-def _general(old: Document, new: Document) -> GeneralView | None:
-    if all(getattr(old, key) == getattr(new, key) for key in ("name", "time_unit", "dt", "notes")):
-        return None
-    return made_of(GeneralView, new, title=new.name)
+    return difference(parts(before), parts(after))
 
 
 def shown_layout(doc: Document) -> Mapping[str, Any]:
     """Return the layout that the page gets: without the import report, which is a message of its own."""
     return stored_report.without_report(doc).layout
-
-
-def _layout(
-    old: Mapping[str, Any], new: Mapping[str, Any]
-) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
-    """Return the keys of a layout that changed, None for removed ones, and the entries that changed inside
-    keys that hold objects in both.
-    """
-    whole: dict[str, Any] = {}
-    inside: dict[str, dict[str, Any]] = {}
-    if old is new:
-        return whole, inside
-    for key in {**old, **new}:
-        a, b = old.get(key), new.get(key)
-        if a is b or a == b:
-            continue
-        if isinstance(a, dict) and isinstance(b, dict):
-            inside[key] = {k: b.get(k) for k in {**a, **b} if a.get(k) != b.get(k)}
-        else:
-            whole[key] = b
-    return whole, inside
 
 
 def _same_axes(old: Mapping[str, Axis], new: Mapping[str, Axis]) -> bool:

@@ -24,10 +24,10 @@ from deodar.session.port_reader import PortKey
 from deodar_studio.live.published import CostReport
 from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import (
-    ConnectionView,
     CopyDimension,
     Costs,
     CostView,
+    Difference,
     DocumentView,
     ExperimentForms,
     Fits,
@@ -73,22 +73,9 @@ def document(
 ) -> DocumentView:
     """Convert a whole document; `known`: what is converted already."""
     made = converted.convert(doc) if known is None else known
-    return made_of(
-        DocumentView,
-        doc,
-        file=file,
-        title=doc.name,
-        record=None,
-        axes=converted.axes(made),
-        elements=list(made.elements.values()),
-        connections=[made_of(ConnectionView, c) for c in doc.connections],
-        groups=[list(g) for g in doc.groups],
-        parameters=converted.parameters(doc),
-        layout=dict(converted.shown_layout(doc)),
-        problems=problems(made.problems or [*made.warnings, *judge(doc, made.nodes)], doc),
-        unsaved=unsaved,
-        undo=undo,
-        redo=redo,
+    listed = problems(made.problems or [*made.warnings, *judge(doc, made.nodes)], doc)
+    return DocumentView(
+        file=file, **converted.parts(made), problems=listed, unsaved=unsaved, undo=undo, redo=redo
     )
 
 
@@ -144,13 +131,16 @@ def problems(
     return out
 
 
-def shown_value(doc: Document, element: str, parameter: str) -> Any:
-    """Convert the value of a parameter for the page."""
+def one_parameter(doc: Document, element: str, parameter: str) -> Difference:
+    """Return what changed of a document of which a parameter of an element has another value."""
     axes, arrays = {a: key for key, a in document_files.axes(doc).items()}, document_files.arrays(doc)
-    value: Any = converted.values(doc.by_id()[element].element, axes, arrays)
-    for step in parameter.split("."):
-        value = value[int(step)] if isinstance(value, list) else value[step]
-    return value
+    values = converted.values(doc.by_id()[element].element, axes, arrays)
+    name = parameter.split(".")[0]
+    inside = Difference(changed={name: values[name]})
+    place = next(k for k, entry in enumerate(doc.entries) if entry.id == element)
+    for key in ("values", str(place), "elements"):
+        inside = Difference(inside={key: inside})
+    return inside
 
 
 NO_REPORT = ImportReportView(tool="", file="", lines=[], bugs=[])

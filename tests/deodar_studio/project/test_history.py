@@ -12,7 +12,7 @@ import deodar as dd
 from deodar.errors import DocumentError, ModelError, ParameterError
 from deodar.model import edit
 from deodar.model.document import Document
-from deodar_studio.messages.to_page import Changed, Edited
+from deodar_studio.messages.to_page import Difference
 from deodar_studio.project.change_queue import ChangeQueue
 from deodar_studio.project.conversions import Conversions
 from deodar_studio.project.history import DocumentHistory
@@ -79,9 +79,15 @@ def test_a_page_that_lags_receives_the_changes_that_it_lacks() -> None:
         await h.set("0000000a", "tau", 30.0, None)
         await h.change(lambda doc: dd.Model(document=doc).document)
         await h.describe({"notes": "more"})
-        single, edited = h.changes_since(0) or ()
-        assert isinstance(single, Changed) and (single.version, single.value, single.undo) == (1, 30.0, 1)
-        assert isinstance(edited, Edited) and edited.general is not None and edited.general.notes == "more"
+        lacking = h.changes_since(0)
+        assert lacking is not None
+        single, edited = lacking
+        assert single.version == 1
+        assert single.difference.inside["elements"].inside["0"].inside["values"] == Difference(
+            changed={"tau": 30.0}
+        )
+        assert single.difference.changed == {"unsaved": True, "undo": 1, "redo": 0}
+        assert edited.difference.changed == {"notes": "more", "unsaved": True, "undo": 2, "redo": 0}
         assert h.changes_since(1) == [edited]
         h.touch()
         assert h.changes_since(2) is None, "it needs the whole document"

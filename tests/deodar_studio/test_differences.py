@@ -1,4 +1,4 @@
-"""An edit is sent as a patch, and the patched document is the whole one."""
+"""An edit is sent as a difference, and a document after it is the whole one."""
 
 from __future__ import annotations
 
@@ -16,11 +16,8 @@ from deodar.model.building import Around
 from deodar.model.document import Document
 from deodar_studio.project.recent_changes import MOST
 from deodar_studio.views import converted, view
-from deodar_studio.views.converted import Status
 from tests.deodar_studio.models import weighted
-from tests.deodar_studio.page import Page, page, patched, play, studio
-
-STATUS = Status(1, False, 0, 0, "recompile")
+from tests.deodar_studio.page import Page, applied, page, play, studio
 
 
 def whole(doc: Document) -> Any:
@@ -29,17 +26,16 @@ def whole(doc: Document) -> Any:
 
 def sent(old: Document, new: Document) -> bytes | None:
     before = converted.convert(old)
-    after = converted.convert(new, before)
-    found = converted.patch(before, after, STATUS, lambda: view.problems(after.problems, new))
+    found = converted.changes(before, converted.convert(new, before))
     return None if found is None else msgspec.json.encode(found)
 
 
 def same(old: Document, new: Document) -> bool:
-    """Return whether the patch of two documents gives the second one, but for warnings, which follow it."""
+    """Return whether the difference of two documents gives the second one, but for warnings, which follow."""
     content = sent(old, new)
     if content is None:
         return False
-    result, expected = patched(whole(old), json.loads(content)), whole(new)
+    result, expected = applied(whole(old), json.loads(content)), whole(new)
     return all(result[key] == expected[key] for key in expected if key != "problems")
 
 
@@ -54,7 +50,7 @@ def many(pairs: int) -> Document:
     return building.placed(doc, {e.id: (float(k), 2.0 * k) for k, e in enumerate(doc.entries)})
 
 
-def test_a_patch_gives_the_whole_document() -> None:
+def test_a_difference_gives_the_whole_document() -> None:
     doc = many(12)
     u, s, v = doc.entries[0].id, doc.entries[1].id, doc.entries[2].id
     y = dd.Axis("y", 0, 1, samples=11)
@@ -101,7 +97,7 @@ def test_an_edit_of_one_element_sends_less_than_a_kilobyte_of_500() -> None:
         assert back is not None and len(back) < 1500, "undo"
 
 
-def test_another_path_of_many_elements_is_a_small_patch() -> None:
+def test_another_path_of_many_elements_is_a_small_difference() -> None:
     doc = many(250)
     group = [e.id for e in doc.entries if e.group == ("g0",)]
     assert len(group) == 40
@@ -153,7 +149,7 @@ def test_a_page_that_edits_has_the_document_of_a_page_that_connects_later(root: 
                     expected = {k: v for k, v in late.document.items() if k != "problems"}
                 await visitor.until(lambda expected=expected: expected.items() <= visitor.document.items())
                 assert expected.items() <= p.document.items()
-            assert sum(m["type"] == "opened" for m in p.all) == opened, "every edit was sent as a patch"
+            assert sum(m["type"] == "opened" for m in p.all) == opened, "every edit was sent as a difference"
 
     with studio(root, root / "selection.json") as address:
         asyncio.run(main(address))
