@@ -15,7 +15,7 @@ class MotorLimiter:
 
     Args:
         motors: signals of the motors by name.
-        rules: rules by name of the motor; a motor without one allows any command.
+        rules: rules by name of the motor, read at each command; a motor without one allows any command.
     """
 
     def __init__(self, motors: Mapping[str, Signal], rules: Mapping[str, MotorRule]) -> None:

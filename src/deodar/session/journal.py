@@ -39,8 +39,12 @@ WORDS = {
     "place": "world.place",
     "remove": "world.remove",
     "push_body": "world.push",
+    "narrow_motor": "world.narrow",
 }
 """Methods whose entry in a record is a word and the name of an element or object."""
+
+SEVERAL = ("inject", "place", "narrow_motor")
+"""Methods with several arguments after the name."""
 
 INCOMPLETE = {"edit": "document", "dt": "dt", "world": "world", "reset": "reset", "restore": "restore"}
 """Methods whose entry in a record is a word, and does not describe the change completely."""
@@ -146,7 +150,7 @@ def to_file(change: Change) -> JsonObject:
         subject, value = INCOMPLETE[method], described(name) if method == "world" else name
     else:
         subject = f"{WORDS[method]} {name}" if method in WORDS else name
-        value = arguments if method in ("inject", "place") else arguments[0] if arguments else None
+        value = arguments if method in SEVERAL else arguments[0] if arguments else None
     return {"tick": change.tick, "what": subject, "value": _plain(value)}
 
 
@@ -162,8 +166,7 @@ def from_file(entry: Mapping[str, Any]) -> Change:
     word, _, name = subject.partition(" ")
     for method, method_word in WORDS.items():
         if method_word == word:
-            several = method in ("inject", "place")
-            arguments = value if several else [] if method == "remove" else [value]
+            arguments = value if method in SEVERAL else [] if method == "remove" else [value]
             return Change(tick, method, (name, *arguments))
     return Change(tick, "set", (subject, value))
 

@@ -491,6 +491,27 @@ class Session(Summarised):
             world.push(body, force)
         self._note("push_body", body, tuple(force))
 
+    def narrow_motor(
+        self, motor: str, limits: tuple[float, float] | None = None, slew: float | None = None
+    ) -> None:
+        """Narrow what a motor of the world allows, from its next command on; nothing widens it again.
+
+        Args:
+            motor: name of the motor in the world.
+            limits: smallest and largest value of each sample; None: as before.
+            slew: largest change of each sample, in the unit of the motor per second; None: as before.
+
+        Raises:
+            WorldError: the world has no such motor, cannot narrow it, or no value would be left.
+        """
+        if self.world is None:
+            raise WorldError("the session has no world", where=motor)
+        if self.world.repeatable:
+            self._run.sense()  # it advances to the present with the limits of before
+        with errors_of(self.world, "narrow"):
+            self.world.narrow(motor, limits, slew)
+        self.journal.append(Change(self.tick, "narrow_motor", (motor, limits, slew)))
+
     def _seen(self) -> tuple[World, Scene]:
         scene = self.scene()
         if self.world is None or scene is None:

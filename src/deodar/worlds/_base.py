@@ -144,6 +144,23 @@ class World:
         """Return how well the link with the robot works; None if the world is not in another process."""
         return None
 
+    def narrow(
+        self, motor: str, limits: tuple[float, float] | None = None, slew: float | None = None
+    ) -> None:
+        """Narrow what a motor allows, from the next command on; nothing widens it again.
+
+        Args:
+            motor: name of the motor.
+            limits: smallest and largest value of each sample; None: as before.
+            slew: largest change of each sample, in the unit of the motor per second; None: as before.
+        """
+        raise WorldError(f"the world {type(self).__name__} cannot narrow what its motors allow", where=motor)
+
+    @property
+    def can_narrow(self) -> bool:
+        """Whether `narrow` narrows what motors allow."""
+        return type(self).narrow is not World.narrow
+
     def preview(self) -> np.ndarray | None:
         """Return a picture (height, width, 3), values 0 to 1, by which a user recognises the world.
 

@@ -63,6 +63,23 @@ class MotorRule:
             command = np.clip(command, last - most, last + most).astype(command.dtype)
         return command if self.limits is None else np.clip(command, *self.limits)
 
+    def within(
+        self, limits: tuple[float, float] | None = None, slew: float | None = None, where: str = ""
+    ) -> MotorRule:
+        """Return a rule that allows what this one allows, and no more than other limits and another slew.
+
+        Raises:
+            WorldError: no command is left, or not the one at rest.
+        """
+        (low, high), (least, most) = (pair or (-math.inf, math.inf) for pair in (self.limits, limits))
+        if not max(low, least) < min(high, most):
+            raise WorldError(
+                f"no value lies within both {low:g} to {high:g} and {least:g} to {most:g}", where
+            )
+        narrower = None if self.limits is limits is None else [max(low, least), min(high, most)]
+        slowest = min((s for s in (self.slew, slew) if s is not None), default=None)
+        return MotorRule.from_data({**self.to_data(), "limits": narrower, "slew": slowest}, where)
+
     def at_rest(self, command: np.ndarray) -> np.ndarray:
         """Return the command at rest, with the shape and type of another command."""
         return np.full_like(command, self.rest)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from deodar.errors import Problem
 from deodar.worlds._base import World
+from deodar.worlds._motor_rule import MotorRule
 
 INNER = (
-    *("scene", "preview", "halt", "link", "alternative"),
+    *("scene", "preview", "halt", "link", "narrow", "alternative"),
     *("place", "move", "remove", "push", "arrangement", "arrange", "validate_object"),
 )
 """Methods that an `OuterWorld` calls in the world that it is around, with all arguments."""
@@ -29,6 +30,15 @@ class OuterWorld(World):
     @property
     def stage(self) -> World:
         return self.world.stage
+
+    @property
+    def rules(self) -> Mapping[str, MotorRule]:  # type: ignore[override]
+        """What motors allow, by name."""
+        return self.world.rules
+
+    @property
+    def can_narrow(self) -> bool:
+        return self.world.can_narrow
 
     @property
     def repeatable(self) -> bool:  # type: ignore[override]

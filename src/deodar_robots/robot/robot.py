@@ -26,6 +26,7 @@ from deodar.worlds._outer import OuterWorld
 from deodar.worlds._settings import arguments
 from deodar.worlds._settings import settings as declared
 from deodar.worlds.arena.arena import Arena
+from deodar_robots.limited_world import LimitedWorld
 from deodar_robots.motor_limiter import MotorLimiter
 from deodar_robots.robot import robot_file
 from deodar_robots.robot.robot_file import RobotFile, RobotMotor, RobotSensor
@@ -43,7 +44,7 @@ _DEVICE = re.compile(r"/dev/video\d+")
 
 
 @register
-class Robot(OuterWorld):
+class Robot(LimitedWorld, OuterWorld):
     r"""A robot that a file describes: which world it is, how its signals are called, and what its motors
     allow.
 
@@ -96,10 +97,10 @@ class Robot(OuterWorld):
             for name, (target, entry) in self._motors.items()
         }
         own = {} if self.file.motors else self.world.rules
-        self.rules = {
-            name: own.get(name) or entry.rule(f"{where}: {name}") for name, (_, entry) in self._motors.items()
-        }
-        self._limiter = MotorLimiter(self.motors, self.rules)
+        rules = self._declare_rules(
+            {n: own.get(n) or entry.rule(f"{where}: {n}") for n, (_, entry) in self._motors.items()}
+        )
+        self._limiter = MotorLimiter(self.motors, rules)
 
     # ------------------------------------------------------------------------------------------- the exchange
 
@@ -165,6 +166,7 @@ class Robot(OuterWorld):
             "place": self.place_name,
             "settings": masked_data(codec.parse(codec.line(msgspec.to_builtins(self.file)))),
             "of": self.world.describe(),
+            **self._narrowing(),
         }
         text = codec.line(said, ascii=True, sort=True)
         return {**said, "sha256": hashlib.sha256(text.encode()).hexdigest()}
@@ -181,7 +183,9 @@ class Robot(OuterWorld):
 
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> Robot:
-        return cls(str(described["file"]), str(described["place"]))
+        robot = cls(str(described["file"]), str(described["place"]))
+        robot._narrow_as(described)
+        return robot
 
     @classmethod
     def example(cls) -> Robot:

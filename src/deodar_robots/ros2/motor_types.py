@@ -76,13 +76,20 @@ class MotorCommand:
         self.signal = self.declared()
         rest = self.default_rest() if entry.rest is UNSET else entry.rest
         self.rests = rest is not None
-        if entry.slew is not None and rest is None:
-            raise WorldError("a rate of change begins at the command at rest, and this motor has none", where)
+        if entry.slew is not None:
+            self.require_rest()
         low, high = entry.limits or (0.0, 0.0)
         # without a rest none is sent, but a rule has one within its limits
         value = min(max(0.0, low), high) if rest is None else float(rest)  # type: ignore[arg-type]
         rule = {"limits": entry.limits, "slew": entry.slew, "stops_after": entry.stops_after, "rest": value}
         self.rule = MotorRule.from_data(rule, where)
+
+    def require_rest(self) -> None:
+        """Raise WorldError if the motor has no command at rest."""
+        if not self.rests:
+            raise WorldError(
+                "a rate of change begins at the command at rest, and this motor has none", self.where
+            )
 
     def declared(self) -> Signal:
         """Return the signal of the motor."""

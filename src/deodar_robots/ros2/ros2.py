@@ -15,10 +15,10 @@ from deodar.errors import WorldError, option
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import show
 from deodar.registry import register
-from deodar.worlds._base import Signal, World
+from deodar.worlds._base import Signal
 from deodar.worlds._link_state import LinkState
-from deodar.worlds._motor_rule import MotorRule
 from deodar.worlds._settings import number
+from deodar_robots.limited_world import LimitedWorld
 from deodar_robots.ros2.example_node import MOTORS, SENSORS, ExampleNode
 from deodar_robots.ros2.message_types import hash_of
 from deodar_robots.ros2.motor_types import commands
@@ -42,7 +42,7 @@ MOST_DOMAIN = 232
 
 
 @register
-class ROS2(World):
+class ROS2(LimitedWorld):
     r"""A robot whose nodes use ROS 2 over rmw_zenoh; no ROS is installed on the side of the model.
 
     Each sensor shows the newest message of a topic, and each motor is sent to a topic, one message in each
@@ -112,7 +112,7 @@ class ROS2(World):
         self._motors = commands(self._settings["motors"], self.period)
         self.sensors = {name: reading.signal for name, (_, _, reading) in self._sensors.items()}
         self.motors = {name: motor.signal for name, (_, _, motor) in self._motors.items()}
-        self.rules: Mapping[str, MotorRule] = {n: motor.rule for n, (_, _, motor) in self._motors.items()}
+        self._declare_rules({name: motor.rule for name, (_, _, motor) in self._motors.items()})
         if not self.sensors and not self.motors:
             raise WorldError("names no topic", fix='State sensors={"scan": {"topic": "/scan", ...}}')
         self._node: RosNode | None = None
@@ -192,6 +192,16 @@ class ROS2(World):
             self._close()
         self._node = self._close = None
 
+    def narrow(
+        self, motor: str, limits: tuple[float, float] | None = None, slew: float | None = None
+    ) -> None:
+        self.require_motor(motor)
+        command = self._motors[motor][2]
+        if slew is not None:
+            command.require_rest()
+        super().narrow(motor, limits, slew)
+        command.rule = self.rules[motor]
+
     def link(self) -> LinkState:
         return self._inbox.state(self.at)
 
@@ -199,7 +209,8 @@ class ROS2(World):
 
     def describe(self) -> dict[str, Json]:
         said: JsonObject = {"world": "ROS2", "at": self.at, "period": self.period, "domain": self.domain}
-        return {**said, "patience": self.patience, "trusted": self.trusted, **self._settings}
+        settings = {"patience": self.patience, "trusted": self.trusted, **self._settings}
+        return {**said, **settings, **self._narrowing()}
 
     @classmethod
     def open(cls, argument: str) -> ROS2:
@@ -211,8 +222,10 @@ class ROS2(World):
 
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> ROS2:
-        given: dict[str, Any] = {k: v for k, v in described.items() if k != "world"}
-        return cls(**given)
+        given: dict[str, Any] = {k: v for k, v in described.items() if k not in ("world", "narrowed")}
+        world = cls(**given)
+        world._narrow_as(described)
+        return world
 
     @classmethod
     def example(cls) -> ROS2:

@@ -20,10 +20,11 @@ from deodar.codec import Json, JsonObject
 from deodar.errors import RunWarning, WorldError, did_you_mean
 from deodar.numerics.axes import Axes
 from deodar.registry import register
-from deodar.worlds._base import Signal, World
+from deodar.worlds._base import Signal
 from deodar.worlds._link_state import LinkState
 from deodar.worlds._settings import number, parse_argument
 from deodar.worlds.arena.arena import Arena
+from deodar_robots.limited_world import LimitedWorld
 from deodar_robots.motor_limiter import MotorLimiter
 from deodar_robots.zenoh import link
 from deodar_robots.zenoh.about import (
@@ -49,7 +50,7 @@ FILES = ("authority", "certificate", "private_key")
 
 
 @register
-class Zenoh(World):
+class Zenoh(LimitedWorld):
     r"""A robot in another process or on another machine, over [Zenoh](https://zenoh.io), without a router.
 
     The robot says of itself which sensors and motors it has, and how it counts time. With the clock `step` it
@@ -128,7 +129,7 @@ class Zenoh(World):
         self._close = weakref.finalize(self, session.close)
         try:
             self.about = self._robot_named(robot)
-            self._limiter = MotorLimiter(self.about.motors, self.about.rules)
+            self._limiter = MotorLimiter(self.about.motors, self._declare_rules(self.about.rules))
             self._declare()
         except BaseException:
             self._close()
@@ -214,7 +215,7 @@ class Zenoh(World):
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
         if not self._close.alive or self._inbox.gone:
-            self._again()
+            self._reconnect()
         self._inbox.begin()
         request: JsonObject = {"commander": self._commander, "who": _who(), "seed": int(seed)}
         request |= {"trials": [int(t) for t in trials], "precision": str(precision)}
@@ -227,7 +228,7 @@ class Zenoh(World):
         self._warned = False
         self._limiter.begin(self._copies)
 
-    def _again(self) -> None:
+    def _reconnect(self) -> None:
         """Connect again to a robot that was away; it has to have the same signals."""
         before = self.about
         self._close()
@@ -236,6 +237,7 @@ class Zenoh(World):
         for attribute in ("sensors", "motors", "period", "clock"):
             if getattr(before, attribute) != getattr(self.about, attribute):
                 self.close()
+                self.about = before  # the next attempt is compared with it again
                 raise WorldError(
                     f"the robot {self.robot!r} has other {attribute} than before", fix="Open the world again"
                 )
@@ -425,6 +427,7 @@ class Zenoh(World):
             "clock": self.about.clock,
             "period": self.period,
             "of": dict(self.about.of),
+            **self._narrowing(),
         }
 
     @classmethod
@@ -439,7 +442,9 @@ class Zenoh(World):
     def again(cls, described: Mapping[str, Json]) -> Zenoh:
         trusted = described.get("trusted") is True
         files = (str(described.get(file, "")) for file in FILES)
-        return cls(str(described["robot"]), str(described["at"]), 0.5, trusted, *files)
+        world = cls(str(described["robot"]), str(described["at"]), 0.5, trusted, *files)
+        world._narrow_as(described)
+        return world
 
     @classmethod
     def example(cls) -> Zenoh:

@@ -104,6 +104,10 @@ class BranchStates:
             changes = self._stored[-1].changes
             changes[len(changes) - gone :] = new
 
+    def forget(self) -> None:
+        """Forget all states, because the run must not return to them."""
+        self._stored.clear()
+
     def branch(self, session: Session, tick: int, progress: StepProgress) -> None:
         """Take a session back to an earlier tick; later states are forgotten.
 

@@ -313,8 +313,17 @@ class Engine:
         """Use another world."""
         self._halt()
         if self.session is not None:
+            worlds = world, self.session.world
+            if any(one is not None and one.can_narrow for one in worlds):
+                self.states.forget()  # they have the motors of another world, or other limits
             self.session.world = world
         self.failure, self._stale = ((), ()), True
+
+    def narrow(self, motor: str, limits: tuple[float, float] | None, slew: float | None) -> None:
+        """Narrow what a motor of the world allows; the run returns to no moment before."""
+        self._require().narrow_motor(motor, limits, slew)
+        self.states.forget()
+        self._stale = True
 
     def rearrange(self, how: Callable[[Session], None]) -> None:
         """Change the world: `how` calls `Session.move`, `place`, `remove` or `push_body`."""

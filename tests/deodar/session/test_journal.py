@@ -20,6 +20,7 @@ WORDS: list[tuple[tuple[Any, ...], str, Any]] = [
     (("place", "block", [1.0, 2.0], [0.1, 0.1]), "world.place block", [[1.0, 2.0], [0.1, 0.1]]),
     (("remove", "block"), "world.remove block", None),
     (("push_body", "cart", [1.0, 0.0, 0.0]), "world.push cart", [1.0, 0.0, 0.0]),
+    (("narrow_motor", "left", [-1.0, 1.0], None), "world.narrow left", [[-1.0, 1.0], None]),
 ]
 
 

@@ -53,3 +53,40 @@ def test_a_rule_is_read_as_it_is_written_and_bad_ones_are_refused():
     ):
         with pytest.raises(WorldError, match=r"^m: "):
             MotorRule.from_data(record, "m")
+
+
+@pytest.mark.parametrize(
+    ("limits", "slew", "expected"),
+    [
+        ((-9.0, 1.0), None, MotorRule((-2.0, 1.0), 5.0)),
+        ((-9.0, 9.0), 7.0, MotorRule((-2.0, 3.0), 5.0)),
+        (None, 4.0, MotorRule((-2.0, 3.0), 4.0)),
+        ((-1.0, 1.0), 4.0, MotorRule((-1.0, 1.0), 4.0)),
+    ],
+)
+def test_a_rule_becomes_narrower_and_never_wider(limits, slew, expected):
+    assert MotorRule((-2.0, 3.0), 5.0).within(limits, slew) == expected
+
+
+def test_a_rule_without_limits_gets_those_that_are_stated():
+    assert MotorRule().within((-1.0, 1.0), 2.0) == MotorRule((-1.0, 1.0), 2.0)
+    assert MotorRule(rest=4.0).within() == MotorRule(rest=4.0)
+
+
+def test_two_narrowings_of_one_motor_both_hold():
+    rule = MotorRule((-5.0, 5.0)).within((-1.0, 9.0)).within((-3.0, 2.0), 4.0).within(slew=8.0)
+    assert rule == MotorRule((-1.0, 2.0), 4.0)
+
+
+@pytest.mark.parametrize(
+    ("limits", "slew", "message"),
+    [
+        ((4.0, 6.0), None, "left: no value lies within both -2 to 3 and 4 to 6"),
+        ((1.0, 2.0), None, "left: rest is 0; expected a value within the limits 1 to 2"),
+        (None, 0.0, "left: .*slew"),
+        ((1.0, -1.0), None, "left: no value lies within both"),
+    ],
+)
+def test_a_rule_that_leaves_no_command_is_refused(limits, slew, message):
+    with pytest.raises(WorldError, match=message):
+        MotorRule((-2.0, 3.0)).within(limits, slew, "left")

@@ -13,6 +13,7 @@ import deodar as dd
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axis
 from deodar.recording.opened import again, named
+from deodar.session.session_at import session_at
 from deodar.worlds._motor_rule import MotorRule
 from deodar_robots.robot import robot_file, schema
 from deodar_robots.robot.robot import Robot
@@ -217,3 +218,49 @@ def test_the_world_of_a_robot_has_all_that_it_has_without_the_file(tmp_path: Pat
     file.write_text(json.dumps(EPUCK | {"sensors": {"beams": {"from": "infrared"}}}))
     with pytest.raises(WorldError, match=r"\[6\]. Choose another vehicle of the arena: vehicle=khepera"):
         dd.Session(blind, world=Robot(file))
+
+
+def test_motors_are_narrowed_from_the_next_command_on_and_stay_narrow_after_a_reset(written):
+    seen = []
+    robot = written(motors={"left": {"limits": [-10, 10]}, "right": {"scale": 2.0}})
+    robot.reset(0)
+    robot.world.act = lambda motors, time: seen.append({n: v.tolist() for n, v in motors.items()})
+    fast = {"left": numbers(20.0), "right": numbers(20.0)}
+    robot.act(fast, 0.0)
+    robot.narrow("left", (-50, 4))
+    robot.narrow("right", (-1, 8))
+    robot.narrow("left", (-3, 6), slew=62.5)  # 4 in a period
+    robot.act(fast, 64.0)
+    robot.reset(1)
+    robot.act({"left": numbers(-20.0), "right": numbers(5.0)}, 0.0)
+    assert [s["left"] for s in seen] == [[10.0], [4.0], [-3.0]]
+    assert [s["right"] for s in seen] == [[40.0], [16.0], [10.0]]
+    with pytest.raises(WorldError, match="has no motor 'lift'"):
+        robot.narrow("lift", (-1, 1))
+
+
+def test_a_narrowed_robot_is_opened_again_with_its_limits(written):
+    robot = written(motors={"left": {"limits": [-10, 10]}, "right": {}})
+    before = robot.describe()
+    robot.narrow("left", (-2, 2), 5.0)
+    opened = again(Robot, robot.describe())
+    assert opened.rules == robot.rules and opened.describe() == robot.describe() != before
+    assert again(Robot, before).rules["left"].limits == (-10, 10)
+
+
+def test_a_record_of_a_run_whose_motor_was_narrowed_is_continued_within_the_limits(written, tmp_path):
+    model = dd.Model("ahead", dt=64)
+    model.add(dd.Boost("go", amplitude=9.0)) >> model.add(dd.Motor("left", motor="left"))
+    model.add(dd.Sensor("pose", [Axis("of", 0, 2, 3)], sensor="pose"))
+    robot = written(motors={"left": {"limits": [-10, 10]}, "right": {}})
+    robot.narrow("left", (-5, 5))
+    session = dd.Session(model, world=robot)
+    with session.record(tmp_path / "run", ["pose.output"]):
+        session.step(5)
+        session.narrow_motor("left", (-2, 2))
+        session.step(5)
+    continued = session_at(tmp_path / "run", 640.0)
+    assert continued.world.rules["left"].limits == (-2, 2)
+    assert continued.read("pose").tobytes() == session.read("pose").tobytes()
+    early = session_at(tmp_path / "run", 128.0)
+    assert early.world.rules["left"].limits == (-5, 5)

@@ -199,6 +199,36 @@ def test_a_rate_of_change_is_kept(robot):
     world.close()
 
 
+def test_a_connected_robot_is_narrowed_and_stays_so_when_it_is_connected_again(robot):
+    world = begun(robot, motors=DRIVE)
+    command = {"forward": np.array([9.0]), "turn": np.array([9.0])}
+    world.act(command, 0.0)
+    wait_for(lambda: robot.commands)
+    world.narrow("forward", (-0.1, 0.1))
+    world.narrow("turn", (-2.0, 0.5))
+    world.act(command, 0.0)
+    wait_for(lambda: len(robot.commands) >= 2)
+    assert np.allclose([[c[0], c[5]] for c in robot.commands], [[0.3, 1.0], [0.1, 0.5]])
+    world.close()
+    world.reset(0)
+    count = len(robot.commands)
+    world.act(command, 0.0)
+    wait_for(lambda: len(robot.commands) > count)
+    assert np.allclose(robot.commands[-1], [0.1, 0, 0, 0, 0, 0.5])
+    opened = ROS2.again(world.describe())
+    assert opened.rules == world.rules
+    world.close()
+
+
+def test_a_motor_without_a_rest_gets_no_rate_of_change(robot):
+    entry = {"topic": "/arm", "type": "trajectory_msgs/JointTrajectory", "joints": ["a"]}
+    world = ROS2({}, {"arm": entry}, robot.at)
+    with pytest.raises(WorldError, match="begins at the command at rest"):
+        world.narrow("arm", slew=1.0)
+    world.narrow("arm", (-1.0, 1.0))
+    assert world.rules["arm"].limits == (-1.0, 1.0)
+
+
 def test_a_command_that_is_not_finite_is_not_sent(robot):
     world = begun(robot, motors=DRIVE)
     with pytest.raises(WorldError, match="motor 'forward': a command for /cmd_vel"):

@@ -366,6 +366,50 @@ def test_a_robot_that_leaves_is_named_and_one_that_returns_is_connected_again(se
     again.close()
 
 
+def test_a_motor_stays_narrow_when_the_robot_was_away_and_when_another_one_was_refused(served):
+    robot = served(Wheel())
+    world = Zenoh(at=robot.endpoint)
+    world.narrow("speed", (-1.0, 1.0))
+    session = dd.Session(turning(), world=world)
+    session.run(100)
+    assert session.read("see") == pytest.approx(0.1)
+    session.narrow_motor("speed", (-3.0, 0.5))
+    session.run(100)
+    assert session.read("see") == pytest.approx(0.15)
+    robot.close()
+
+    class Other(Wheel):
+        sensors = {"angle": Signal("angle", (), "deg")}
+
+    changed = at_the_same_place(robot, Other())
+    for _ in range(2):
+        with pytest.raises(WorldError, match="'robot' has other sensors than before"):
+            session.reset()
+    changed.close()
+    returned = at_the_same_place(robot, Wheel())
+    session.reset()
+    session.run(100)
+    assert session.read("see") == pytest.approx(0.05) and world.rules["speed"].limits == (-1.0, 0.5)
+    returned.close()
+
+
+def test_a_robot_that_returns_with_narrower_motors_keeps_them_narrow(served):
+    def wheel(*limits: float) -> Wheel:
+        moved = Wheel()
+        moved.rules = {"speed": MotorRule(limits)}
+        return moved
+
+    robot = served(wheel(-5.0, 5.0))
+    world = Zenoh(at=robot.endpoint)
+    world.reset(0)
+    world.narrow("speed", (-1.0, 3.0))
+    robot.close()
+    returned = at_the_same_place(robot, wheel(-2.0, 2.0))
+    world.reset(0)
+    assert world.rules["speed"].limits == (-1.0, 2.0)
+    returned.close()
+
+
 def test_a_record_keeps_what_was_seen_before_a_robot_left_and_is_a_world(served, tmp_path):
     robot = served(Wheel(), clock="live")
     world = Zenoh(at=robot.endpoint)

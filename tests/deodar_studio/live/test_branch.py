@@ -238,6 +238,30 @@ def test_a_branch_returns_to_the_world_of_its_moment(branching: Callable[..., Br
     assert bits(branched.session) == bits(script)
 
 
+@pytest.mark.parametrize("replaced", [False, True])
+def test_a_branch_brings_back_no_motor_without_its_limits(
+    branching: Callable[..., Branching], replaced: bool
+) -> None:
+    branched = branching(driving(), dd.Robot("epuck"))
+    branched.step(14)
+    narrow = dd.Robot("epuck")
+    narrow.narrow("left", (-1.0, 1.0))
+    change = {
+        True: lambda: branched.engine.see(narrow),
+        False: lambda: branched.engine.narrow("left", (-1.0, 1.0), None),
+    }[replaced]
+    branched.do(change)
+    branched.step(14)
+    after = bits(branched.session)
+    branched.step(7)
+    with pytest.raises(RecordError, match="no state before it is kept"):
+        branched.branch(7 * 16)
+    branched.branch(28 * 16)
+    world = branched.session.world
+    assert world is not None and world.rules["left"].limits == (-1.0, 1.0)
+    assert bits(branched.session) == after
+
+
 def test_a_moment_before_the_first_element_is_restored(branching: Callable[..., Branching]) -> None:
     branched = branching(mixed())
     full, empty = branched.session.document, Document("nothing yet")
