@@ -3,6 +3,7 @@
 
 import { positionsOf } from "../graph/layout/arrange";
 import { boxSize } from "../graph/boxes/boxes";
+import { boxPins } from "../pins/pin";
 import { FRAME } from "../graph/layout/layout";
 import type { Point } from "../graph/layout/rects";
 import { type GraphScene, groupKey } from "../graph/scene";
@@ -76,10 +77,13 @@ function isWithin({ tree }: GraphScene, element: string, groups: string[]): bool
 
 // Boxes that disappear in a folded group lie below the others there when it is opened.
 function putBelow(target: Branch, ids: string[], boxes: Map<string, Point>, { places }: GraphScene): void {
-  const { elements } = useStudio.getState();
+  const { elements, document } = useStudio.getState();
   const held = below(target).flatMap((id) => {
     const [at, element] = [places.elements.get(id), elements.get(id)];
-    return at === undefined || element === undefined ? [] : [{ x: at.x, y: at.y + boxSize(element).height }];
+    const pins = boxPins(document?.layout, id).length;
+    return at === undefined || element === undefined
+      ? []
+      : [{ x: at.x, y: at.y + boxSize(element, pins).height }];
   });
   const moved = ids.flatMap((id) => boxes.get(id) ?? []);
   const rect = places.groups.get(target.key) ?? { x: 0, y: 0 };

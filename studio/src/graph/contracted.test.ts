@@ -56,3 +56,8 @@ test("small documents have no links, and their boxes show no other elements", ()
   expect(small.links).toBeNull();
   expect(small.holders.size).toBe(0);
 });
+
+test("pinned sliders change no cell of the grid", () => {
+  const pins = SCENE.nodes.slice(0, 2).map(({ id }) => ({ element: id, parameter: "tau" }));
+  expect(scene({ ...DOCUMENT, layout: { pins } }, KINDS, PANEL).nodes).toEqual(SCENE.nodes);
+});

@@ -1,6 +1,7 @@
 // What the canvas shows: boxes, frames, folded groups, comments and wires, as xyflow takes them.
 
 import type { Edge, Node } from "@xyflow/react";
+import type { Pin } from "../pins/pin";
 import type { WireContent } from "./contract";
 import type { Chain } from "./wires/chains";
 import type { Sign } from "./wires/sign";
@@ -18,6 +19,8 @@ export type BoxData = {
   // The elements of a contracted architecture that are drawn in the box.
   dots: string[];
   badges: string[];
+  // Those with a slider in the box.
+  pins: Pin[];
 };
 // A port of an element in a folded group that is connected with the outside.
 export type FoldedPort = { element: string; port: string; path: string };

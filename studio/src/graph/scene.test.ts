@@ -1,10 +1,11 @@
 import { expect, test } from "vitest";
 import { fakeConnections, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
-import { boxSize } from "./boxes/boxes";
+import { BOX, boxSize } from "./boxes/boxes";
 import { withCourses } from "./wires/courses";
 import type { Point } from "./layout/rects";
 import type { ElementView } from "../protocol";
 import { differ, moved } from "./layout/moved";
+import type { BoxNode } from "./nodes";
 import { foldedAround, groupNode, PORT, scene } from "./scene";
 
 const KINDS = kindsOf(
@@ -140,4 +141,16 @@ test("a moved folded group moves its elements, and unfolds at the new position",
   });
   const again = made(["g"], Object.fromEntries(boxes));
   expect(again.places.groups.get("g")?.x).toBe((places.groups.get("g")?.x ?? 0) + 300);
+});
+
+test("a box is higher by each pinned slider, and its ports are where its height places them", () => {
+  const pins = ["a", "b", "c"].map((parameter) => ({ element: "s", parameter }));
+  const box = (layout: object) => {
+    const { nodes } = scene(fakeDocument(ELEMENTS, WIRES, { layout: { ...layout } }), KINDS);
+    return nodes.find((node): node is BoxNode => node.type === "box" && node.id === "s") as BoxNode;
+  };
+  const [bare, pinned] = [box({}), box({ pins })];
+  expect(pinned.height).toBe((bare.height ?? 0) + 2 * BOX.pin);
+  expect(pinned.data.pins).toEqual(pins.slice(0, 2));
+  expect(pinned.handles?.[0]?.y).toBe(Math.round((pinned.height ?? 0) / 2) - PORT / 2);
 });

@@ -2,6 +2,7 @@
 // are no part of it.
 
 import { Position, type NodeHandle } from "@xyflow/react";
+import { boxPins, type Pin } from "../pins/pin";
 import type { ElementView, Kind } from "../protocol";
 import { boxSize, dimensions, portHeight, readBoxes, readFolded } from "./boxes/boxes";
 import { contract, type Structure } from "./contract";
@@ -42,7 +43,9 @@ export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Si
   const chained = contraction ?? chains(structure, kinds);
   const found = tree(elements, groups, readFolded(layout), chained.couplings);
   const names = new Map(elements.map((e) => [e.id, e]));
-  const sizes = new Map<string, Size>(elements.map((e) => [e.id, boxSize(e)]));
+  // The cells of a grid are of one size, which sliders in one of them would change for all.
+  const pins = (id: string) => (contraction === null ? boxPins(layout, id) : []);
+  const sizes = new Map<string, Size>(elements.map((e) => [e.id, boxSize(e, pins(e.id).length)]));
   const room = (edge: Chain) => (contraction === null ? widthOf(edge, names) : CHIP);
   const bonds = chained.edges.map((e) => ({ source: e.source, target: e.target, room: room(e) }));
   const stored = readBoxes(layout);
@@ -55,7 +58,7 @@ export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Si
   const nodes = nodesOf(found.root, names, kinds, sizes, where, borders);
   return {
     nodes: [
-      ...(contraction === null ? nodes : nodes.map((node) => withParts(node, contraction))),
+      ...nodes.map((node) => (contraction === null ? withPins(node, pins) : withParts(node, contraction))),
       ...readComments(layout).map(commentNode),
     ],
     wires,
@@ -119,6 +122,9 @@ function nodesOf(
   return [...groups, ...boxes];
 }
 
+const withPins = (node: SceneNode, pins: (element: string) => Pin[]): SceneNode =>
+  node.type === "box" ? { ...node, data: { ...node.data, pins: pins(node.id) } } : node;
+
 // Ids of comments cannot be those of elements.
 export const commentId = (node: string): string => node.slice("comment:".length);
 
@@ -163,6 +169,7 @@ function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, sta
       outputs,
       dots: [],
       badges: [],
+      pins: [],
     },
     ariaLabel: `${path}, ${title}`,
     zIndex: 2,

@@ -7,7 +7,8 @@ import { useLateFocus } from "../widgets/lateFocus";
 import { numberText, typedNumber } from "../widgets/number";
 import { ProblemLine } from "../widgets/ProblemLine";
 import type { SliderRange } from "../inspector/numbers/sliderRange";
-import { changedPin, keepPins, type Pin } from "./pin";
+import { changedPin, type Pin } from "./pin";
+import { keepPins } from "./pinning";
 
 type PinEditingProps = { what: "range" | "label"; pin: Pin; range: SliderRange; onDone: () => void };
 

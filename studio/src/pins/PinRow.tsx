@@ -5,20 +5,17 @@ import { IconGripVertical, IconLink } from "@tabler/icons-react";
 import { useState, type DragEvent, type KeyboardEvent } from "react";
 
 import { CostMark } from "../inspector/parameters/CostMark";
-import { driver } from "../inspector/parameters/leaf";
-import { useDocumentParameterLook, useLook } from "../inspector/parameters/controlLook";
 import { NumberControl } from "../inspector/numbers/NumberControl";
 import { Prose } from "../widgets/Prose";
 import { SwitchControl } from "../inspector/numbers/SwitchControl";
-import { chosen } from "../inspector/numbers/sliderRange";
-import { useSetting } from "../inspector/parameters/setting";
 import { Tex } from "../widgets/Tex";
 import type { LinkView } from "../protocol";
 import { useStudio } from "../store";
-import { valueAt } from "../values";
 import { PinEditing } from "./PinEditing";
 import { PinMenu } from "./PinMenu";
-import { changedPin, endsOf, keepPins, withoutPin, type Pin } from "./pin";
+import { changedPin, endsOf, withoutPin, type Pin } from "./pin";
+import { keepPins } from "./pinning";
+import { usePin } from "./usePin";
 
 type PinRowProps = {
   pin: Pin;
@@ -32,30 +29,11 @@ type PinRowProps = {
 
 export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: PinRowProps) {
   const { element: id, parameter } = pin;
-  const element = useStudio((state) => state.elements.get(id));
+  const { element, shared, path, setting, look, rangeKey } = usePin(pin);
   const select = useStudio((state) => state.select);
-  const shared = useStudio((state) =>
-    id === ""
-      ? state.document?.parameters.find((k) => k.name === parameter)
-      : driver(state.document, id, parameter),
-  );
   const [editing, setEditing] = useState<"" | "range" | "label">("");
-  const stored = shared === undefined ? valueAt(element?.values, parameter) : shared.value;
-  const ownLook = useLook(id, parameter, stored);
-  const parameterLook = useDocumentParameterLook(shared);
-  const look = id === "" ? parameterLook : ownLook;
-  const value = typeof stored === "number" ? stored : null;
-  const setting = useSetting<number | null>(
-    shared === undefined ? id : "",
-    shared?.name ?? parameter,
-    value,
-    look?.cost ?? "live",
-  );
   const [off, on] = endsOf(pin);
   const unpin = () => keepPins((pins) => withoutPin(pins, id, parameter));
-  const gone =
-    look === undefined || (id === "" && shared === undefined) || (value === null && !look.optional);
-  const path = id === "" ? parameter : `${element?.path ?? id}.${parameter}`;
 
   const onGripKey = (event: KeyboardEvent) => {
     const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
@@ -133,7 +111,7 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
           />
         </span>
       </div>
-      {gone || look === undefined ? (
+      {look === undefined ? (
         <p className="pin-gone">This parameter is no longer in the document.</p>
       ) : pin.switch === true ? (
         <SwitchControl label={pin.label ?? path} setting={setting} off={off} on={on} />
@@ -141,21 +119,15 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
         <NumberControl
           label={pin.label ?? path}
           setting={setting}
-          range={chosen(look.range, pin.lower, pin.upper)}
-          rangeKey={`${id} ${parameter} ${pin.lower ?? ""} ${pin.upper ?? ""}`}
+          range={look.range}
+          rangeKey={rangeKey}
           unit={look.unit}
           optional={look.optional}
           onRange={() => setEditing("range")}
         />
       )}
       {editing !== "" && look !== undefined && (
-        <PinEditing
-          key={editing}
-          what={editing}
-          pin={pin}
-          range={chosen(look.range, pin.lower, pin.upper)}
-          onDone={() => setEditing("")}
-        />
+        <PinEditing key={editing} what={editing} pin={pin} range={look.range} onDone={() => setEditing("")} />
       )}
     </li>
   );

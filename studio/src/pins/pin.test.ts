@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 
-import { changedPin, endsOf, pinsOf, withoutPin, withPin, type Pin } from "./pin";
+import { boxPins, changedPin, endsOf, pinsOf, withoutPin, withPin, type Pin } from "./pin";
 
 const tau: Pin = { element: "1", parameter: "tau" };
 const tempo: Pin = { element: "", parameter: "tempo", lower: 0, upper: 5, label: "pace" };
@@ -62,4 +62,25 @@ test("a switch goes between the ends of the chosen range, or between 0 and 1", (
   expect(changedPin([tau, tempo], tempo, { switch: true })).toEqual([tau, { ...tempo, switch: true }]);
   const switched = { ...tau, switch: true };
   expect(changedPin([switched], switched, { switch: undefined })).toEqual([tau]);
+});
+
+test("a box has the first two sliders of its element, without switches", () => {
+  const of = (element: string, parameter: string, more: Partial<Pin> = {}) => ({
+    element,
+    parameter,
+    ...more,
+  });
+  const pins = [
+    of("1", "a", { switch: true }),
+    of("2", "a"),
+    of("1", "b"),
+    of("1", "c"),
+    of("1", "d"),
+    tempo,
+  ];
+  expect(["1", "2", "3"].map((id) => boxPins({ pins }, id).map(({ parameter }) => parameter))).toEqual([
+    ["b", "c"],
+    ["a"],
+    [],
+  ]);
 });

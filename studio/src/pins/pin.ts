@@ -1,9 +1,6 @@
 // Pinned parameters: the rows of the panel of sliders, as they are kept in the document's layout.
 
-import { openTool } from "../state/tool";
 import type { DocumentView } from "../protocol";
-import { request } from "../socket";
-import { useStudio } from "../store";
 
 // `element` is empty for a document parameter. `lower` and `upper` are a chosen range, `label` a custom
 // name; `switch` shows a switch between the ends of the range instead of a slider.
@@ -18,6 +15,7 @@ export type Pin = {
 
 type Layout = DocumentView["layout"];
 
+const MOST_IN_BOX = 2;
 const NONE: Pin[] = [];
 const read = new WeakMap<object, Pin[]>();
 
@@ -65,6 +63,13 @@ export function isAt(pin: Pin, element: string, parameter: string): boolean {
   return pin.element === element && pin.parameter === parameter;
 }
 
+// The sliders in the box of an element: the first ones of its pins. Switches are in the panel alone.
+export function boxPins(layout: Layout | undefined, element: string): Pin[] {
+  return pinsOf(layout)
+    .filter((pin) => pin.element === element && pin.switch !== true)
+    .slice(0, MOST_IN_BOX);
+}
+
 export function withPin(pins: Pin[], element: string, parameter: string): Pin[] {
   return pins.some((pin) => isAt(pin, element, parameter)) ? pins : [...pins, { element, parameter }];
 }
@@ -85,19 +90,4 @@ export function changedPin(
   change: Partial<Pick<Pin, "lower" | "upper" | "label" | "switch">>,
 ): Pin[] {
   return pins.map((p) => (isAt(p, pin.element, pin.parameter) ? (pinOf({ ...p, ...change })[0] ?? p) : p));
-}
-
-// Pin a parameter as the last one, and show the sliders.
-export function pin(element: string, parameter: string): void {
-  keepPins((pins) => withPin(pins, element, parameter));
-  openTool("pins");
-}
-
-// Keep them in the document, as one step of undo.
-export function keepPins(change: (pins: Pin[]) => Pin[]): void {
-  const pins = pinsOf(useStudio.getState().document?.layout);
-  const next = change(pins);
-  if (next !== pins) {
-    void request({ type: "arrange", layout: { pins: next.length > 0 ? next : null }, undoable: true });
-  }
 }

@@ -14,7 +14,8 @@ import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import { KeptPresets } from "./KeptPresets";
 import { PinRow } from "./PinRow";
-import { isAt, keepPins, pinsOf, withPin } from "./pin";
+import { isAt, pinsOf, withPin } from "./pin";
+import { keepPins } from "./pinning";
 
 export const tool: DockTool = { title: "Sliders", tab: 2, firstIn: ["run", "robot"], component: Pins };
 

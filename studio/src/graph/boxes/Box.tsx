@@ -7,6 +7,7 @@ import { useFitMarks } from "../../build/wiring/useFitMarks";
 import { askFits, useWiring } from "../../build/wiring/wiring";
 import { useStudio } from "../../store";
 import { BOX, dimensionsText, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
+import { BoxPins } from "./BoxPins";
 import { useHover } from "../hover";
 import { LiveBox } from "./LiveBox";
 import { unhover, useFocus } from "../focus";
@@ -80,6 +81,7 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
           height={level === "full" ? live : LIVE.number}
         />
       )}
+      {level === "full" && <BoxPins pins={data.pins} />}
       {level !== "dot" && <Parts dots={data.dots} badges={data.badges} />}
       {ports("source", outputs)}
     </div>

@@ -3,7 +3,7 @@
 import type { ElementView } from "../../protocol";
 import type { Point, Size } from "../layout/rects";
 
-export const BOX = { width: 156, title: 40, port: 24, pad: 8 };
+export const BOX = { width: 156, title: 40, port: 24, pad: 8, pin: 24 };
 // Samples along each axis of a map.
 const MOST_CELLS = 64;
 // `small` is the width of a live picture in a box that shows its name and little else.
@@ -48,12 +48,14 @@ export function mostSamples(axes: number, width: number): number {
   return axes === 1 ? 2 * width : MOST_CELLS;
 }
 
-export function boxSize(element: ElementView): Size {
+// `pins`: the number of sliders below the live picture.
+export function boxSize(element: ElementView, pins = 0): Size {
   const live = liveHeight(element);
   const ports = Math.max(element.inputs.length, element.outputs.length);
+  const content = live + BOX.pin * pins;
   return {
     width: BOX.width,
-    height: Math.max(BOX.title + (live === 0 ? 0 : live + BOX.pad), BOX.port * (ports + 1)),
+    height: Math.max(BOX.title + (content === 0 ? 0 : content + BOX.pad), BOX.port * (ports + 1)),
   };
 }
 

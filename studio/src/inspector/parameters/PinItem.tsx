@@ -3,7 +3,8 @@
 import { Menu } from "@mantine/core";
 import { IconPin, IconPinnedOff } from "@tabler/icons-react";
 
-import { isAt, keepPins, pin, pinsOf, withoutPin } from "../../pins/pin";
+import { isAt, pinsOf, withoutPin } from "../../pins/pin";
+import { keepPins, pin } from "../../pins/pinning";
 import { useStudio } from "../../store";
 
 // `element` is empty for a document parameter.

@@ -1,0 +1,56 @@
+// The pinned sliders in a box: symbol, track, number.
+
+import { isEditable } from "../../build/editable";
+import { NumberControl } from "../../inspector/numbers/NumberControl";
+import { words } from "../../inspector/parameters/part";
+import type { Pin } from "../../pins/pin";
+import { usePin } from "../../pins/usePin";
+import { useStudio } from "../../store";
+import { Tex } from "../../widgets/Tex";
+import { useHover } from "../hover";
+
+export function BoxPins({ pins }: { pins: Pin[] }) {
+  const editable = useStudio(isEditable);
+  return pins.length === 0 ? null : (
+    <div
+      className="graph-pins nodrag nopan"
+      inert={!editable}
+      onPointerEnter={() => useHover.getState().close()}
+      // A hand on a slider does not select the box, nor open its plot.
+      onClickCapture={(event) => event.stopPropagation()}
+      onDoubleClickCapture={(event) => event.stopPropagation()}
+    >
+      {pins.map((pin) => (
+        <BoxPin key={pin.parameter} pin={pin} />
+      ))}
+    </div>
+  );
+}
+
+function BoxPin({ pin }: { pin: Pin }) {
+  const { path, setting, look, rangeKey } = usePin(pin);
+  const { label = words(pin.parameter.split(".").at(-1) ?? "") } = pin;
+  return (
+    <div className="graph-pin" title={path}>
+      <span className="graph-pin-name one-line">
+        {pin.label === undefined && look !== undefined && look.symbol !== "" ? (
+          <Tex source={look.symbol} />
+        ) : (
+          label
+        )}
+      </span>
+      {look === undefined ? (
+        <span className="dim">none</span>
+      ) : (
+        <NumberControl
+          label={pin.label ?? path}
+          setting={setting}
+          range={look.range}
+          rangeKey={rangeKey}
+          unit=""
+          optional={look.optional}
+        />
+      )}
+    </div>
+  );
+}

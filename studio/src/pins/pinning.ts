@@ -1,0 +1,21 @@
+// Pins a parameter, and stores changed pins with the document.
+
+import { openTool } from "../state/tool";
+import { request } from "../socket";
+import { useStudio } from "../store";
+import { type Pin, pinsOf, withPin } from "./pin";
+
+// Pin a parameter as the last one, and show the sliders.
+export function pin(element: string, parameter: string): void {
+  keepPins((pins) => withPin(pins, element, parameter));
+  openTool("pins");
+}
+
+// Keep them in the document, as one step of undo.
+export function keepPins(change: (pins: Pin[]) => Pin[]): void {
+  const pins = pinsOf(useStudio.getState().document?.layout);
+  const next = change(pins);
+  if (next !== pins) {
+    void request({ type: "arrange", layout: { pins: next.length > 0 ? next : null }, undoable: true });
+  }
+}
