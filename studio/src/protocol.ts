@@ -24,7 +24,8 @@ export type AddDocumentParameter = {
 // of the ports that the element is connected with, else those of the first field, else a new axis x.
 // `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into;
 // `replaces`: a connection that is removed. An empty name means a free one after its kind; a taken one gets a
-// number. `at` is the position of its box.
+// number. `at` is the position of its box; `positions` and `comments` are those of boxes and comments that
+// make room for it, in the same step of undo.
 export type AddElement = {
   type: "add_element";
   request?: number;
@@ -38,6 +39,8 @@ export type AddElement = {
   target?: PortEnd | null;
   wire?: Ends | null;
   replaces?: Ends | null;
+  positions?: Record<string, unknown[]>;
+  comments?: Record<string, unknown[]>;
 };
 
 // Add a template of `welcome` as a new group; the answer has its ids in `made` and its names in `group`.
@@ -630,7 +633,9 @@ export type ImportReportView = {
   bugs: string[];
 };
 
-// Insert an existing element into a connection, by its default ports; `positions` are those of boxes.
+// Insert an existing element into a connection, by its default ports.
+//
+// `positions` and `comments` are those of boxes and comments, which change in the same step of undo.
 export type InsertElement = {
   type: "insert";
   request?: number;
@@ -638,6 +643,7 @@ export type InsertElement = {
   element: string;
   wire: Ends;
   positions?: Record<string, unknown[]>;
+  comments?: Record<string, unknown[]>;
 };
 
 // A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.

@@ -113,6 +113,35 @@ def test_an_existing_element_and_a_moved_end_are_one_step_each(root: Path) -> No
         play(address, scene)
 
 
+def test_what_makes_room_for_an_inserted_element_moves_in_the_same_step(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u, left_id = p.element("u"), p.element("left")
+        await p.do("place", positions={u: [0, 0], left_id: [0, 200]})
+        (note,) = await made(p, "comment", text="a note", at=[0, 100])
+        before = p.document["layout"]
+        (field,) = await made(
+            p,
+            "add_element",
+            kind="Field",
+            wire={"source": left_id, "target": u},
+            at=[100, 200],
+            positions={u: [112, 0], "gone": [1, 1]},
+            comments={note: [112, 100], "gone": [1, 1]},
+        )
+        layout = p.document["layout"]
+        assert layout["boxes"][u] == {"x": 112, "y": 0} and layout["boxes"][left_id] == {"x": 0, "y": 200}
+        assert layout["boxes"][field] == {"x": 100, "y": 200} and "gone" not in layout["boxes"]
+        assert layout["comments"] == {note: {"text": "a note", "x": 112, "y": 100}}
+        await p.do("undo")
+        assert p.document["layout"] == before and ("left", "u") in wires(p)
+        await p.do("redo")
+        assert p.document["layout"] == layout
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
 def test_a_refused_edit_states_the_reason_and_changes_nothing(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import dataclasses as dc
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, TypeVar, cast
 
 import msgspec
 
@@ -86,7 +86,8 @@ class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
     those of the ports that the element is connected with, else those of the first field, else a new axis x.
     `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into;
     `replaces`: a connection that is removed. An empty name means a free one after its kind; a taken one gets
-    a number. `at` is the position of its box.
+    a number. `at` is the position of its box; `positions` and `comments` are those of boxes and comments that
+    make room for it, in the same step of undo.
     """
 
     kind: Text
@@ -98,6 +99,8 @@ class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
     target: PortEnd | None = None
     wire: Ends | None = None
     replaces: Ends | None = None
+    positions: Mapping[Id, Position] = {}
+    comments: Mapping[Id, Position] = {}
 
     async def serve(self, hub: Hub, page: Page) -> Answer:
         source, target = (None if end is None else end.key for end in (self.source, self.target))
@@ -106,18 +109,28 @@ class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
         session, doc = hub.engine.session, hub.project.history.document()
         world = None if session is None else session.world
         values = hub.embodiment.starting_values(self.kind, self.values, doc, world)
-        ids = await _changed(
-            hub, lambda doc: building.add(doc, self.kind, values, self.name, self.group, self.at, around)
-        )
-        return answer(made=ids)
+
+        def add(doc: Document) -> tuple[Document, list[str]]:
+            new, ids = building.add(doc, self.kind, values, self.name, self.group, self.at, around)
+            return _placed(new, self.positions, self.comments), ids
+
+        return answer(made=await _changed(hub, add))
 
 
 @edits(tag="insert")
 def insert_element(
-    doc: Document, *, element: Id, wire: Ends, positions: Mapping[Id, Position] = {}
+    doc: Document,
+    *,
+    element: Id,
+    wire: Ends,
+    positions: Mapping[Id, Position] = {},
+    comments: Mapping[Id, Position] = {},
 ) -> Document:
-    """Insert an existing element into a connection, by its default ports; `positions` are those of boxes."""
-    return _placed(building.insert_element(doc, element, wire.ports), positions)
+    """Insert an existing element into a connection, by its default ports.
+
+    `positions` and `comments` are those of boxes and comments, which change in the same step of undo.
+    """
+    return _placed(building.insert_element(doc, element, wire.ports), positions, comments)
 
 
 @edits()
@@ -360,6 +373,11 @@ async def place_boxes(hub: Hub, page: Page, *, positions: dict[Id, Position]) ->
     await hub.project.history.lay_out(lambda doc: _placed(doc, positions))
 
 
-def _placed(doc: Document, positions: Mapping[str, BoxPosition]) -> Document:
-    """Move the boxes of elements that exist: another page may have removed the others."""
+def _placed(
+    doc: Document, positions: Mapping[str, BoxPosition], comments: Mapping[str, BoxPosition] = {}
+) -> Document:
+    """Move the boxes of elements, and comments, that exist: another page may have removed the others."""
+    for ident, (x, y) in comments.items():
+        if ident in cast("dict[str, Any]", doc.layout.get(building.COMMENTS) or {}):
+            doc, _ = building.comment(doc, ident, {"x": x, "y": y})
     return building.placed(doc, {i: at for i, at in positions.items() if i in doc.by_id()})

@@ -1,5 +1,6 @@
 // Changes of the architecture, each one message to the server and one step of undo.
 
+import { movesOf } from "../graph/layout/arrange";
 import type { Answer, Kind } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -35,6 +36,7 @@ export async function addElement(kind: string, spot: Placing, adding: Adding = {
     target,
     wire,
     replaces,
+    ...(spot.moves === undefined ? {} : movesOf(spot.moves)),
   });
   showMade(answer.made ?? []);
 }

@@ -19,8 +19,11 @@ const MOST_RINGS = 60;
 // The pointer is at the name of a new box.
 const HEAD = BOX.title / 2;
 
-// A position on the canvas, and the key of the group around it.
-export type Placing = { at: Point; group: string };
+// Positions of boxes and of comments.
+export type Moves = { boxes: Map<string, Point>; comments: Map<string, Point> };
+
+// A position on the canvas, and the key of the group around it; `moves`: what makes room for it.
+export type Placing = { at: Point; group: string; moves?: Moves };
 
 type Scene = Pick<GraphScene, "tree" | "places" | "nodes">;
 
@@ -96,6 +99,12 @@ export function free(wish: Point, size: Size, group: string, scene: Scene): Plac
     return { at, group };
   }
   return group === "" ? { at: wish, group } : free(wish, size, scene.tree.outer.get(group) ?? "", scene);
+}
+
+// At a point, where nothing is near it.
+export function exactly(at: Point, size: Size, group: string, scene: Scene): Placing {
+  const isFree = fitsIn({ ...at, ...size }, enclosures(group, scene));
+  return isFree ? { at, group } : free(at, size, group, scene);
 }
 
 // The place of the grid that is nearest to a point; null: none near it is free.

@@ -103,7 +103,8 @@ function drop({ what, name, values, called }: Carried, at: Point, over: string |
     void addTemplate(name, spotFor(null, at));
   } else if (kind !== undefined) {
     const wire = over === null || !passes(kind) ? null : firstOf(over);
-    void addElement(name, spotFor(kind, at), wire === null ? { values, name: called } : { wire });
+    const adding = wire === null ? { values, name: called } : { wire };
+    void addElement(name, spotFor(kind, at, wire === null ? undefined : (over ?? undefined)), adding);
   }
 }
 

@@ -88,7 +88,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const leaving = usePicked((state) => state.into === "");
   const around = useRef<HTMLDivElement>(null);
   const { now, touch, showAll } = useStart(structure, kinds, around);
-  const { nodes, onNodesChange, settle, forgetKeys, reset } = useNodes(now);
+  const { nodes, onNodesChange, settle, forgetKeys, reset } = useNodes(now, structure.layout);
   const [painting] = useState(newPainting);
   const { painter, layer } = painting;
   const { center, centerGroup } = useCenter(now);

@@ -3,6 +3,7 @@
 import type { Edge, Node } from "@xyflow/react";
 import type { Pin } from "../pins/pin";
 import type { WireContent } from "./contract";
+import type { Rect } from "./layout/rects";
 import type { Chain } from "./wires/chains";
 import type { Sign } from "./wires/sign";
 import type { Course } from "./wires/wirePath";
@@ -53,3 +54,18 @@ export type FoldedNode = Node<GroupData, "folded">;
 export type CommentNode = Node<{ comment: string; text: string }, "comment">;
 export type SceneNode = BoxNode | FrameNode | FoldedNode | CommentNode;
 export type Wire = Edge<WireData, "wire">;
+
+// Positions on the canvas; those of nodes in an open group are relative to it.
+export function rectsOf(nodes: SceneNode[]): Map<string, Rect> {
+  const found = new Map<string, Rect>();
+  for (const { id, parentId, position, width = 0, height = 0 } of nodes) {
+    const parent = found.get(parentId ?? "");
+    found.set(id, {
+      x: position.x + (parent?.x ?? 0),
+      y: position.y + (parent?.y ?? 0),
+      width,
+      height,
+    });
+  }
+  return found;
+}

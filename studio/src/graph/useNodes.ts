@@ -5,15 +5,17 @@ import { applyNodeChanges, useStoreApi, type NodeChange } from "@xyflow/react";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { changeComment } from "../build/commenting";
 import { useStudio } from "../store";
+import type { Structure } from "./contract";
 import { place } from "./layout/arrange";
 import { differ, moved } from "./layout/moved";
 import { commentId, type GraphScene } from "./scene";
 import type { SceneNode } from "./nodes";
+import { useGlide } from "./useGlide";
 
 // Steps by arrow keys that follow each other are one change.
 const KEYS_MS = 500;
 
-export function useNodes(scene: GraphScene) {
+export function useNodes(scene: GraphScene, layout: Structure["layout"]) {
   const selected = useStudio((state) => state.selected);
   const [nodes, setNodes] = useState<SceneNode[]>(scene.nodes);
   const [seen, setSeen] = useState(scene);
@@ -25,6 +27,8 @@ export function useNodes(scene: GraphScene) {
   const latest = useRef({ nodes: shown, scene });
   const timer = useRef(0);
   const flow = useStoreApi();
+  const show = useCallback((next: SceneNode[]) => setNodes((before) => reconciled(before, next)), []);
+  const arrive = useGlide(scene, layout, latest, show);
   useEffect(() => {
     latest.current = { nodes: shown, scene };
   }, [shown, scene]);
@@ -50,7 +54,8 @@ export function useNodes(scene: GraphScene) {
       if (others.length === 0) {
         return;
       }
-      const next = applyNodeChanges(others, latest.current.nodes);
+      const isMove = others.some((change) => change.type === "position");
+      const next = applyNodeChanges(others, (isMove ? arrive() : null) ?? latest.current.nodes);
       latest.current = { ...latest.current, nodes: next };
       setNodes(next);
       if (others.some((change) => change.type === "position" && change.dragging !== true)) {
@@ -58,7 +63,7 @@ export function useNodes(scene: GraphScene) {
         timer.current = window.setTimeout(settle, KEYS_MS);
       }
     },
-    [settle, flow],
+    [settle, flow, arrive],
   );
 
   // Steps by arrow keys no longer become a change of their own: a drag takes them along. The last move of a

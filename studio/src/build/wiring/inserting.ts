@@ -1,13 +1,15 @@
 // A box without connections that is dropped on a connection is inserted into it.
 
-import { positionsOf } from "../../graph/layout/arrange";
-import type { Point } from "../../graph/layout/rects";
+import { boxSize } from "../../graph/boxes/boxes";
+import { movesOf, positionsOf } from "../../graph/layout/arrange";
+import type { Point, Size } from "../../graph/layout/rects";
 import type { SceneNode } from "../../graph/nodes";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
 import { isEditable } from "../editable";
 import { usePicked } from "../picked";
-import { pointerOf } from "../stage";
+import { onWire, type RoomyPlacing } from "../room";
+import { getStage, pointerOf } from "../stage";
 import { firstOf, wireAt } from "./wires";
 
 // The connection below the pointer lights up while such a box is dragged over it.
@@ -26,12 +28,40 @@ export function insertDropped(element: string, boxes: Map<string, Point>): Promi
   const { over } = usePicked.getState();
   usePicked.setState({ over: null });
   const wire = over === null ? null : firstOf(over);
-  if (wire === null) {
+  if (over === null || wire === null) {
     return null;
   }
-  return request({ type: "insert", element, wire, positions: positionsOf(boxes) }).then(
+  const { elements, kinds } = useStudio.getState();
+  const [dropped, at] = [elements.get(element), boxes.get(element)];
+  const room =
+    dropped === undefined || at === undefined
+      ? null
+      : roomFor(over, at, boxSize(dropped), kinds.get(dropped.kind)?.room, element);
+  const moves =
+    room === null
+      ? { positions: positionsOf(boxes) }
+      : movesOf({ boxes: room.moves.boxes.set(element, room.at), comments: room.moves.comments });
+  return request({ type: "insert", element, wire, ...moves }).then(
     ({ problems = [] }) => problems.length === 0,
   );
+}
+
+// Where a box with its corner near a point is inserted into a connection, and what makes room for it. Null
+// where nothing does: couplings lie on connections. `dragged`: the box, which stays in its group.
+export function roomFor(
+  wire: string | undefined,
+  corner: Point,
+  size: Size,
+  room: string | undefined,
+  dragged?: string,
+): RoomyPlacing | null {
+  const scene = getStage()?.scene();
+  const drawn = scene?.wires.find(({ id }) => id === wire);
+  if (scene === undefined || drawn === undefined || room === "couplings") {
+    return null;
+  }
+  const found = onWire(drawn, corner, size, scene, dragged);
+  return dragged !== undefined && found?.group !== scene.tree.home.get(dragged) ? null : found;
 }
 
 function isFree(id: string): boolean {

@@ -11,7 +11,7 @@ import { finish } from "./connecting";
 import { openPalette } from "../palette/palette";
 import { pickWire, usePicked } from "../picked";
 import { endAt, type WireEnds } from "./ends";
-import { endOf, firstOf } from "./wires";
+import { endOf } from "./wires";
 import { begin, end, fitOf, stateOf, useWiring } from "./wiring";
 
 type Props = ReactFlowProps<SceneNode, Edge>;
@@ -111,21 +111,14 @@ export function useWires(wires: Wire[]): Props {
         openPalette({ x: event.clientX, y: event.clientY });
       },
       onEdgeClick: (event, { id }) => pickWire(id, event.shiftKey || event.ctrlKey || event.metaKey),
-      onEdgeDoubleClick: (event, { id }) => insertInto(id, event.clientX, event.clientY),
+      onEdgeDoubleClick: ({ clientX: x, clientY: y }, { id }) => openPalette({ x, y }, id),
       onEdgeContextMenu: (event, { id }) => {
         event.preventDefault();
-        insertInto(id, event.clientX, event.clientY);
+        openPalette({ x: event.clientX, y: event.clientY }, id);
       },
     };
   }, [flow, editable]);
   return { ...props, edges };
-}
-
-function insertInto(wire: string, x: number, y: number): void {
-  const ends = firstOf(wire);
-  if (ends !== null) {
-    openPalette({ x, y }, ends);
-  }
 }
 
 // The element at a position of the screen, null on the ground of the canvas.

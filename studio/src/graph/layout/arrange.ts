@@ -1,9 +1,11 @@
 // Changes of the layout, as messages to the server.
 
+import type { Moves } from "../../build/placing";
 import type { Answer } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
 import { readBoxes } from "../boxes/boxes";
+import { readComments } from "../boxes/comments";
 import { everyElement } from "../contract";
 import { foldedNow, useOpening } from "./folding";
 import type { Point } from "./rects";
@@ -20,7 +22,7 @@ export function unfold(keys: string[]): void {
 }
 
 function now(): string[] {
-  return foldedNow(useStudio.getState().document?.layout ?? {});
+  return foldedNow(layoutNow());
 }
 
 // At once on this page, also on one without a server, where no document keeps it.
@@ -37,7 +39,7 @@ export function toGrid(): Promise<Answer> {
 // Shows every element of a large architecture, or contracts them again. What a person has placed has its box;
 // so that `contracted` elements lose theirs, their positions are forgotten.
 export function showEvery(shown: boolean, contracted: ReadonlySet<string>): Promise<Answer> {
-  const stored = readBoxes(useStudio.getState().document?.layout ?? {});
+  const stored = readBoxes(layoutNow());
   const boxes = [...stored].filter(([id]) => shown || !contracted.has(id));
   return request({
     type: "arrange",
@@ -45,17 +47,31 @@ export function showEvery(shown: boolean, contracted: ReadonlySet<string>): Prom
   });
 }
 
-// Sets the positions of boxes, as one step of undo. Those that the document has already are not sent: another
-// page may move them meanwhile.
+// Sets the positions of boxes, as one step of undo.
 export function place(boxes: Map<string, Point>): Promise<Answer> {
-  const stored = readBoxes(useStudio.getState().document?.layout ?? {});
-  const moved = Object.entries(positionsOf(boxes)).filter(
+  return request({ type: "place", positions: movedTo(boxes, readBoxes(layoutNow())) });
+}
+
+// Positions of boxes and comments, as messages have them.
+export function movesOf({ boxes, comments }: Moves): Record<"positions" | "comments", Positions> {
+  const layout = layoutNow();
+  const known = new Map(readComments(layout).map((comment) => [comment.id, comment]));
+  return { positions: movedTo(boxes, readBoxes(layout)), comments: movedTo(comments, known) };
+}
+
+const layoutNow = () => useStudio.getState().document?.layout ?? {};
+
+type Positions = Record<string, [number, number]>;
+
+// Positions that the document has already are not sent: another page may change them meanwhile.
+function movedTo(places: Map<string, Point>, stored: ReadonlyMap<string, Point>): Positions {
+  const moved = Object.entries(positionsOf(places)).filter(
     ([id, [x, y]]) => stored.get(id)?.x !== x || stored.get(id)?.y !== y,
   );
-  return request({ type: "place", positions: Object.fromEntries(moved) });
+  return Object.fromEntries(moved);
 }
 
 // Positions of boxes in whole pixels, as a message has them.
-export function positionsOf(boxes: Map<string, Point>): Record<string, [number, number]> {
+export function positionsOf(boxes: Map<string, Point>): Positions {
   return Object.fromEntries([...boxes].map(([id, { x, y }]) => [id, [Math.round(x), Math.round(y)]]));
 }

@@ -3,7 +3,7 @@
 import type { Rect } from "../layout/rects";
 import { labelPlaces } from "../boxes/labels";
 import { type GraphScene, PORT } from "../scene";
-import type { SceneNode, Wire, WireData } from "../nodes";
+import { rectsOf, type SceneNode, type Wire, type WireData } from "../nodes";
 import { type Route, Tracks } from "./tracks";
 import { goesBack, turns, type WireLine } from "./turns";
 import { type Course, courseOf } from "./wirePath";
@@ -25,7 +25,8 @@ export function withCourses({ nodes, wires }: GraphScene): Wire[] {
 // A wire of one connection has a strength: 1 is shown below the pointer alone, and takes what others leave.
 const STRENGTH = { stated: 40, plain: 20 };
 
-function roomOf(data: WireData | undefined): number {
+// The width of what is drawn on a wire.
+export function roomOf(data: WireData | undefined): number {
   const [chain, ...others] = data?.chains ?? [];
   const isSingle = chain !== undefined && others.length === 0 && data?.room === 0;
   return !isSingle ? (data?.room ?? 0) : chain.gain === null ? STRENGTH.plain : STRENGTH.stated;
@@ -82,21 +83,6 @@ function routed(wires: WireLine[], tracks: Tracks): Map<string, Route> {
       }
       count(net, 1);
     }
-  }
-  return found;
-}
-
-// Positions on the canvas; those of nodes in an open group are relative to it.
-function rectsOf(nodes: SceneNode[]): Map<string, Rect> {
-  const found = new Map<string, Rect>();
-  for (const { id, parentId, position, width = 0, height = 0 } of nodes) {
-    const parent = found.get(parentId ?? "");
-    found.set(id, {
-      x: position.x + (parent?.x ?? 0),
-      y: position.y + (parent?.y ?? 0),
-      width,
-      height,
-    });
   }
   return found;
 }

@@ -4,7 +4,7 @@ import { Button, UnstyledButton } from "@mantine/core";
 
 import { isEditable } from "../../build/editable";
 import { openPalette } from "../../build/palette/palette";
-import { firstOf, middleOf } from "../../build/wiring/wires";
+import { middleOf } from "../../build/wiring/wires";
 import { labelOf } from "../../graph/boxes/label";
 import type { Chain } from "../../graph/wires/chains";
 import { RANGE, strengthOf, useStrength, wireText } from "../../graph/wires/strength";
@@ -29,9 +29,9 @@ export function WireInspector({ wire, chain }: { wire: string; chain: Chain }) {
   const others = couplings.filter((id) => id !== gain);
   const [ends, does] = text.split(", ");
   const insert = () => {
-    const [at, into] = [middleOf(wire), firstOf(wire)];
-    if (at !== null && into !== null) {
-      openPalette(at, into);
+    const at = middleOf(wire);
+    if (at !== null) {
+      openPalette(at, wire);
     }
   };
   return (
