@@ -13,7 +13,7 @@ import type { ListEntry } from "./entries";
 import { isEditable } from "../editable";
 import { ELEMENTS, familyOf, isPart, isSource, takes } from "./families";
 import { shapeOf } from "./shapes";
-import { DRAWN } from "./Sketch";
+import { DRAWN } from "./sketches";
 import { afterAll, beside, near, type Placing, sizeOfKind, under } from "../placing";
 import { getPointer, getStage, middleOf } from "../stage";
 import { roomFor } from "../wiring/inserting";

@@ -3,7 +3,7 @@
 import type { Kinds } from "../../inspector/parameters/leaf";
 import type { Kind } from "../../protocol";
 import { isPart, isSource } from "./families";
-import type { Shape } from "./Sketch";
+import type { Shape } from "./sketches";
 
 export function shapeOf(kind: Kind, kinds: Kinds): Shape {
   const equation = kind.equation.join(" ");
