@@ -5,44 +5,12 @@ import { createTheme, type CSSVariablesResolver, type MantineColorsTuple } from 
 
 import { TYPEFACE } from "./draw/typeface";
 
-const deodar: MantineColorsTuple = [
-  "#eef7f2",
-  "#dbede3",
-  "#b7dbc8",
-  "#90c8ab",
-  "#6bb691",
-  "#4ba37b",
-  "#3a9069",
-  "#1f7a50",
-  "#186842",
-  "#115235",
-];
+// From light to dark.
+const shades = (colours: string) => colours.split(" ") as unknown as MantineColorsTuple;
 
-const gray: MantineColorsTuple = [
-  "#f4f4f5",
-  "#ededef",
-  "#e2e2e5",
-  "#d0d0d5",
-  "#b4b4bc",
-  "#8b8b94",
-  "#5b5b64",
-  "#434349",
-  "#2c2c31",
-  "#18181b",
-];
-
-const dark: MantineColorsTuple = [
-  "#ececef",
-  "#c6c6cd",
-  "#a5a5b0",
-  "#6d6d78",
-  "#3b3b42",
-  "#2c2c31",
-  "#232327",
-  "#1a1a1d",
-  "#121214",
-  "#0d0d0f",
-];
+const deodar = shades("#eef7f2 #dbede3 #b7dbc8 #90c8ab #6bb691 #4ba37b #3a9069 #1f7a50 #186842 #115235");
+const gray = shades("#f4f4f5 #ededef #e2e2e5 #d0d0d5 #b4b4bc #8b8b94 #5b5b64 #434349 #2c2c31 #18181b");
+const dark = shades("#ececef #c6c6cd #a5a5b0 #6d6d78 #3b3b42 #2c2c31 #232327 #1a1a1d #121214 #0d0d0f");
 
 export const theme = createTheme({
   respectReducedMotion: true,

@@ -8,6 +8,14 @@ export function valueAt(values: unknown, path: string): unknown {
     .reduce<unknown>((inner, step) => (isHolder(inner) ? inner[step] : undefined), values);
 }
 
+// Whether a text has every word that was typed.
+export function hasWords(text: string, typed: string): boolean {
+  return typed
+    .toLowerCase()
+    .split(/\s+/)
+    .every((word) => text.toLowerCase().includes(word));
+}
+
 // Items by a key of theirs, in the order in which the keys first occur.
 export function grouped<T>(items: readonly T[], keyOf: (item: T) => string): [string, T[]][] {
   const groups = new Map<string, T[]>();

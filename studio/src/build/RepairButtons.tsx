@@ -1,7 +1,7 @@
 // What a person can do about a problem: choose what is missing, or make the edit that solves it, as one step
 // of undo.
 
-import { Button, Group } from "@mantine/core";
+import { Group } from "@mantine/core";
 import { useState } from "react";
 
 import { ask } from "../dialogs/questions";
@@ -10,6 +10,7 @@ import { onCanvas } from "../panels/showGoal";
 import type { ListedProblem } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { PanelButton } from "../widgets/Buttons";
 import { useChooser } from "./palette/choice";
 import { signalEntries } from "./palette/palette";
 import { besideOnScreen, complete } from "./wiring/connecting";
@@ -25,18 +26,16 @@ export function RepairButtons({ problem }: { problem: ListedProblem }) {
   return (
     <Group gap={6} mt={6}>
       {actions.map(({ label, run }) => (
-        <Button
+        <PanelButton
           key={label}
           size="compact-xs"
-          variant="default"
+          label={label}
           loading={busy === label}
           onClick={() => {
             setBusy(label);
             void Promise.resolve(run()).finally(() => setBusy(""));
           }}
-        >
-          {label}
-        </Button>
+        />
       ))}
     </Group>
   );

@@ -1,6 +1,6 @@
 // Boxes side by side: alignment at an edge or a middle, and equal gaps.
 
-import type { Rect } from "../graph/layout/rects";
+import { boundsOf, type Rect } from "../graph/layout/rects";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { isEditable } from "./editable";
@@ -10,38 +10,25 @@ export type Boxes = Map<string, Rect>;
 
 export type Alignment = { does: string; least: number; moved: (boxes: Boxes) => Boxes };
 
-const right = ({ x, width }: Rect) => x + width;
-const bottom = ({ y, height }: Rect) => y + height;
+// At the share 0, 0.5 or 1 of the place that all boxes take together.
+const edges = (does: string, place: "x" | "y", share: number): Alignment => ({
+  does,
+  least: 2,
+  moved: (all) => {
+    const bounds = boundsOf([...all.values()]);
+    const size = place === "x" ? "width" : "height";
+    const at = (box: Rect) => bounds[place] + share * (bounds[size] - box[size]);
+    return new Map([...all].map(([id, box]) => [id, { ...box, [place]: at(box) }]));
+  },
+});
 
 export const ALIGNMENTS: readonly Alignment[] = [
-  { does: "Align left edges", least: 2, moved: (all) => each(all, () => ({ x: least(all, ({ x }) => x) })) },
-  {
-    does: "Align right edges",
-    least: 2,
-    moved: (all) => each(all, ({ width }) => ({ x: most(all, right) - width })),
-  },
-  { does: "Align top edges", least: 2, moved: (all) => each(all, () => ({ y: least(all, ({ y }) => y) })) },
-  {
-    does: "Align bottom edges",
-    least: 2,
-    moved: (all) => each(all, ({ height }) => ({ y: most(all, bottom) - height })),
-  },
-  {
-    does: "Align in a column, by their middles",
-    least: 2,
-    moved: (all) => {
-      const middle = (least(all, ({ x }) => x) + most(all, right)) / 2;
-      return each(all, ({ width }) => ({ x: middle - width / 2 }));
-    },
-  },
-  {
-    does: "Align in a row, by their middles",
-    least: 2,
-    moved: (all) => {
-      const middle = (least(all, ({ y }) => y) + most(all, bottom)) / 2;
-      return each(all, ({ height }) => ({ y: middle - height / 2 }));
-    },
-  },
+  edges("Align left edges", "x", 0),
+  edges("Align right edges", "x", 1),
+  edges("Align top edges", "y", 0),
+  edges("Align bottom edges", "y", 1),
+  edges("Align in a column, by their middles", "x", 0.5),
+  edges("Align in a row, by their middles", "y", 0.5),
   { does: "Distribute horizontally", least: 3, moved: (all) => spread(all, "x", "width") },
   { does: "Distribute vertically", least: 3, moved: (all) => spread(all, "y", "height") },
 ];
@@ -74,13 +61,6 @@ function placedBoxes(): Boxes {
     }
   }
   return boxes;
-}
-
-const least = (all: Boxes, of: (box: Rect) => number) => Math.min(...[...all.values()].map(of));
-const most = (all: Boxes, of: (box: Rect) => number) => Math.max(...[...all.values()].map(of));
-
-function each(all: Boxes, change: (box: Rect) => Partial<Rect>): Boxes {
-  return new Map([...all].map(([id, box]) => [id, { ...box, ...change(box) }]));
 }
 
 // The outer boxes stay; the gaps between all become equal.

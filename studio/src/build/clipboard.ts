@@ -3,7 +3,7 @@
 // command does.
 
 import { isTooLarge } from "../files/flows";
-import type { Point } from "../graph/layout/rects";
+import { boundsOf, type Point } from "../graph/layout/rects";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { showMade } from "./made";
@@ -127,9 +127,7 @@ const allChosen = (): string[] => useStudio.getState().selected;
 export function cornerOf(elements: string[]): Point | null {
   const places = getStage()?.scene().places.elements;
   const found = elements.flatMap((id) => places?.get(id) ?? []);
-  return found.length === 0
-    ? null
-    : { x: Math.min(...found.map(({ x }) => x)), y: Math.min(...found.map(({ y }) => y)) };
+  return found.length === 0 ? null : boundsOf(found);
 }
 
 async function write(text: string): Promise<void> {
@@ -176,12 +174,9 @@ export function listen(): () => void {
     cut: take(cut),
     paste: take((event) => paste(event.clipboardData?.getData("text/plain") || last)),
   };
+  const listening = new AbortController();
   for (const [name, act] of Object.entries(taken)) {
-    document.addEventListener(name, act as EventListener);
+    document.addEventListener(name, act as EventListener, listening);
   }
-  return () => {
-    for (const [name, act] of Object.entries(taken)) {
-      document.removeEventListener(name, act as EventListener);
-    }
-  };
+  return () => listening.abort();
 }

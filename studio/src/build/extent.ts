@@ -2,7 +2,7 @@
 
 import { readBoxes } from "../graph/boxes/boxes";
 import { FRAME } from "../graph/layout/layout";
-import type { Point, Size } from "../graph/layout/rects";
+import { boundsOf, type Point, type Size } from "../graph/layout/rects";
 import type { Kind } from "../protocol";
 import { sizeOfKind } from "./placing";
 
@@ -27,15 +27,10 @@ function measured(read: Pasted | null, kinds: Map<string, Kind>): Extent | null 
   if (read === null || rects.length === 0 || rects.length < Object.keys(read.elements).length) {
     return null;
   }
-  const [left, top] = [Math.min(...rects.map(({ x }) => x)), Math.min(...rects.map(({ y }) => y))];
-  const right = Math.max(...rects.map(({ x, width }) => x + width));
-  const bottom = Math.max(...rects.map(({ y, height }) => y + height));
+  const { width, height } = boundsOf(rects);
   const depth = Math.max(0, ...(read.groups ?? []).map((path) => path.split(".").length));
   return {
-    size: {
-      width: right - left + 2 * depth * FRAME.side,
-      height: bottom - top + depth * (FRAME.top + FRAME.bottom),
-    },
+    size: { width: width + 2 * depth * FRAME.side, height: height + depth * (FRAME.top + FRAME.bottom) },
     pad: { x: depth * FRAME.side, y: depth * FRAME.top },
   };
 }

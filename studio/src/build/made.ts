@@ -1,7 +1,7 @@
 // New elements are selected, and the new box has the focus, as soon as the document has them.
 
 import { useStudio } from "../store";
-import { getStage } from "./stage";
+import { drawnNode, getStage } from "./stage";
 
 const PATIENCE_MS = 5000;
 const FRAMES = 30;
@@ -35,9 +35,7 @@ export function showMade(made: string[]): void {
 
 // The box of an element receives the focus; a new one is drawn first.
 export function focusBox(element: string, frames = FRAMES): void {
-  const box = getStage()?.around.querySelector(
-    `.react-flow__node[data-id="${CSS.escape(element)}"], [data-element="${CSS.escape(element)}"]`,
-  );
+  const box = drawnNode(element);
   if (box instanceof HTMLElement) {
     box.focus({ preventScroll: true });
   } else if (frames > 0) {

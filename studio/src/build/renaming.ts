@@ -9,7 +9,7 @@ import { useStudio } from "../store";
 import { isEditable } from "./editable";
 import { pickGroup, usePicked } from "./picked";
 import { pathOf } from "./placing";
-import { getStage } from "./stage";
+import { drawnNode } from "./stage";
 
 export type Renaming = { element: string; group: string[]; name: string; at: Rect };
 
@@ -49,10 +49,7 @@ export async function rename({ element, group, name: before }: Renaming, name: s
 
 // Where the name is written on the screen.
 function placeOf(node: string): Rect | null {
-  const id = CSS.escape(node);
-  const found = getStage()?.around.querySelector(
-    `.react-flow__node[data-id="${id}"], [data-element="${id}"]`,
-  );
+  const found = drawnNode(node);
   const words = found?.querySelector(".graph-box-name, .graph-frame-title .one-line") ?? found;
   const rect = words?.getBoundingClientRect();
   return rect === undefined

@@ -47,6 +47,13 @@ export function middleOf({ around, toFlow }: Stage): Point {
   return toFlow({ x: left + width / 2, y: top + height / 2 });
 }
 
+// An element, group or comment as it is drawn; of an element without a box, what stands for it.
+export function drawnNode(node: string): Element | null {
+  const id = CSS.escape(node);
+  const selector = `.react-flow__node[data-id="${id}"], [data-element="${id}"]`;
+  return getStage()?.around.querySelector(selector) ?? null;
+}
+
 // The pointer or the finger of an event.
 export const pointerOf = (event: MouseEvent | TouchEvent): MouseEvent | Touch | undefined =>
   "clientX" in event ? event : event.changedTouches[0];

@@ -71,7 +71,7 @@ class Boundary extends Component<{ again: () => void; children: ReactNode }, { f
             ? failure.message
             : `This part of the page failed: ${String(failure)}`}
         </p>
-        <PanelButton onClick={again}>Try again</PanelButton>
+        <PanelButton label="Try again" onClick={again} />
       </div>
     );
   }

@@ -23,12 +23,11 @@ function CostsPanel() {
     <div className="costs">
       <div className="across wrapped small">
         <PanelButton
+          label={again ? "Measure costs again" : "Measure costs"}
           icon={IconStopwatch}
           loading={measuring}
           onClick={() => void request({ type: "measure_costs" })}
-        >
-          {again ? "Measure costs again" : "Measure costs"}
-        </PanelButton>
+        />
         {costs !== null && again && (
           <span role="status">
             A step takes {microsecondsText(costs.step)} µs; the elements, each measured alone, add up to{" "}

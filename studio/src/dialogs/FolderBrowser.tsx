@@ -9,6 +9,7 @@ import { ProblemText } from "../problems/ProblemText";
 import { joined, rootName, steps } from "../files/paths";
 import type { Folder, ListedProblem } from "../protocol";
 import { socket } from "../socket";
+import { hasWords } from "../values";
 import classes from "./dialogs.module.css";
 
 type Listing = { folder: Folder | null; problem: ListedProblem | null };
@@ -75,7 +76,7 @@ export function FolderBrowser(props: Props) {
   const empty = folder !== null && folder.folders.length + runs.length + names.length === 0;
   const entries = (shown: string[], Icon: typeof IconFolder, choose: typeof onFile, label?: string) =>
     shown
-      .filter((name) => name.toLowerCase().includes(typed.trim().toLowerCase()))
+      .filter((name) => hasWords(name, typed))
       .map((name) => (
         <li key={`${name} ${label}`}>
           <button

@@ -2,7 +2,7 @@
 
 import "./experiment.css";
 
-import { Menu, Progress, SegmentedControl } from "@mantine/core";
+import { Menu, Progress } from "@mantine/core";
 import {
   IconArrowBackUp,
   IconFolderOpen,
@@ -14,6 +14,7 @@ import { useEffect, useState } from "react";
 
 import { HistoryButtons } from "../header/UndoButtons";
 import { PanelButton } from "../widgets/Buttons";
+import { Segments } from "../widgets/Segments";
 import { DotsMenu } from "../widgets/DotsMenu";
 import { ProblemTexts } from "../problems/ProblemText";
 import type { ExperimentView, ListedProblem, RunView } from "../protocol";
@@ -42,35 +43,25 @@ function Nothing() {
         measures for each trial.
       </p>
       <div className="across experiment-head">
-        <PanelButton icon={IconPlus} onClick={() => void create()}>
-          New experiment
-        </PanelButton>
-        <PanelButton icon={IconFolderOpen} onClick={() => void open()}>
-          Open…
-        </PanelButton>
+        <PanelButton label="New experiment" icon={IconPlus} onClick={() => void create()} />
+        <PanelButton label="Open…" icon={IconFolderOpen} onClick={() => void open()} />
       </div>
     </>
   );
 }
 
-const PARTS = [
-  { value: "design", label: "Design" },
-  { value: "results", label: "Results" },
-];
-
 function Opened({ experiment }: { experiment: ExperimentView }) {
   const forms = useStudio((state) => state.welcome?.experiment);
-  const [shown, setShown] = useState(experiment.run === null ? "design" : "results");
   const number = experiment.run?.number ?? 0;
+  const [shown, setShown] = useState<"design" | "results">(number === 0 ? "design" : "results");
   useEffect(() => setShown(number === 0 ? "design" : "results"), [number]);
   return (
     <>
       <Head experiment={experiment} />
-      <SegmentedControl
-        size="xs"
+      <Segments
         fullWidth
-        aria-label="Part of the experiment"
-        data={PARTS}
+        label="Part of the experiment"
+        options={{ design: "Design", results: "Results" }}
         value={shown}
         onChange={setShown}
       />
@@ -92,31 +83,28 @@ function Head({ experiment }: { experiment: ExperimentView }) {
       <div className="across experiment-head">
         {running ? (
           <PanelButton
+            label="Stop"
             icon={IconPlayerStopFilled}
             aria-label="Stop the experiment"
             disabled={present.stopping}
             onClick={() => void stop()}
-          >
-            Stop
-          </PanelButton>
+          />
         ) : (
           <PanelButton
             variant="filled"
             icon={IconPlayerPlayFilled}
+            label={present?.state === "stopped" ? "Continue" : "Run"}
             aria-label={`${present?.state === "stopped" ? "Continue" : "Run"} the experiment`}
             disabled={problems.length > 0 || repeated !== null || (followed && !unsaved) || !isStated(place)}
             onClick={() => void run().then(setRefused)}
-          >
-            {present?.state === "stopped" ? "Continue" : "Run"}
-          </PanelButton>
+          />
         )}
         <PanelButton
+          label="Save"
           aria-label="Save the experiment"
           disabled={!unsaved && file !== ""}
           onClick={() => void save()}
-        >
-          Save
-        </PanelButton>
+        />
         <HistoryButtons
           undo={experiment.undo}
           redo={experiment.redo}
@@ -149,9 +137,7 @@ function Head({ experiment }: { experiment: ExperimentView }) {
       {repeated !== null && (
         <div className="across experiment-head experiment-repeated">
           <span className="grow">Trial {repeated} is open as a record.</span>
-          <PanelButton icon={IconArrowBackUp} onClick={() => void backToModel()}>
-            Back to the model
-          </PanelButton>
+          <PanelButton label="Back to the model" icon={IconArrowBackUp} onClick={() => void backToModel()} />
         </div>
       )}
     </>

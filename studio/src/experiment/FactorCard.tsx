@@ -1,9 +1,11 @@
 // The card of a factor: values of one parameter, or named levels that set several.
 
-import { ActionIcon, SegmentedControl } from "@mantine/core";
+import { ActionIcon } from "@mantine/core";
 import { IconX } from "@tabler/icons-react";
+import type { ComponentProps } from "react";
 
 import { AddButton } from "../widgets/AddButton";
+import { Segments } from "../widgets/Segments";
 import { NameBox } from "../inspector/forms/NameBox";
 import { TextBox } from "../inspector/forms/TextBox";
 import { typedValue, valueText } from "../inspector/forms/value";
@@ -43,13 +45,9 @@ export function FactorCard({ part: { key, values } }: { part: Part }) {
   const factor = { name: key, names, elements, commit };
   return (
     <CardFrame group="factors" name={key} title="Factor" kinds={[]}>
-      <SegmentedControl
-        size="xs"
-        aria-label={`What ${key} sets`}
-        data={[
-          { value: "one", label: "One parameter" },
-          { value: "named", label: "Named levels" },
-        ]}
+      <Segments
+        label={`What ${key} sets`}
+        options={{ one: "One parameter", named: "Named levels" }}
         value={named ? "named" : "one"}
         onChange={how}
       />
@@ -94,24 +92,16 @@ function One({ name, names, elements, commit, path, levels }: OneProps) {
       <NameBox label={`Parameter of ${name}`} value={path} names={names} onCommit={choose} />
       <div className="across experiment-levels">
         {levels.map((level, i) => (
-          <span key={i} className="across experiment-level">
-            <TextBox
-              label={`Level ${i + 1} of ${name}`}
-              value={valueText(level)}
-              onCommit={(typed) => set((now) => now.map((old, k) => (k === i ? typedValue(typed) : old)))}
-            />
-            <Cross
-              label={`Remove level ${i + 1} of ${name}`}
-              onClick={() => void set((now) => without(now, i))}
-            />
-          </span>
+          <Level
+            key={i}
+            label={`Level ${i + 1} of ${name}`}
+            value={valueText(level)}
+            onCommit={(typed) => set((now) => now.map((old, k) => (k === i ? typedValue(typed) : old)))}
+            removes={`level ${i + 1} of ${name}`}
+            remove={() => set((now) => without(now, i))}
+          />
         ))}
-        <AddButton
-          aria-label={`Add a level to ${name}`}
-          onClick={() => void set((now) => [...now, next(now)])}
-        >
-          Level
-        </AddButton>
+        <AddLevel name={name} add={() => set((now) => [...now, next(now)])} />
       </div>
     </>
   );
@@ -138,23 +128,17 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
             <th scope="col">Parameter</th>
             {labels.map((label, i) => (
               <th scope="col" key={label}>
-                <span className="across experiment-level">
-                  <TextBox
-                    label={`Name of level ${i + 1} of ${name}`}
-                    value={label}
-                    onCommit={(typed) => renamed(label, typed)}
-                  />
-                  <Cross
-                    label={`Remove ${label} from ${name}`}
-                    onClick={() => void set((now) => omitted(now, label) as NamedLevels)}
-                  />
-                </span>
+                <Level
+                  label={`Name of level ${i + 1} of ${name}`}
+                  value={label}
+                  onCommit={(typed) => renamed(label, typed)}
+                  removes={`${label} from ${name}`}
+                  remove={() => set((now) => omitted(now, label) as NamedLevels)}
+                />
               </th>
             ))}
             <th>
-              <AddButton aria-label={`Add a level to ${name}`} onClick={() => void set(addLevel)}>
-                Level
-              </AddButton>
+              <AddLevel name={name} add={() => set(addLevel)} />
             </th>
           </tr>
         </thead>
@@ -175,8 +159,8 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
               ))}
               <td>
                 <Cross
-                  label={`Remove ${path} from ${name}`}
-                  onClick={() => void set((now) => mapped(now, (level) => omitted(level, path)))}
+                  removes={`${path} from ${name}`}
+                  remove={() => set((now) => mapped(now, (level) => omitted(level, path)))}
                 />
               </td>
             </tr>
@@ -198,9 +182,28 @@ function listed({ levels }: Values): unknown[] {
   return Array.isArray(levels) ? levels : [];
 }
 
-function Cross({ label, onClick }: { label: string; onClick: () => void }) {
+type CrossProps = { removes: string; remove: () => unknown };
+
+function Level({ removes, remove, ...box }: CrossProps & ComponentProps<typeof TextBox>) {
   return (
-    <ActionIcon size={18} aria-label={label} onClick={onClick}>
+    <span className="across experiment-level">
+      <TextBox {...box} />
+      <Cross removes={removes} remove={remove} />
+    </span>
+  );
+}
+
+function AddLevel({ name, add }: { name: string; add: () => unknown }) {
+  return (
+    <AddButton aria-label={`Add a level to ${name}`} onClick={add}>
+      Level
+    </AddButton>
+  );
+}
+
+function Cross({ removes, remove }: CrossProps) {
+  return (
+    <ActionIcon size={18} aria-label={`Remove ${removes}`} onClick={remove}>
       <IconX size={12} />
     </ActionIcon>
   );

@@ -60,9 +60,11 @@ export function CardFrame({ group, name, title, kinds, children }: CardProps) {
           <TextBox label={`Name of ${name}`} value={name} onCommit={take} />
         )}
         <DotsMenu label={`More for ${label}`}>
-          <MenuEntry icon={IconTrash} onClick={() => void edit((data) => remove(data, group, name))}>
-            Remove
-          </MenuEntry>
+          <MenuEntry
+            label="Remove"
+            icon={IconTrash}
+            onClick={() => void edit((data) => remove(data, group, name))}
+          />
         </DotsMenu>
       </div>
       {children}

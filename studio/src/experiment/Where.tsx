@@ -1,10 +1,11 @@
 // Where the next run computes its trials: processes of this machine, or the workers of a cluster.
 
-import { Checkbox, SegmentedControl, TextInput } from "@mantine/core";
+import { Checkbox, TextInput } from "@mantine/core";
 
 import { useStudio } from "../store";
+import { Segments } from "../widgets/Segments";
 import { NumberField } from "../widgets/NumberField";
-import { PATIENCE, placeText, type RunPlace, useRunPlace } from "./runPlace";
+import { PATIENCE, placeText, useRunPlace } from "./runPlace";
 
 export function Where() {
   const place = useRunPlace();
@@ -14,11 +15,10 @@ export function Where() {
       <summary>
         Where: <span>{placeText(place, usual)}</span>
       </summary>
-      <SegmentedControl
-        size="xs"
+      <Segments
         fullWidth
-        aria-label="Where the trials run"
-        data={PLACES}
+        label="Where the trials run"
+        options={{ machine: "This machine", cluster: "A cluster" }}
         value={place.on}
         onChange={(on) => useRunPlace.setState({ on })}
       />
@@ -26,11 +26,6 @@ export function Where() {
     </details>
   );
 }
-
-const PLACES: { value: RunPlace["on"]; label: string }[] = [
-  { value: "machine", label: "This machine" },
-  { value: "cluster", label: "A cluster" },
-];
 
 function Processes() {
   const workers = useRunPlace((place) => place.workers);

@@ -23,10 +23,8 @@ export function RecoveryCard({ recovery, open = false }: { recovery: Recovery; o
         Unsaved edits of <b>{what}</b>, stored {whenText(when, new Date())}, were found.
         {!open && <div className="dim small">{file}</div>}
       </div>
-      <PanelButton variant="filled" onClick={() => void leave({ type: "recover", name })}>
-        Open them
-      </PanelButton>
-      <PanelButton onClick={() => void request({ type: "forget", name })}>Discard</PanelButton>
+      <PanelButton label="Open them" variant="filled" onClick={() => void leave({ type: "recover", name })} />
+      <PanelButton label="Discard" onClick={() => void request({ type: "forget", name })} />
     </section>
   );
 }

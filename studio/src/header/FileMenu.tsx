@@ -39,12 +39,8 @@ export function FileMenu() {
         </button>
       </Menu.Target>
       <MenuList>
-        <MenuEntry icon={IconFilePlus} onClick={() => void openEmpty()}>
-          New
-        </MenuEntry>
-        <MenuEntry icon={IconFolderOpen} keys="Ctrl+O" onClick={() => void open()}>
-          Open…
-        </MenuEntry>
+        <MenuEntry label="New" icon={IconFilePlus} onClick={() => void openEmpty()} />
+        <MenuEntry label="Open…" icon={IconFolderOpen} keys="Ctrl+O" onClick={() => void open()} />
         <Menu.Sub>
           <Menu.Sub.Target>
             <Menu.Sub.Item
@@ -67,33 +63,30 @@ export function FileMenu() {
             ))}
           </Menu.Sub.Dropdown>
         </Menu.Sub>
-        <MenuEntry icon={IconLayoutGrid} onClick={() => usePage.setState({ gallery: true })}>
-          Examples
-        </MenuEntry>
+        <MenuEntry
+          label="Examples"
+          icon={IconLayoutGrid}
+          onClick={() => usePage.setState({ gallery: true })}
+        />
         <Menu.Divider />
-        <MenuEntry icon={IconDeviceFloppy} keys="Ctrl+S" onClick={() => void save()}>
-          Save
-        </MenuEntry>
-        <MenuEntry icon={IconFileExport} keys="Ctrl+Shift+S" onClick={() => void saveAs()}>
-          Save as…
-        </MenuEntry>
-        <MenuEntry icon={IconBrandPython} onClick={() => void exportScript()}>
-          Export as Python script
-        </MenuEntry>
+        <MenuEntry label="Save" icon={IconDeviceFloppy} keys="Ctrl+S" onClick={() => void save()} />
+        <MenuEntry label="Save as…" icon={IconFileExport} keys="Ctrl+Shift+S" onClick={() => void saveAs()} />
+        <MenuEntry
+          label="Export as Python script"
+          icon={IconBrandPython}
+          onClick={() => void exportScript()}
+        />
         <Menu.Divider />
-        <MenuEntry icon={IconFileImport} onClick={() => void takeValues()}>
-          Take over values…
-        </MenuEntry>
-        <MenuEntry icon={IconNotes} disabled={!noted} onClick={() => openTool("notes")}>
-          Notes
-        </MenuEntry>
-        <MenuEntry icon={IconReport} disabled={!imported} onClick={() => openTool("report")}>
-          Import report
-        </MenuEntry>
+        <MenuEntry label="Take over values…" icon={IconFileImport} onClick={() => void takeValues()} />
+        <MenuEntry label="Notes" icon={IconNotes} disabled={!noted} onClick={() => openTool("notes")} />
+        <MenuEntry
+          label="Import report"
+          icon={IconReport}
+          disabled={!imported}
+          onClick={() => openTool("report")}
+        />
         <Menu.Divider />
-        <MenuEntry icon={IconX} onClick={() => void leave({ type: "close" })}>
-          Close
-        </MenuEntry>
+        <MenuEntry label="Close" icon={IconX} onClick={() => void leave({ type: "close" })} />
       </MenuList>
     </Menu>
   );

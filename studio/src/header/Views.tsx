@@ -1,17 +1,11 @@
 // The views of the document, each for a task.
 
-import { SegmentedControl } from "@mantine/core";
-
 import { showView, usePage, type View } from "../state/page";
 import { rememberView } from "../state/person";
 import { useStudio } from "../store";
+import { Segments } from "../widgets/Segments";
 
-const DATA: { value: View; label: string }[] = [
-  { value: "build", label: "Build" },
-  { value: "run", label: "Run" },
-  { value: "experiment", label: "Experiment" },
-  { value: "robot", label: "Robot" },
-];
+const VIEWS = { build: "Build", run: "Run", experiment: "Experiment", robot: "Robot" };
 
 const LABEL = { label: { padding: "3px 12px", fontSize: 13 } };
 
@@ -23,11 +17,10 @@ function choose(view: View): void {
 export function Views() {
   const view = usePage((page) => page.view);
   return (
-    <SegmentedControl
-      size="xs"
-      aria-label="View"
+    <Segments
+      label="View"
+      options={VIEWS}
       styles={LABEL}
-      data={DATA}
       value={view}
       // also the view that is shown is chosen by a click
       onClick={() => choose(view)}

@@ -3,7 +3,7 @@
 
 import "./report.css";
 
-import { SegmentedControl, TextInput } from "@mantine/core";
+import { TextInput } from "@mantine/core";
 import { IconSearch, IconTrash } from "@tabler/icons-react";
 import { type KeyboardEvent, useMemo, useState } from "react";
 
@@ -13,7 +13,8 @@ import type { ImportReportView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { IconButton, PanelButton } from "../widgets/Buttons";
-import { countOf, FILTERS, lossesText, type Present, type ReportFilter, reportItems } from "./reportItems";
+import { Segments } from "../widgets/Segments";
+import { countOf, lossesText, type Present, type ReportFilter, reportItems } from "./reportItems";
 import { ReportList } from "./ReportList";
 
 export function ReportPanel() {
@@ -28,13 +29,6 @@ export function ReportPanel() {
   // Another report starts with its own filter.
   return <Walk key={`${report.tool} ${report.file}`} report={report} />;
 }
-
-const NAMES: Record<ReportFilter, string> = {
-  losses: "Not carried",
-  approximated: "Approximated",
-  dropped: "Dropped",
-  all: "All",
-};
 
 // More lines are shown on demand.
 const MOST = 800;
@@ -69,12 +63,16 @@ function Walk({ report }: { report: ImportReportView }) {
         </div>
         <div className="across report-controls">
           {losses > 0 && (
-            <SegmentedControl
-              size="xs"
-              aria-label="Lines to show"
+            <Segments
+              label="Lines to show"
               value={filter}
-              onChange={(chosen) => setFilter(chosen as ReportFilter)}
-              data={FILTERS.map((one) => ({ value: one, label: `${NAMES[one]} ${countOf(report, one)}` }))}
+              onChange={setFilter}
+              options={{
+                losses: `Not carried ${losses}`,
+                approximated: `Approximated ${countOf(report, "approximated")}`,
+                dropped: `Dropped ${countOf(report, "dropped")}`,
+                all: `All ${countOf(report, "all")}`,
+              }}
             />
           )}
           <TextInput
@@ -108,9 +106,7 @@ function Walk({ report }: { report: ImportReportView }) {
       )}
       {count > 0 && <ReportList items={items} most={most} />}
       {count > most && (
-        <PanelButton mt={6} onClick={() => setMost(count)}>
-          Show {count - most} more lines
-        </PanelButton>
+        <PanelButton label={`Show ${count - most} more lines`} mt={6} onClick={() => setMost(count)} />
       )}
     </div>
   );

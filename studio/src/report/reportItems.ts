@@ -2,10 +2,10 @@
 
 import { keyOf } from "../graph/layout/tree";
 import type { CanvasGoal } from "../panels/showGoal";
+import { hasWords } from "../values";
 import type { ImportReportView, ReportLineView } from "../protocol";
 
-export const FILTERS = ["losses", "approximated", "dropped", "all"] as const;
-export type ReportFilter = (typeof FILTERS)[number];
+export type ReportFilter = "losses" | "approximated" | "dropped" | "all";
 
 export type ReportLine = ReportLineView & { key: string };
 
@@ -52,16 +52,12 @@ export function reportItems(
   filter: ReportFilter,
   search: string,
 ): ReportItem[] {
-  const words = search
-    .toLowerCase()
-    .split(/\s+/)
-    .filter((word) => word !== "");
   const items = new Map<string, ReportItem>();
   report.lines.forEach((line, i) => {
     const item = items.get(line.where) ?? itemFor(line, present);
     const { part, what, verdict, why } = line;
-    const text = `${item.title} ${line.where} ${part} ${what} ${verdict} ${why}`.toLowerCase();
-    if (passes(line, filter) && words.every((word) => text.includes(word))) {
+    const text = `${item.title} ${line.where} ${part} ${what} ${verdict} ${why}`;
+    if (passes(line, filter) && hasWords(text, search)) {
       item.lines.push({ ...line, key: String(i) });
       items.set(line.where, item);
     }

@@ -3,21 +3,20 @@
 import { ActionIcon, type ActionIconProps, Button, type ButtonProps, Menu, Tooltip } from "@mantine/core";
 import type { MenuItemProps } from "@mantine/core";
 import type { IconPlus } from "@tabler/icons-react";
-import type { ComponentPropsWithRef } from "react";
+import type { ComponentPropsWithRef, ReactNode } from "react";
 
 import { keysText } from "../keys";
 
 type Icon = typeof IconPlus;
 type Of<P> = P & Omit<ComponentPropsWithRef<"button">, keyof P>;
 
-export function PanelButton({ icon: Icon, ...rest }: Of<ButtonProps> & { icon?: Icon }) {
+type PanelButtonProps = Of<ButtonProps> & { icon?: Icon; label: ReactNode };
+
+export function PanelButton({ icon: Icon, label, ...rest }: PanelButtonProps) {
   return (
-    <Button
-      size="compact-sm"
-      variant="default"
-      leftSection={Icon && <Icon size={15} aria-hidden />}
-      {...rest}
-    />
+    <Button size="compact-sm" variant="default" leftSection={Icon && <Icon size={15} />} {...rest}>
+      {label}
+    </Button>
   );
 }
 
@@ -46,9 +45,13 @@ export function IconButton({
   );
 }
 
-type MenuEntryProps = Of<MenuItemProps> & { icon: Icon; keys?: string };
+type MenuEntryProps = Of<MenuItemProps> & { icon: Icon; label: string; keys?: string };
 
-export function MenuEntry({ icon: Icon, keys, ...rest }: MenuEntryProps) {
+export function MenuEntry({ icon: Icon, label, keys, ...rest }: MenuEntryProps) {
   const right = keys !== undefined && <span className="dim small">{keysText(keys)}</span>;
-  return <Menu.Item leftSection={<Icon size={16} stroke={1.6} />} rightSection={right} {...rest} />;
+  return (
+    <Menu.Item leftSection={<Icon size={16} stroke={1.6} />} rightSection={right} {...rest}>
+      {label}
+    </Menu.Item>
+  );
 }

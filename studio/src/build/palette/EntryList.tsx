@@ -5,10 +5,12 @@ import { IconSearch } from "@tabler/icons-react";
 import { type KeyboardEvent, useEffect, useId, useMemo, useState } from "react";
 
 import "./chooser.css";
-import { Description, TemplateDescription } from "./Description";
 import { type ListEntry, search } from "./entries";
 import { grouped } from "../../values";
-import { EntryLine } from "./EntryLine";
+import { carriedBy, carry } from "../wiring/carried";
+import type { Kind, TemplateView } from "../../protocol";
+import { Tex } from "../../widgets/Tex";
+import { Sketch, TemplatePicture } from "./Sketch";
 
 type Props = {
   label: string;
@@ -121,3 +123,82 @@ export function EntryList({
 const STEPS: Partial<Record<string, number>> = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
 
 const optionId = (list: string, entry: ListEntry): string => `${list}-${entry.id.replace(/[^\w-]/g, "_")}`;
+
+type LineProps = {
+  id: string;
+  entry: ListEntry;
+  active: boolean;
+  draggable: boolean;
+  onLook: () => void;
+  onChoose: () => void;
+};
+
+// The sketch of a kind or the picture of a template, its title, and why it cannot be chosen, if so.
+function EntryLine({ id, entry, active, draggable, onLook, onChoose }: LineProps) {
+  const { title, note, why, kind, template } = entry;
+  const carried = draggable ? carriedBy(entry) : null;
+  return (
+    <div
+      id={id}
+      className="across chooser-entry"
+      role="option"
+      tabIndex={-1}
+      aria-selected={active}
+      aria-disabled={why !== undefined}
+      title={why}
+      draggable={carried !== null}
+      onDragStart={(event) => {
+        const now = carriedBy(entry); // its values follow from the document as it is now
+        return now !== null && carry(event.dataTransfer, now);
+      }}
+      onPointerMove={() => !active && why === undefined && onLook()}
+      // the text field keeps the focus
+      onPointerDown={(event) => carried === null && event.preventDefault()}
+      onClick={onChoose}
+      onKeyDown={(event) => event.key === "Enter" && onChoose()}
+    >
+      {kind !== undefined && <Sketch kind={kind} />}
+      {template !== undefined && <TemplatePicture template={template} className="chooser-thumbnail" />}
+      <span className="down grow">
+        <span className="one-line">{title}</span>
+        {why !== undefined && <span className="dim one-line chooser-note">{why}</span>}
+      </span>
+      {note !== undefined && <span className="dim one-line chooser-note">{note}</span>}
+    </div>
+  );
+}
+
+const LINES = 2;
+const MOST = 5;
+
+// What a kind computes, below the list: its equation and the meaning of its parameters.
+function Description({ kind }: { kind: Kind }) {
+  const meanings = kind.parameters
+    .map((form) => form.meaning || form.name.replaceAll("_", " "))
+    .filter((meaning, i, all) => all.indexOf(meaning) === i);
+  return (
+    <div className="chooser-description">
+      {kind.equation.slice(0, LINES).map((line) => (
+        <div className="chooser-equation" key={line}>
+          <Tex source={line} />
+        </div>
+      ))}
+      {meanings.length > 0 && (
+        <p className="dim chooser-meanings" title={meanings.join(", ")}>
+          {meanings.slice(0, MOST).join(", ")}
+          {meanings.length > MOST && ", …"}
+        </p>
+      )}
+    </div>
+  );
+}
+
+// A model that is added whole: its picture and its first sentence.
+function TemplateDescription({ template }: { template: TemplateView }) {
+  return (
+    <div className="chooser-description across">
+      <TemplatePicture key={template.name} template={template} className="chooser-picture" />
+      <p className="dim grow chooser-meanings">{template.sentence}</p>
+    </div>
+  );
+}

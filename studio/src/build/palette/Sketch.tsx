@@ -4,8 +4,7 @@ import { memo, useState } from "react";
 
 import type { Kind, TemplateView } from "../../protocol";
 import { useStudio } from "../../store";
-import { shapeOf } from "./shapes";
-import { DRAWN, type SketchDrawing } from "./sketches";
+import { DRAWN, type SketchDrawing, shapeOf } from "./shapes";
 
 const SIZE = { width: 38, height: 24 };
 

@@ -1,8 +1,7 @@
 import { expect, test } from "vitest";
 
 import { fakeForm, fakeKind, kindsOf } from "../../graph/fakes";
-import { shapeOf } from "./shapes";
-import type { Shape } from "./sketches";
+import { type Shape, shapeOf } from "./shapes";
 
 const GAUSS = "\\exp\\!\\left( -\\frac{d^2}{2 \\sigma^2} \\right)";
 const CASES = "\\begin{cases} 1 & u > 0 \\\\ 0 & \\text{else} \\end{cases}";

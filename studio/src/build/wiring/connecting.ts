@@ -11,7 +11,7 @@ import type { ListEntry } from "../palette/entries";
 import { isEditable } from "../editable";
 import { elementEntry, kindEntries } from "../palette/palette";
 import { atEnd, beside, between as betweenBoxes, type Placing, sizeOfKind } from "../placing";
-import { getStage } from "../stage";
+import { drawnNode, getStage } from "../stage";
 import { begin, end, fitOf, judged, stateOf, useWiring } from "./wiring";
 
 type WireTarget = { element: string; port: string | null };
@@ -235,9 +235,6 @@ function called({ element, port }: End): string {
 }
 
 export function besideOnScreen(element: string): Point | null {
-  const box = getStage()?.around.querySelector(
-    `.react-flow__node[data-id="${CSS.escape(element)}"], [data-element="${CSS.escape(element)}"]`,
-  );
-  const rect = box?.getBoundingClientRect();
+  const rect = drawnNode(element)?.getBoundingClientRect();
   return rect === undefined ? null : { x: rect.right + 16, y: rect.top };
 }
