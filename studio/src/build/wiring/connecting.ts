@@ -2,7 +2,7 @@
 // offers what fits.
 
 import type { Point } from "../../graph/layout/rects";
-import type { FitView, Kind, OfferView } from "../../protocol";
+import type { Fits, FitView, Kind, OfferView } from "../../protocol";
 import { useStudio } from "../../store";
 import { useChooser } from "../palette/choice";
 import { addElement, connect, reconnect } from "../edits";
@@ -12,8 +12,10 @@ import { isEditable } from "../editable";
 import { elementEntry, kindEntries } from "../palette/palette";
 import { atEnd, beside, between as betweenBoxes, type Placing, sizeOfKind } from "../placing";
 import { drawnNode, getStage } from "../stage";
-import { begin, end, fitOf, judged, stateOf, useWiring } from "./wiring";
+import { begin, end, fitOf, judged, stateOf, useWiring, type Wiring } from "./wiring";
 
+// A connection that was begun; `moved` is the one whose end is moved, and which the new one replaces.
+type Begun = Pick<Wiring, "from" | "side" | "moved">;
 type WireTarget = { element: string; port: string | null };
 
 // The pointer was released at `at`, over a port, an element or the ground.
@@ -33,13 +35,7 @@ export async function finish(at: Point, to: WireTarget | null): Promise<void> {
   }
   const { moved } = known;
   if (to === null) {
-    offerKinds(
-      at,
-      known.from,
-      known.side,
-      known.fits.kinds.map(({ kind }) => kind),
-      moved,
-    );
+    offerKinds(at, known, known.fits);
     return;
   }
   if (moved !== undefined && isEndOf(moved, known.side, to)) {
@@ -53,17 +49,17 @@ export async function finish(at: Point, to: WireTarget | null): Promise<void> {
     const ends = between(known.from, known.side, fit);
     await (moved === undefined ? connect(ends) : reconnect(moved, ends));
   } else {
-    offerCouplings(at, known.from, known.side, fit, moved);
+    offerCouplings(at, known, fit);
   }
 }
 
-function offerCouplings(at: Point | null, from: End, side: Side, fit: FitView, replaces?: WireEnds): void {
+function offerCouplings(at: Point | null, begun: Begun, fit: FitView): void {
   useChooser.getState().open({
     label: "Choose a coupling",
     placeholder: "Coupling",
     hint: fit.reason,
     at,
-    entries: fit.offers.map((offer) => offerEntry("Couplings that fit", from, side, fit, offer, replaces)),
+    entries: fit.offers.map((offer) => offerEntry("Couplings that fit", begun, fit, offer)),
     empty: "No coupling matches",
   });
 }
@@ -79,7 +75,7 @@ export async function complete(wire: WireEnds): Promise<void> {
   end();
   const fit = fits === null ? undefined : fitOf(fits, wire.target, wire.target_port);
   if (fit !== undefined) {
-    offerCouplings(besideOnScreen(wire.target), from, "source", fit, wire);
+    offerCouplings(besideOnScreen(wire.target), { from, side: "source", moved: wire }, fit);
   }
 }
 
@@ -90,47 +86,36 @@ function isEndOf(wire: WireEnds, side: Side, { element, port }: WireTarget): boo
   return element === own && (port === null || port === ownPort);
 }
 
-// A connection on the empty ground: what fits its end. `moved` is the connection that it was before.
-function offerKinds(at: Point, from: End, side: Side, kinds: string[], moved?: WireEnds): void {
+// A connection on the empty ground: what fits its end.
+function offerKinds(at: Point, begun: Begun, fits: Fits): void {
   const stage = getStage();
   if (stage === null) {
     return;
   }
-  const spot = (kind: Kind) => atEnd(stage.toFlow(at), side === "source", stage.scene(), sizeOfKind(kind));
+  const right = begun.side === "source";
+  const spot = (kind: Kind) => atEnd(stage.toFlow(at), right, stage.scene(), sizeOfKind(kind));
   useChooser.getState().open({
     label: "Add a connected element",
     placeholder: "Name, family or parameter",
-    hint: `Connected with ${called(from)}`,
+    hint: `Connected with ${called(begun.from)}`,
     at,
-    entries: fitting(kinds, from, side, spot, moved),
+    entries: fitting(fits, begun, spot),
     empty: "No kind that fits matches",
   });
 }
 
 // Kinds whose new element is connected.
-function fitting(
-  kinds: string[],
-  from: End,
-  side: Side,
-  spot: (kind: Kind) => Placing,
-  replaces?: WireEnds,
-): ListEntry[] {
-  const known = useStudio.getState().kinds;
-  const ends = side === "source" ? { source: from, replaces } : { target: from, replaces };
-  const add = (kind: Kind) => addElement(kind.name, spot(kind), ends);
-  return kindEntries(known, null, add, false).filter(
-    ({ kind, why }) => why === undefined && kind !== undefined && kinds.includes(kind.name),
+function fitting(fits: Fits, begun: Begun, spot: (kind: Kind) => Placing): ListEntry[] {
+  const { from, side, moved: replaces } = begun;
+  const add = (kind: Kind) => addElement(kind.name, spot(kind), { [side]: from, replaces });
+  const names = new Set(fits.kinds.map(({ kind }) => kind));
+  return kindEntries(useStudio.getState().kinds, null, add, false).filter(
+    ({ kind, why }) => why === undefined && names.has(kind?.name ?? ""),
   );
 }
 
-function offerEntry(
-  family: string,
-  from: End,
-  side: Side,
-  to: End,
-  offer: OfferView,
-  replaces?: WireEnds,
-): ListEntry {
+function offerEntry(family: string, begun: Begun, to: End, offer: OfferView): ListEntry {
+  const { from, side, moved: replaces } = begun;
   const { elements, kinds } = useStudio.getState();
   const kind = kinds.get(offer.kind);
   const { source, source_port, target, target_port } = between(from, side, to);
@@ -173,6 +158,7 @@ export async function connectByKeys(port?: string): Promise<void> {
   const side: Side = element.outputs.length > 0 && !element.inputs.includes(port ?? "") ? "source" : "target";
   const ports = side === "source" ? element.outputs : element.inputs;
   const from = { element: element.id, port: port ?? ports[0] ?? "" };
+  const begun = { from, side };
   const fits = await begin(from, side);
   if (fits === null) {
     end();
@@ -182,19 +168,14 @@ export async function connectByKeys(port?: string): Promise<void> {
   const order = { yes: 0, offer: 1, no: 2 };
   const ends = [...fits.ports].sort((a, b) => order[stateOf(a)] - order[stateOf(b)]);
   const right = side === "source";
-  const targets = ends.flatMap((fit) => portEntries(from, side, fit));
+  const targets = ends.flatMap((fit) => portEntries(begun, fit));
   useChooser.getState().open({
     label: `Connect ${called(from)}`,
     placeholder: right ? "To an element, or a new one" : "From an element, or a new one",
     at: besideOnScreen(element.id),
     entries: [
       ...targets.filter(({ why }) => why === undefined),
-      ...fitting(
-        fits.kinds.map(({ kind }) => kind),
-        from,
-        side,
-        (kind) => beside(element.id, right, stage.scene(), sizeOfKind(kind)),
-      ),
+      ...fitting(fits, begun, (kind) => beside(element.id, right, stage.scene(), sizeOfKind(kind))),
       ...others.map((name) => ({
         id: `port ${name}`,
         family: "Begin at another port",
@@ -210,7 +191,8 @@ export async function connectByKeys(port?: string): Promise<void> {
 }
 
 // The entries of a port: to connect it, or to put a coupling between.
-function portEntries(from: End, side: Side, fit: FitView): ListEntry[] {
+function portEntries(begun: Begun, fit: FitView): ListEntry[] {
+  const { from, side } = begun;
   const { element, port, reason } = fit;
   const title = called(fit);
   const entry = { id: `${element} ${port}`, title, element, family: side === "source" ? "To" : "From" };
@@ -219,7 +201,7 @@ function portEntries(from: End, side: Side, fit: FitView): ListEntry[] {
       return [{ ...entry, note: reason, run: () => connect(between(from, side, fit)) }];
     case "offer":
       return fit.offers.map((offer) => {
-        const made = offerEntry("Through a coupling", from, side, fit, offer);
+        const made = offerEntry("Through a coupling", begun, fit, offer);
         return { ...made, element, title: `${title}, by ${made.title}` };
       });
     case "no":

@@ -5,6 +5,7 @@ import { create } from "zustand";
 import type { Fits, FitView } from "../../protocol";
 import { socket } from "../../socket";
 import { useStudio } from "../../store";
+import { grouped } from "../../values";
 import type { End, Side, WireEnds } from "./ends";
 
 export type Wiring = {
@@ -88,15 +89,7 @@ const tables = new WeakMap<Fits, Map<string, FitView[]>>();
 function portsOf(fits: Fits, element: string): FitView[] {
   let table = tables.get(fits);
   if (table === undefined) {
-    table = new Map();
-    for (const fit of fits.ports) {
-      const own = table.get(fit.element);
-      if (own === undefined) {
-        table.set(fit.element, [fit]);
-      } else {
-        own.push(fit);
-      }
-    }
+    table = new Map(grouped(fits.ports, ({ element: id }) => id));
     tables.set(fits, table);
   }
   return table.get(element) ?? [];
