@@ -11,7 +11,7 @@ import { FORMS } from "./inspector/forms/forms";
 import { Forms } from "./inspector/forms/props";
 import { socket } from "./socket";
 import { theme, variables } from "./theme";
-import { TYPEFACE } from "./draw/typeface";
+import { TYPEFACE } from "./draw/ink";
 
 const root = document.getElementById("root");
 if (root === null) {

@@ -3,7 +3,7 @@
 
 import { createTheme, type CSSVariablesResolver, type MantineColorsTuple } from "@mantine/core";
 
-import { TYPEFACE } from "./draw/typeface";
+import { TYPEFACE } from "./draw/ink";
 
 // From light to dark.
 const shades = (colours: string) => colours.split(" ") as unknown as MantineColorsTuple;

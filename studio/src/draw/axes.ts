@@ -2,7 +2,7 @@
 
 import { axisLabel } from "./axis";
 import { colorsOf, type Content, rasterOf, type PlotSide } from "./content";
-import { fitting, font, type Ink, widthOf } from "./ink";
+import { fitting, font, type Ink, strokeLines, widthOf } from "./ink";
 import type { Range } from "./scale";
 import { ticks } from "./scale";
 import { tick, writtenTime } from "./text";
@@ -146,14 +146,9 @@ export function drawAxes(
   }));
   const upward = up(y);
   const end = (mark + gap) * unit;
-  const line = (color: string, ...lines: (readonly [number, number, number, number])[]) => {
+  const line = (color: string, ...lines: Parameters<typeof strokeLines>[1][]) => {
     ctx.strokeStyle = color;
-    ctx.beginPath();
-    for (const [x1, y1, x2, y2] of lines) {
-      ctx.moveTo(x1, y1);
-      ctx.lineTo(x2, y2);
-    }
-    ctx.stroke();
+    strokeLines(ctx, ...lines);
   };
   const half = (unit % 2) / 2;
   ctx.save();

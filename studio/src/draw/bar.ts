@@ -2,7 +2,7 @@
 
 import type { Area } from "./axes";
 import type { MapColors } from "./content";
-import { font, type Ink } from "./ink";
+import { font, type Ink, strokeLines } from "./ink";
 import { ticks } from "./scale";
 import { tick } from "./text";
 
@@ -42,19 +42,13 @@ export function drawColorBar(
   const { places, step } = ticks(range, box.height / (APART * unit));
   for (const value of places) {
     const y = Math.round(place(value));
-    ctx.beginPath();
-    ctx.moveTo(left + width, y);
-    ctx.lineTo(left + width + TICK * unit, y);
-    ctx.stroke();
+    strokeLines(ctx, [left + width, y, left + width + TICK * unit, y]);
     ctx.fillText(tick(value, step), left + width + (TICK + 3) * unit, y);
   }
   if (middle !== null && middle > range[0] && middle < range[1]) {
     ctx.lineWidth = 1.5 * unit;
     ctx.strokeStyle = "#333333";
-    ctx.beginPath();
-    ctx.moveTo(left, place(middle));
-    ctx.lineTo(left + width, place(middle));
-    ctx.stroke();
+    strokeLines(ctx, [left, place(middle), left + width, place(middle)]);
   }
   ctx.restore();
 }

@@ -1,6 +1,8 @@
 // The colours and sizes of a drawing, on the page or on paper.
 
-import { TYPEFACE } from "./typeface";
+// The typeface of the page, its canvases and its exported pictures. Where a picture is opened without it, the
+// sans serif of the system has the names.
+export const TYPEFACE = '"Inter Variable", Inter, system-ui, sans-serif';
 
 export type Shade = "light" | "dark";
 
@@ -33,6 +35,21 @@ export function font(ink: Pick<Ink, "unit">, size = 11): string {
 export function paperInk(unit: number, small = false): Ink {
   const colors = { text: "#111111", dim: "#444444", grid: "#e6e6e6", ground: "#ffffff" };
   return { shade: "light", ...colors, unit, small };
+}
+
+type LineEnds = readonly [x1: number, y1: number, x2: number, y2: number];
+
+// Straight lines, in one path.
+export function strokeLines(
+  ctx: Pick<CanvasRenderingContext2D, "beginPath" | "moveTo" | "lineTo" | "stroke">,
+  ...lines: readonly LineEnds[]
+): void {
+  ctx.beginPath();
+  for (const [x1, y1, x2, y2] of lines) {
+    ctx.moveTo(x1, y1);
+    ctx.lineTo(x2, y2);
+  }
+  ctx.stroke();
 }
 
 // About how wide a text is, in heights of its font: a drawing is laid out without a canvas.

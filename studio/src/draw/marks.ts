@@ -2,7 +2,7 @@
 
 import type { PlotLayout, Scale } from "./axes";
 import type { Content, LevelLine, CurveLine, PlotMark, Moment, Raster, Tail, Windows } from "./content";
-import { fitting, font, type Ink, type Shade } from "./ink";
+import { fitting, font, type Ink, type Shade, strokeLines } from "./ink";
 import { paintHeat, paintPicture } from "./paint";
 import { short } from "./text";
 
@@ -200,26 +200,20 @@ function drawMoment({ ctx, content, layout, ink }: MarkPlace, { time }: Moment):
 function dashedLine(
   ctx: CanvasRenderingContext2D,
   ink: Ink,
-  [x1, y1, x2, y2]: readonly [number, number, number, number],
+  ends: readonly [number, number, number, number],
   halo = false,
 ): void {
-  const path = () => {
-    ctx.beginPath();
-    ctx.moveTo(x1, y1);
-    ctx.lineTo(x2, y2);
-    ctx.stroke();
-  };
   if (halo) {
     const before = ctx.strokeStyle;
     ctx.strokeStyle = ink.ground;
     ctx.lineWidth = 3.5 * ink.unit;
     ctx.setLineDash([]);
-    path();
+    strokeLines(ctx, ends);
     ctx.strokeStyle = before;
   }
   ctx.lineWidth = DASH_WIDTH * ink.unit;
   ctx.setLineDash(DASH.map((length) => length * ink.unit));
-  path();
+  strokeLines(ctx, ends);
   ctx.setLineDash([]);
 }
 

@@ -1,7 +1,7 @@
 // Arrays onto canvases.
 
 import { canvasSettings } from "./canvases";
-import type { Shade } from "./ink";
+import { type Shade, strokeLines } from "./ink";
 import type { Range } from "./scale";
 
 // 256 colours of 4 bytes (red, green, blue, opaque).
@@ -118,10 +118,7 @@ export function paintCurve(ctx: CanvasRenderingContext2D, values: ArrayLike<numb
     const y = Math.round(place(0)) + 0.5;
     ctx.strokeStyle = zero;
     ctx.lineWidth = 1;
-    ctx.beginPath();
-    ctx.moveTo(0, y);
-    ctx.lineTo(width, y);
-    ctx.stroke();
+    strokeLines(ctx, [0, y, width, y]);
   }
   ctx.lineWidth = lineWidth;
   ctx.lineJoin = "round";

@@ -42,39 +42,6 @@ const ANCHORS: Record<string, string> = { center: "middle", right: "end", end: "
 // disagree about baselines, so that the position is computed.
 const BASELINES: Record<string, number> = { top: 0.8, middle: 0.35, bottom: -0.2 };
 
-// The steps of a path, as the attribute `d`.
-class PathSteps {
-  private steps: string[] = [];
-
-  get d(): string {
-    return this.steps.join("");
-  }
-
-  moveTo(x: number, y: number): void {
-    this.steps.push(`M${short(x)} ${short(y)}`);
-  }
-
-  lineTo(x: number, y: number): void {
-    this.steps.push(`${this.steps.length === 0 ? "M" : "L"}${short(x)} ${short(y)}`);
-  }
-
-  rect(x: number, y: number, width: number, height: number): void {
-    this.steps.push(`M${short(x)} ${short(y)}h${short(width)}v${short(height)}h${short(-width)}Z`);
-  }
-
-  // A whole circle.
-  circle(x: number, y: number, radius: number): void {
-    const [r, across] = [short(radius), short(2 * radius)];
-    this.steps.push(
-      `M${short(x - radius)} ${short(y)}a${r} ${r} 0 1 0 ${across} 0a${r} ${r} 0 1 0 -${across} 0Z`,
-    );
-  }
-
-  closePath(): void {
-    this.steps.push("Z");
-  }
-}
-
 export class SvgContext {
   fillStyle!: string;
   strokeStyle!: string;
@@ -92,7 +59,7 @@ export class SvgContext {
   private dash!: number[];
   private clipped!: string;
   private saved: PenState[] = [];
-  private path = new PathSteps();
+  private path: string[] = [];
   private body: string[] = [];
   private clips = 0;
 
@@ -113,22 +80,8 @@ export class SvgContext {
   }
 
   save(): void {
-    const { fillStyle, strokeStyle, lineWidth, lineCap, lineJoin, font, textAlign } = this;
-    const { textBaseline, globalAlpha, matrix, dash, clipped } = this;
-    this.saved.push({
-      fillStyle,
-      strokeStyle,
-      lineWidth,
-      lineCap,
-      lineJoin,
-      font,
-      textAlign,
-      textBaseline,
-      globalAlpha,
-      matrix,
-      dash,
-      clipped,
-    });
+    const state = Object.keys(START).map((key) => [key, this[key as keyof SvgContext]]);
+    this.saved.push(Object.fromEntries(state) as PenState);
   }
 
   restore(): void {
@@ -154,28 +107,31 @@ export class SvgContext {
   }
 
   beginPath(): void {
-    this.path = new PathSteps();
+    this.path = [];
   }
 
   moveTo(x: number, y: number): void {
-    this.path.moveTo(x, y);
+    this.path.push(`M${short(x)} ${short(y)}`);
   }
 
   lineTo(x: number, y: number): void {
-    this.path.lineTo(x, y);
+    this.path.push(`${this.path.length === 0 ? "M" : "L"}${short(x)} ${short(y)}`);
   }
 
   rect(x: number, y: number, width: number, height: number): void {
-    this.path.rect(x, y, width, height);
+    this.path.push(`M${short(x)} ${short(y)}h${short(width)}v${short(height)}h${short(-width)}Z`);
   }
 
   // Charts draw whole circles only.
   arc(x: number, y: number, radius: number): void {
-    this.path.circle(x, y, radius);
+    const [r, across] = [short(radius), short(2 * radius)];
+    this.path.push(
+      `M${short(x - radius)} ${short(y)}a${r} ${r} 0 1 0 ${across} 0a${r} ${r} 0 1 0 -${across} 0Z`,
+    );
   }
 
   closePath(): void {
-    this.path.closePath();
+    this.path.push("Z");
   }
 
   stroke(): void {
@@ -203,7 +159,7 @@ export class SvgContext {
 
   clip(): void {
     const id = `clip-${++this.clips}`;
-    this.body.push(`<clipPath id="${id}"><path d="${this.path.d}"${this.placing()}/></clipPath>`);
+    this.body.push(`<clipPath id="${id}"><path d="${this.path.join("")}"${this.placing()}/></clipPath>`);
     this.clipped = id;
   }
 
@@ -226,9 +182,8 @@ export class SvgContext {
   }
 
   private draw(style: string): void {
-    const { d } = this.path;
-    if (d !== "") {
-      this.add(`<path d="${d}" ${style}${this.general()}/>`);
+    if (this.path.length > 0) {
+      this.add(`<path d="${this.path.join("")}" ${style}${this.general()}/>`);
     }
   }
 

@@ -56,22 +56,8 @@ type PlotFrameProps = PlotProps & {
 };
 
 export function PlotFrame(props: PlotFrameProps) {
-  const {
-    element,
-    port,
-    kinds,
-    kind,
-    ports,
-    legend,
-    note,
-    strip,
-    controls,
-    streaming,
-    change,
-    exportAs,
-    table,
-    children,
-  } = props;
+  const { element, port, kinds, kind, ports, legend, note, strip, controls, streaming, children } = props;
+  const { change, exportAs, table } = props;
   const range = props.settings.range === null ? null : [...props.settings.range];
   const running = useStudio((state) => state.clock?.running ?? false);
   const record = useStudio((state) => state.document?.record != null);
@@ -95,7 +81,7 @@ export function PlotFrame(props: PlotFrameProps) {
             {element.path}
           </span>
           {legend === undefined && note === undefined && (
-            <span className="plot-note">{titleOf(kind, packaged)}</span>
+            <span className="plot-note dim">{titleOf(kind, packaged)}</span>
           )}
           {ports !== undefined && (
             <NativeSelect
@@ -109,7 +95,7 @@ export function PlotFrame(props: PlotFrameProps) {
               onChange={(event) => change({ port: event.currentTarget.value })}
             />
           )}
-          {note !== undefined && note !== "" && <span className="plot-note">{note}</span>}
+          {note !== undefined && note !== "" && <span className="plot-note dim">{note}</span>}
           <div className="plot-legend">
             <NeedsServer>{legend}</NeedsServer>
           </div>

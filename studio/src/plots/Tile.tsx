@@ -10,7 +10,6 @@ import type { PlotKind } from "../model/ports";
 import { openPlot } from "../panels/openPlot";
 import { useStudio } from "../store";
 import type { Live } from "../streams";
-import { Chip } from "./controls/Chip";
 import { PlotSettingsControls } from "./controls/PlotSettingsControls";
 import { SectionStrip } from "./controls/SectionStrip";
 import type { Drawing } from "./Drawing";
@@ -178,17 +177,23 @@ function ShownTile(props: TileProps & { shown: Shown }) {
 
 type LegendChipProps = { entry: LegendEntry; shade: Shade; set: PlotProps["set"] };
 
-function LegendChip({
-  entry: { label, color, dashed = false, on, press, remove },
-  shade,
-  set,
-}: LegendChipProps) {
+// An entry that is pressed shows and hides its curve.
+function LegendChip({ entry, shade, set }: LegendChipProps) {
+  const { label, color, dashed = false, on, press, remove } = entry;
+  const swatch = (
+    <span className="plot-swatch" data-dashed={dashed || undefined} style={{ borderColor: color[shade] }} />
+  );
   if (press !== undefined) {
-    return <Chip label={label} color={color[shade]} dashed={dashed} on={on} toggle={() => set(press)} />;
+    return (
+      <button type="button" className="plot-chip" aria-pressed={on} onClick={() => set(press)}>
+        {swatch}
+        {label}
+      </button>
+    );
   }
   return (
     <span className="plot-chip plot-still" title={label}>
-      <span className="plot-swatch" style={{ borderColor: color[shade] }} />
+      {swatch}
       <span className="plot-label one-line">{label}</span>
       {remove !== undefined && (
         <CloseButton

@@ -7,18 +7,9 @@ import { createPortal } from "react-dom";
 import type { SceneView } from "../protocol";
 import { request } from "../socket";
 import { live } from "./live";
-import {
-  blockName,
-  blockSide,
-  colourOf,
-  cssColour,
-  freeBlockName,
-  inFront,
-  SWATCHES,
-  type Swatch,
-} from "./blocks";
+import { blockName, blockSide, colourOf, cssColour, inFront, SWATCHES, type Swatch } from "./blocks";
 import type { Ground } from "./ground";
-import type { PlanPoint } from "./planFrame";
+import { freeName, type PlanPoint } from "./planFrame";
 
 // Further than this a pressed pointer drags a colour, in px.
 const DRAGGED = 5;
@@ -41,19 +32,21 @@ export function BlockPalette({ scene, chosen, choose, select, tell, ground, chil
   const dragging = useRef(false);
   const [carried, setCarried] = useState<{ swatch: Swatch; at: PlanPoint; side: number } | null>(null);
   const present = new Set(scene.boxes.map(({ name }) => name));
-  const remove = (name: string) => {
+  const remove = (swatch: Swatch) => {
     select(null);
-    void request({ type: "remove_object", name });
+    void request({ type: "remove_object", name: blockName(swatch) });
+  };
+  const put = (name: string, { color }: Swatch, at: PlanPoint) => {
+    const side = blockSide(scene, live.now.bodies[0]);
+    select(name);
+    void request({ type: "place_object", name, ...at, width: side, height: side, color });
   };
   const place = (swatch: Swatch) => {
     const { bodies } = live.now;
-    const side = blockSide(scene, bodies[0]);
-    const at = inFront(scene, bodies, side);
+    const at = inFront(scene, bodies, blockSide(scene, bodies[0]));
     tell(at === null ? `A block has no room in front of ${bodies[0]?.name ?? "the robot"}.` : "");
     if (at !== null) {
-      const name = blockName(swatch);
-      select(name);
-      void request({ type: "place_object", name, ...at, width: side, height: side, color: swatch.color });
+      put(blockName(swatch), swatch, at);
     }
   };
   const carry = (swatch: Swatch, { clientX: x, clientY: y }: PointerEvent) => {
@@ -69,14 +62,10 @@ export function BlockPalette({ scene, chosen, choose, select, tell, ground, chil
     const at = dragging.current ? (ground()?.at(x, y) ?? null) : null;
     pressed.current = null;
     setCarried(null);
-    if (at === null) {
-      return;
+    if (at !== null) {
+      choose(swatch.color);
+      put(freeName(scene, swatch.name), swatch, at);
     }
-    const name = freeBlockName(scene, swatch);
-    const side = blockSide(scene, live.now.bodies[0]);
-    choose(swatch.color);
-    select(name);
-    void request({ type: "place_object", name, ...at, width: side, height: side, color: swatch.color });
   };
   const swatches = [...SWATCHES, { name: "own", color: colourOf(own) }];
   return (
@@ -116,15 +105,11 @@ export function BlockPalette({ scene, chosen, choose, select, tell, ground, chil
                 return;
               }
               choose(swatch.color);
-              if (there) {
-                remove(blockName(swatch));
-              } else {
-                place(swatch);
-              }
+              (there ? remove : place)(swatch);
             }}
             onKeyDown={(event: KeyboardEvent) => {
               if (there && (event.key === "Delete" || event.key === "Backspace")) {
-                remove(blockName(swatch));
+                remove(swatch);
                 event.preventDefault();
                 event.stopPropagation(); // keys of the page do other things
               }

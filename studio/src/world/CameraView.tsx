@@ -72,7 +72,7 @@ export function CameraView({ camera }: { camera: ElementView }) {
       <div className="world-picture">
         <canvas ref={canvas} role="img" aria-label={`Picture of the camera, ${camera.path}`} />
       </div>
-      <figcaption className="one-line" title={lost?.what ?? camera.path}>
+      <figcaption className="dim one-line" title={lost?.what ?? camera.path}>
         {lost !== null ? lost.what : seen ? camera.path : "no picture yet"}
       </figcaption>
     </figure>

@@ -8,6 +8,7 @@ import type { SceneView } from "../protocol";
 import { draw } from "./draw";
 import type { Ground } from "./ground";
 import { live } from "./live";
+import { onWorld } from "./onWorld";
 import { frameOf, inside, objects, type PlanFrame, type PlanPoint, toWorld, under } from "./planFrame";
 import type { Hands } from "./useHands";
 
@@ -30,9 +31,7 @@ export function Plan({ scene, hands, ground }: PlanProps) {
     if (element === null) {
       return;
     }
-    let due = 0;
     const paint = () => {
-      due = 0;
       const { clientWidth: width, clientHeight: height } = element;
       const ctx = element.getContext("2d");
       const border = live.now.scene?.border;
@@ -56,18 +55,7 @@ export function Plan({ scene, hands, ground }: PlanProps) {
         pageInk(),
       );
     };
-    const redraw = () => {
-      due ||= requestAnimationFrame(paint);
-    };
-    const sizes = new ResizeObserver(redraw);
-    sizes.observe(element);
-    const end = live.listen(redraw);
-    redraw();
-    return () => {
-      cancelAnimationFrame(due);
-      sizes.disconnect();
-      end();
-    };
+    return onWorld(element, paint);
   }, [hovered, selected, carried, shade]);
 
   useEffect(() => {

@@ -117,7 +117,7 @@ export function World() {
           onChange={(event) => hands.select(event.currentTarget.value || null)}
         />
         <span
-          className={`world-told one-line numbers${carried.refused === "" ? "" : " world-refused"}`}
+          className={`world-told dim one-line numbers${carried.refused === "" ? "" : " world-refused"}`}
           role="status"
           title={carried.refused === "" ? told : carried.refused}
         >

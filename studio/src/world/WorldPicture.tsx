@@ -5,28 +5,17 @@ import { useEffect, useRef } from "react";
 import { paintBytes } from "../draw/paint";
 import type { PictureView } from "../protocol";
 import { live } from "./live";
+import { onWorld } from "./onWorld";
 
 export function WorldPicture({ picture }: { picture: PictureView }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { name, columns, rows } = picture;
 
   useEffect(() => {
-    let due = 0;
-    const paint = () => {
-      due = 0;
-      if (canvas.current !== null) {
-        paintBytes(canvas.current, live.now.pixels, columns, rows);
-      }
-    };
-    const redraw = () => {
-      due ||= requestAnimationFrame(paint);
-    };
-    const end = live.listen(redraw);
-    redraw();
-    return () => {
-      cancelAnimationFrame(due);
-      end();
-    };
+    const element = canvas.current;
+    return element === null
+      ? undefined
+      : onWorld(element, () => paintBytes(element, live.now.pixels, columns, rows));
   }, [columns, rows]);
 
   return (
@@ -34,7 +23,7 @@ export function WorldPicture({ picture }: { picture: PictureView }) {
       <div className="world-picture">
         <canvas ref={canvas} role="img" aria-label={`Picture of the world, ${name}`} />
       </div>
-      <figcaption className="one-line">{name}</figcaption>
+      <figcaption className="dim one-line">{name}</figcaption>
     </figure>
   );
 }

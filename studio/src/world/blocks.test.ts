@@ -1,7 +1,8 @@
 import { expect, it } from "vitest";
 
 import type { BodyView, SceneView } from "../protocol";
-import { blockSide, colourOf, cssColour, freeBlockName, inFront } from "./blocks";
+import { blockSide, colourOf, cssColour, inFront } from "./blocks";
+import { freeName } from "./planFrame";
 
 const robot: BodyView = { name: "e-puck", x: 0.5, y: 0.5, heading: Math.PI / 2, radius: 0.04 };
 const scene: SceneView = { unit: "m", border: [0, 0, 1, 1], boxes: [], marks: [] };
@@ -46,6 +47,6 @@ it("colours are converted from and to the texts of the page", () => {
 
 it("a block elsewhere gets the next number of its colour", () => {
   const red = { name: "red", color: [1, 0, 0] as [number, number, number] };
-  expect(freeBlockName(scene, red)).toBe("red 1");
-  expect(freeBlockName({ ...scene, boxes: [{ ...box(0, 0), name: "red 1" }] }, red)).toBe("red 2");
+  expect(freeName(scene, red.name)).toBe("red 1");
+  expect(freeName({ ...scene, boxes: [{ ...box(0, 0), name: "red 1" }] }, red.name)).toBe("red 2");
 });

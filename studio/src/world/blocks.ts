@@ -37,16 +37,6 @@ export function colourOf(text: string): [number, number, number] {
   return [part(1), part(3), part(5)];
 }
 
-// An unused name for a block of a colour that is placed elsewhere.
-export function freeBlockName({ boxes, marks }: SceneView, { name }: Swatch): string {
-  const taken = new Set([...boxes, ...marks].map((object) => object.name));
-  for (let n = 1; ; n++) {
-    if (!taken.has(`${name} ${n}`)) {
-      return `${name} ${n}`;
-    }
-  }
-}
-
 // The side of a block.
 export function blockSide(scene: SceneView, body: BodyView | undefined): number {
   const [x0, y0, x1, y1] = scene.border as [number, number, number, number];

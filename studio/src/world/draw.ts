@@ -1,10 +1,10 @@
 // Draws a world from above: floor, axes, objects, the paths of the bodies, marks, bodies.
 
 import type { BodyView, BoxView, MarkView } from "../protocol";
-import { font } from "../draw/ink";
-import type { Ink } from "../draw/ink";
+import { drawAxes } from "../draw/axes";
+import { type Ink, strokeLines } from "../draw/ink";
 import type { Seen } from "./live";
-import { type PlanFrame, type PlanPoint, ticks, toPixels } from "./planFrame";
+import { type PlanFrame, type PlanPoint, sidesOf, toPixels } from "./planFrame";
 
 const FLOOR = "#f5f5f0";
 const INK = "#1c2420";
@@ -12,8 +12,6 @@ const GOAL = "#00734f";
 const REFUSED = "#b3261e";
 // Of several bodies; colours that most people can tell apart (Okabe and Ito).
 const BODIES = ["#0050a0", "#b85c00", "#00734f", "#9b3a78"];
-const APART = 54;
-const SHORT = 4;
 
 export type Held = { name: string; at: PlanPoint; refused: boolean };
 export type Picked = { hovered: string | null; selected: string | null; held: Held | null };
@@ -28,13 +26,13 @@ export function draw(
   if (scene === null) {
     return;
   }
-  const [x0, y0, x1, y1] = frame.border;
-  const low = toPixels(frame, { x: x0, y: y0 });
-  const high = toPixels(frame, { x: x1, y: y1 });
-  drawAxes(ctx, frame, scene.unit, look);
+  const { left, top, width, height } = frame.layout.box;
+  drawAxes(ctx, sidesOf(scene.border, scene.unit), frame.layout, look, frame.width);
+  ctx.strokeStyle = look.dim;
+  ctx.strokeRect(left - 0.5, top - 0.5, width + 1, height + 1);
   ctx.save();
   ctx.beginPath();
-  ctx.rect(low.x, high.y, high.x - low.x, low.y - high.y);
+  ctx.rect(left, top, width, height);
   ctx.fillStyle = FLOOR;
   ctx.fill();
   ctx.clip();
@@ -51,41 +49,6 @@ export function draw(
     const box = scene.boxes.find(({ name }) => name === held.name);
     drawGhost(ctx, frame, held.at, box);
   }
-  ctx.restore();
-}
-
-function drawAxes(ctx: CanvasRenderingContext2D, frame: PlanFrame, unit: string, look: Ink): void {
-  const [x0, y0, x1, y1] = frame.border;
-  const low = toPixels(frame, { x: x0, y: y0 });
-  const high = toPixels(frame, { x: x1, y: y1 });
-  ctx.strokeStyle = look.dim;
-  ctx.fillStyle = look.dim;
-  ctx.lineWidth = 1;
-  ctx.font = font(look);
-  ctx.strokeRect(low.x - 0.5, high.y - 0.5, high.x - low.x + 1, low.y - high.y + 1);
-  ctx.textAlign = "center";
-  ctx.textBaseline = "top";
-  const across = ticks(x0, x1, frame.scale, APART);
-  for (const x of across.values) {
-    const at = toPixels(frame, { x, y: y0 });
-    line(ctx, at.x, at.y, at.x, at.y + SHORT);
-    ctx.fillText(x.toFixed(across.digits), at.x, at.y + SHORT + 2);
-  }
-  const named = unit === "" ? "" : ` (${unit})`;
-  ctx.fillText(`x${named}`, (low.x + high.x) / 2, low.y + 20);
-  ctx.textAlign = "right";
-  ctx.textBaseline = "middle";
-  const up = ticks(y0, y1, frame.scale, APART / 1.5);
-  for (const y of up.values) {
-    const at = toPixels(frame, { x: x0, y });
-    line(ctx, at.x - SHORT, at.y, at.x, at.y);
-    ctx.fillText(y.toFixed(up.digits), at.x - SHORT - 3, at.y);
-  }
-  ctx.save();
-  ctx.translate(low.x - 38, (low.y + high.y) / 2);
-  ctx.rotate(-Math.PI / 2);
-  ctx.textAlign = "center";
-  ctx.fillText(`y${named}`, 0, 0);
   ctx.restore();
 }
 
@@ -143,8 +106,8 @@ function drawMark(ctx: CanvasRenderingContext2D, frame: PlanFrame, mark: MarkVie
   const reach = marked ? 8 : 6;
   ctx.strokeStyle = GOAL;
   ctx.lineWidth = marked ? 3 : 2;
-  line(ctx, x - reach, y, x + reach, y);
-  line(ctx, x, y - reach, x, y + reach);
+  strokeLines(ctx, [x - reach, y, x + reach, y]);
+  strokeLines(ctx, [x, y - reach, x, y + reach]);
 }
 
 function drawBody(ctx: CanvasRenderingContext2D, frame: PlanFrame, body: BodyView, colour: string): void {
@@ -157,12 +120,5 @@ function drawBody(ctx: CanvasRenderingContext2D, frame: PlanFrame, body: BodyVie
   ctx.arc(x, y, radius, 0, 2 * Math.PI);
   ctx.fill();
   ctx.stroke();
-  line(ctx, x, y, x + radius * Math.cos(body.heading), y - radius * Math.sin(body.heading));
-}
-
-function line(ctx: CanvasRenderingContext2D, x0: number, y0: number, x1: number, y1: number): void {
-  ctx.beginPath();
-  ctx.moveTo(x0, y0);
-  ctx.lineTo(x1, y1);
-  ctx.stroke();
+  strokeLines(ctx, [x, y, x + radius * Math.cos(body.heading), y - radius * Math.sin(body.heading)]);
 }

@@ -1,5 +1,9 @@
 // Between places in the world and pixels of a canvas: y points upwards, both axes have the same scale.
 
+import { layout, type PlotLayout } from "../draw/axes";
+import type { Content } from "../draw/content";
+import { paperInk } from "../draw/ink";
+import type { Range } from "../draw/scale";
 import type { SceneView } from "../protocol";
 
 export type PlanPoint = { x: number; y: number };
@@ -13,36 +17,40 @@ export type SceneObject = {
 };
 
 export type PlanFrame = {
+  // of the canvas, in pixels of the page
+  width: number;
   // pixels in a unit of the world
   scale: number;
-  // where the lower left corner of the world lies
-  left: number;
-  bottom: number;
   border: [number, number, number, number];
+  layout: PlotLayout;
 };
 
-const MARGIN = { left: 46, right: 14, top: 12, bottom: 36 };
 // The distance in pixels at which a pointer picks a mark.
 const NEAR = 9;
 
+// The sides of the plan: a plot without marks, which the world is drawn on.
+export function sidesOf(border: number[], unit: string): Content {
+  const [x0, y0, x1, y1] = border as [number, number, number, number];
+  const side = (name: string, range: Range) => ({
+    along: null,
+    label: unit === "" ? name : `${name} (${unit})`,
+    range,
+  });
+  return { x: side("x", [x0, x1]), y: side("y", [y0, y1]), equal: true, marks: [] };
+}
+
 export function frameOf(border: number[], width: number, height: number): PlanFrame {
   const [x0, y0, x1, y1] = border as [number, number, number, number];
-  const room = {
-    x: Math.max(1, width - MARGIN.left - MARGIN.right),
-    y: Math.max(1, height - MARGIN.top - MARGIN.bottom),
-  };
-  const scale = Math.min(room.x / (x1 - x0), room.y / (y1 - y0));
-  const left = MARGIN.left + (room.x - scale * (x1 - x0)) / 2;
-  const bottom = MARGIN.top + (room.y + scale * (y1 - y0)) / 2;
-  return { scale, left, bottom, border: [x0, y0, x1, y1] };
+  const placed = layout(sidesOf(border, ""), paperInk(1), width, height);
+  return { width, scale: placed.box.width / (x1 - x0), border: [x0, y0, x1, y1], layout: placed };
 }
 
-export function toPixels({ scale, left, bottom, border }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
-  return { x: left + scale * (x - border[0]), y: bottom - scale * (y - border[1]) };
+export function toPixels({ layout: { x: across, y: up } }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
+  return { x: across.place(x), y: up.place(y) };
 }
 
-export function toWorld({ scale, left, bottom, border }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
-  return { x: border[0] + (x - left) / scale, y: border[1] + (bottom - y) / scale };
+export function toWorld({ layout: { x: across, y: up } }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
+  return { x: across.value(x), y: up.value(y) };
 }
 
 // The nearest place inside the border.
@@ -73,23 +81,6 @@ export function under(scene: SceneView, frame: PlanFrame, pixel: PlanPoint): Sce
   return objects(scene).find(holds) ?? null;
 }
 
-// Steps of an axis: 1, 2 or 5 times a power of ten, none nearer than `least` pixels.
-export function ticks(
-  lower: number,
-  upper: number,
-  scale: number,
-  least: number,
-): { values: number[]; digits: number } {
-  const wanted = least / scale;
-  const power = 10 ** Math.floor(Math.log10(wanted));
-  const step = power * ([1, 2, 5, 10].find((n) => n * power >= wanted * (1 - 1e-9)) ?? 10);
-  const values: number[] = [];
-  for (let n = Math.ceil(lower / step - 1e-9); n * step <= upper + 1e-9 * step; n++) {
-    values.push(n * step + 0);
-  }
-  return { values, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
-}
-
 // A place as text, to a thousandth of the longer side.
 export function placeText({ x, y }: PlanPoint, border: number[], unit: string): string {
   const longest = Math.max(
@@ -100,12 +91,12 @@ export function placeText({ x, y }: PlanPoint, border: number[], unit: string): 
   return `${x.toFixed(digits)}, ${y.toFixed(digits)} ${unit}`.trim();
 }
 
-// An unused name for a new object.
-export function freeName({ boxes, marks }: SceneView): string {
+// An unused name for a new object of a sort.
+export function freeName({ boxes, marks }: SceneView, sort = "box"): string {
   const taken = new Set([...boxes, ...marks].map(({ name }) => name));
   for (let n = 1; ; n++) {
-    if (!taken.has(`box ${n}`)) {
-      return `box ${n}`;
+    if (!taken.has(`${sort} ${n}`)) {
+      return `${sort} ${n}`;
     }
   }
 }

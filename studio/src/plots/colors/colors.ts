@@ -6,49 +6,16 @@ import type { ColorTable, ColorTables } from "../../draw/paint";
 
 export type ScaleName = "cividis" | "viridis" | "diverging" | "gray";
 
-const ANCHORS: Record<ScaleName, string[]> = {
-  cividis: [
-    "#00224e",
-    "#123570",
-    "#3b496c",
-    "#575d6d",
-    "#707173",
-    "#8a8678",
-    "#a59c74",
-    "#c3b369",
-    "#e1cc55",
-    "#fee838",
-  ],
-  viridis: [
-    "#440154",
-    "#482878",
-    "#3e4989",
-    "#31688e",
-    "#26828e",
-    "#1f9e89",
-    "#35b779",
-    "#6ece58",
-    "#b5de2b",
-    "#fde725",
-  ],
+const ANCHORS: Record<ScaleName, string> = {
+  cividis: "#00224e #123570 #3b496c #575d6d #707173 #8a8678 #a59c74 #c3b369 #e1cc55 #fee838",
+  viridis: "#440154 #482878 #3e4989 #31688e #26828e #1f9e89 #35b779 #6ece58 #b5de2b #fde725",
   // Activation: below the threshold, white at it, above it. Lightness falls on both sides.
-  diverging: [
-    "#08294b",
-    "#0e4070",
-    "#21659f",
-    "#4e93cb",
-    "#93c1e6",
-    "#d3e6f5",
-    "#ffffff",
-    "#ffe3bd",
-    "#ffb968",
-    "#f98328",
-    "#dd4d0d",
-    "#a02f06",
-    "#641a02",
-  ],
-  gray: ["#000000", "#ffffff"],
+  diverging:
+    "#08294b #0e4070 #21659f #4e93cb #93c1e6 #d3e6f5 #ffffff #ffe3bd #ffb968 #f98328 #dd4d0d #a02f06 #641a02",
+  gray: "#000000 #ffffff",
 };
+
+const anchorsOf = (name: ScaleName): number[][] => ANCHORS[name].split(" ").map(parts);
 
 export const SCALES: { name: ScaleName; label: string }[] = [
   { name: "viridis", label: "Violet to yellow" },
@@ -60,7 +27,7 @@ export const SCALES: { name: ScaleName; label: string }[] = [
 const made = new Map<string, ColorTables>();
 
 export function scale(name: ScaleName): ColorTables {
-  return madeOnce(name, () => onBoth(interpolated(ANCHORS[name].map(parts))));
+  return madeOnce(name, () => onBoth(interpolated(anchorsOf(name))));
 }
 
 // The same colours on a light and on a dark ground.
@@ -142,7 +109,7 @@ export function activationScale(lower: number, upper: number, threshold: number)
     const distance = i === nearest ? 0 : lower + (i / 255) * (upper - lower) - threshold;
     return 0.5 + (0.5 * distance) / (distance < 0 ? below : above);
   });
-  return colored(ANCHORS.diverging.map(parts), places);
+  return colored(anchorsOf("diverging"), places);
 }
 
 // The colour of nothing, in maps of amounts.

@@ -51,7 +51,7 @@ export function SectionStrip({ rest, at, set }: Strip) {
               value={shown}
               onChange={(value) => set({ at: moved(at, axis.name, sampleAt(axis, value)) })}
             />
-            <span className="plot-cut-value numbers">
+            <span className="plot-cut-value dim numbers">
               {position === undefined ? "" : withUnit(shown, axis)}
             </span>
           </div>

@@ -1,6 +1,7 @@
 // The choice of a time course: an element, its port, and of an array the maximum, the mean or a position.
 
-import { SegmentedControl, Select } from "@mantine/core";
+import { Button, SegmentedControl, Select, Text } from "@mantine/core";
+import { useState } from "react";
 import type { AxisView, ElementView } from "../../protocol";
 import { useStudio } from "../../store";
 import { axisLabel } from "../../draw/axis";
@@ -8,6 +9,8 @@ import { NumberField } from "../../widgets/NumberField";
 import { mainPort, portAxes, portsOf } from "../../model/ports";
 import type { TraceSetting } from "../settings";
 import { traceOf } from "../traces";
+
+const SELECT = { size: "xs", allowDeselect: false, comboboxProps: { withinPortal: false } } as const;
 
 // `label` says what it is the choice of.
 type TraceChoice = { trace: TraceSetting; label: string; set: (trace: TraceSetting) => void };
@@ -30,20 +33,16 @@ export function TraceControl({ trace, label, set }: TraceChoice) {
   return (
     <>
       <Select
-        size="xs"
-        aria-label={`Element of ${label}`}
+        {...SELECT}
         searchable
-        allowDeselect={false}
-        comboboxProps={{ withinPortal: false }}
+        aria-label={`Element of ${label}`}
         data={[...elements.values()].map((other) => ({ value: other.id, label: other.path }))}
         value={trace.element}
         onChange={(value) => value !== null && choose(value)}
       />
       <Select
-        size="xs"
+        {...SELECT}
         aria-label={`Port of ${label}`}
-        allowDeselect={false}
-        comboboxProps={{ withinPortal: false }}
         data={found === undefined ? [] : portsOf(found)}
         value={trace.port}
         onChange={(value) => value !== null && choose(trace.element, value)}
@@ -79,5 +78,38 @@ export function TraceControl({ trace, label, set }: TraceChoice) {
         </div>
       )}
     </>
+  );
+}
+
+type TraceAddingProps = {
+  // The time course that is chosen first, which is the one of a plot without others.
+  first: TraceSetting;
+  traces: TraceSetting[];
+  set: (settings: { traces: TraceSetting[] }) => void;
+};
+
+// Another time course for a plot over time.
+export function TraceAdding({ first, traces, set }: TraceAddingProps) {
+  const [trace, setTrace] = useState(first);
+  const shown = traces.length > 0 ? traces : [first];
+  const there = shown.some((other) => JSON.stringify(other) === JSON.stringify(trace));
+  const idle = there || trace.port === "";
+  return (
+    <div className="plot-more">
+      <Text size="xs" fw={500}>
+        Add a curve
+      </Text>
+      <TraceControl trace={trace} label="the new curve" set={setTrace} />
+      {/* The focus stays here when nothing can be added, so that Escape still closes the settings. */}
+      <Button
+        size="compact-xs"
+        variant="light"
+        data-disabled={idle || undefined}
+        aria-disabled={idle}
+        onClick={() => !idle && set({ traces: [...shown, trace] })}
+      >
+        {there ? "Already in this plot" : "Add"}
+      </Button>
+    </div>
   );
 }

@@ -1,91 +1,59 @@
 // Slices of an array over three axes, one at right angles to each axis: at the position of its slider, or at
 // the back of the box the maximum over the axis. With more axes a section at positions on the others.
 
-import { useMemo, useRef } from "react";
+import { useMemo } from "react";
+import { axisLabel, edges, points } from "../../draw/axis";
+import { readContent } from "../../draw/cursorText";
+import { paintHeat } from "../../draw/paint";
+import { extent } from "../../draw/scale";
+import { axisHeader, plane, type Table } from "../../draw/table";
+import { reading } from "../../draw/text";
+import { portAxes } from "../../model/ports";
 import type { AxisView } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Live, Wish } from "../../streams";
-import { axisHeader, plane, type Table } from "../../draw/table";
-import { axisLabel, edges, points } from "../../draw/axis";
-import { isPicture, portAxes } from "../../model/ports";
-import { onBoth, shade } from "../colors/colors";
-import { FollowingColors, middleOf, scaleOf } from "../colors/mapColors";
-import { paintHeat } from "../../draw/paint";
-import { extent } from "../../draw/scale";
+import { shade } from "../colors/colors";
 import type { PlotProps } from "../PlotFrame";
-import type { MapColors } from "../../draw/content";
-import { readContent } from "../../draw/cursorText";
-import { reading } from "../../draw/text";
-import { planeContent } from "../kinds/parts";
-import { ScenePlot } from "./ScenePlot";
 import type { SceneFrame } from "./sceneFrame";
+import { planeOf, ScenePlot, type ShownScene } from "./ScenePlot";
 import { volumeSize } from "./sceneSize";
-import { cameraAt, type Viewpoint } from "./sceneView";
-import type { SceneStage } from "./sceneStage";
-import { useLevels } from "../useLevels";
-import { usePorts } from "../usePorts";
-import { type ScenePosition, useScene } from "./useScene";
-import { useStreams } from "../useStreams";
+import { cameraAt } from "./sceneView";
+import type { ScenePosition } from "./useScene";
 
 const MOST = 128;
 const CUTS = [0, 1, 2] as const;
-const NO_COLORS: MapColors = { range: [0, 1], middle: null, tables: onBoth(new Uint8ClampedArray()) };
 
 export function Volume(props: PlotProps) {
-  const { element, port, settings, visible, set } = props;
+  const { element, port, settings } = props;
   const { at } = settings;
-  const kind = useStudio((state) => state.kinds.get(element.kind));
-  const ports = usePorts(element, port, (axes) => axes.length > 2 && !isPicture(axes));
-  const scale = scaleOf(settings.scale, kind, port);
-  const stored = useStudio(({ document }) =>
-    JSON.stringify((document && portAxes(document, element, port)) || []),
-  );
-  const axes = useMemo(
-    () => inOrder(JSON.parse(stored) as AxisView[], settings.drawn),
-    [stored, settings.drawn],
-  );
+  const document = useStudio((state) => state.document);
+  const axes = inOrder((document && portAxes(document, element, port)) || [], settings.drawn);
   const drawn = axes.slice(0, 3);
-  const canvases = useMemo(() => CUTS.map(() => document.createElement("canvas")), []);
-  const newest = useRef<Live[]>([]);
-  const colors = useRef(new FollowingColors());
-  const levels = useLevels(element.id, port, () => redraw());
+  const canvases = useMemo(() => CUTS.map(() => globalThis.document.createElement("canvas")), []);
   // Each slice has the other two axes.
-  const wishes = useMemo<Wish[]>(
-    () =>
-      CUTS.map((cut) => {
-        const shown = axes.slice(0, 3).flatMap((axis, d) => (d === cut ? [] : [axis.name]));
-        const others = Object.fromEntries(Object.entries(at).filter(([axis]) => !shown.includes(axis)));
-        return { type: "watch", element: element.id, port, most: MOST, drawn: shown, at: others };
-      }),
-    [element.id, port, axes, at],
-  );
-
+  const wishes = CUTS.map((cut): Wish => {
+    const shown = drawn.flatMap((axis, d) => (d === cut ? [] : [axis.name]));
+    const others = Object.fromEntries(Object.entries(at).filter(([axis]) => !shown.includes(axis)));
+    return { type: "watch", element: element.id, port, most: MOST, drawn: shown, at: others };
+  });
   const place = (axis: AxisView) => {
     const position = at[axis.name];
     const [lower, upper] = edges(axis);
     return position === undefined ? null : Math.min(1, Math.max(0, (position - lower) / (upper - lower)));
   };
-  const show = (stage: SceneStage, view: Viewpoint): SceneFrame | null => {
+  const show = (lives: Live[], { stage, view, colors }: ShownScene): SceneFrame | null => {
     const [x, y, z] = drawn;
-    const frames = newest.current.map(({ frame }) => frame?.values);
-    if (
-      x === undefined ||
-      y === undefined ||
-      z === undefined ||
-      frames.length < 3 ||
-      frames.includes(undefined)
-    ) {
+    const frames = lives.flatMap(({ frame }) => frame?.values ?? []);
+    if (x === undefined || y === undefined || z === undefined || frames.length < 3) {
       return null;
     }
-    const ends = frames.flatMap((values) => [...(extent(values ?? []) ?? [])]);
-    colors.current.follow(ends, scale, middleOf(scale.twoSided, levels.current), settings.range);
-    const { range, tables } = colors.current.now;
+    const bar = colors(frames.flatMap((values) => [...(extent(values) ?? [])]));
     const camera = cameraAt(view);
     const size = volumeSize(x, y, z);
     const slices = CUTS.map((axis) => {
       const canvas = canvases[axis] as HTMLCanvasElement;
-      const [nx = 0, ny = 0] = newest.current[axis]?.form?.shape ?? [];
-      paintHeat(canvas, frames[axis] as Float32Array, nx, ny, range, tables[shade()]);
+      const [nx = 0, ny = 0] = lives[axis]?.form?.shape ?? [];
+      paintHeat(canvas, frames[axis] as Float32Array, nx, ny, bar.range, bar.tables[shade()]);
       const behind = camera[axis] < 0 ? 1 : 0;
       return { axis, canvas, place: place(drawn[axis] as AxisView) ?? behind };
     });
@@ -96,34 +64,22 @@ export function Volume(props: PlotProps) {
       along: axis,
       folded: place(axis) === null,
     });
-    return { size, axes: [named(x), named(y), named(z)], bar: colors.current.now };
+    return { size, axes: [named(x), named(y), named(z)], bar };
   };
-  const streaming = useStreams(wishes, visible, (lives) => {
-    newest.current = lives;
-    redraw();
-  });
-  const scene = useScene({
-    label: `Slices of ${port} of ${element.path} over ${drawn.map((axis) => axis.name).join(", ")}`,
-    view: settings.view,
-    keep: (view) => set({ view }),
-    read: (positions, slice) => readSlices(drawn, newest.current, positions, slice),
-    show,
-  });
-  const { redraw } = scene;
-
   return (
     <ScenePlot
       {...props}
       kind="volume"
-      ports={ports}
-      streaming={streaming}
-      scene={scene}
-      colors={colors}
-      axes={axes}
+      least={3}
+      wishes={wishes}
+      show={show}
+      read={(lives, positions, slice) => readSlices(drawn, lives, positions, slice)}
+      table={(lives) => tableOf(drawn, lives, at, port)}
+      axes={() => axes}
       labels={["First axis", "Second axis", "Upwards"]}
-      cut={axes}
-      label={`Slices of ${element.path}; the arrow keys turn them`}
-      table={() => tableOf(drawn, newest.current, at, port)}
+      cut={() => axes}
+      label={(names) => `Slices of ${port} of ${element.path} over ${names.join(", ")}`}
+      turning={`Slices of ${element.path}; the arrow keys turn them`}
     />
   );
 }
@@ -171,7 +127,7 @@ function tableOf(axes: AxisView[], lives: Live[], at: Record<string, number>, po
 function readSlices(axes: AxisView[], lives: Live[], at: ScenePosition, slice: number | null): string {
   const known = (cut: number) => at.filter((value, d) => d !== cut && value !== null).length;
   const cut = slice ?? CUTS.reduce<number>((best, other) => (known(other) > known(best) ? other : best), 0);
-  const plane = planeContent(null, lives[cut], "", () => NO_COLORS);
+  const plane = planeOf(lives[cut], "");
   if (plane === null) {
     return "";
   }

@@ -3,8 +3,7 @@
 
 import type { AxisView } from "../../protocol";
 import { drawColorBar } from "../../draw/bar";
-import { font } from "../../draw/ink";
-import type { Ink } from "../../draw/ink";
+import { font, type Ink, strokeLines } from "../../draw/ink";
 import type { MapColors } from "../../draw/content";
 import { ticks } from "../../draw/scale";
 import { tick } from "../../draw/text";
@@ -56,9 +55,9 @@ export function drawSceneFrame(
   ctx.font = font(look);
   ctx.textBaseline = "middle";
   ctx.textAlign = "center";
-  for (const [from, to] of edgesOfBox()) {
+  for (const [from, to] of [0, 1, 2].flatMap(edgesOfBox)) {
     if (!equal(from, near) && !equal(to, near)) {
-      line(ctx, at(from), at(to));
+      strokeLines(ctx, [...at(from), ...at(to)]);
     }
   }
   axes.forEach((axis, d) => {
@@ -99,7 +98,7 @@ function drawAxis(
     for (const value of places) {
       const share = (value - range[0]) / (range[1] - range[0]);
       const point: Pixel = [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
-      line(ctx, point, beside(point, TICK));
+      strokeLines(ctx, [...point, ...beside(point, TICK)]);
       ctx.fillText(tick(value, step), ...beside(point, NUMBER));
     }
   }
@@ -109,54 +108,19 @@ function drawAxis(
 // The edge of the box along an axis that carries its numbers: of the first two axes the lower one on the
 // screen, of the third one the leftmost.
 function labelled(d: number, at: (corner: Point3) => Pixel): [Point3, Point3] {
-  const rest = d === 2 ? SIDES.flatMap((a) => SIDES.map((b) => [a, b])) : SIDES.map((a) => [a, -1]);
-  const edges = rest.map(([a = 0, b = 0]): [Point3, Point3] =>
-    d === 0
-      ? [
-          [-1, a, b],
-          [1, a, b],
-        ]
-      : d === 1
-        ? [
-            [a, -1, b],
-            [a, 1, b],
-          ]
-        : [
-            [a, b, -1],
-            [a, b, 1],
-          ],
-  );
   const rank = ([from, to]: [Point3, Point3]) =>
     d === 2 ? -at(from)[0] - at(to)[0] : at(from)[1] + at(to)[1];
+  const edges = edgesOfBox(d).filter(([from]) => d === 2 || from[2] === -1);
   return edges.reduce((best, edge) => (rank(edge) > rank(best) ? edge : best));
 }
 
 const SIDES = [-1, 1] as const;
 
-function edgesOfBox(): [Point3, Point3][] {
+// The four edges along an axis.
+function edgesOfBox(d: number): [Point3, Point3][] {
   return SIDES.flatMap((a) =>
-    SIDES.flatMap((b): [Point3, Point3][] => [
-      [
-        [-1, a, b],
-        [1, a, b],
-      ],
-      [
-        [a, -1, b],
-        [a, 1, b],
-      ],
-      [
-        [a, b, -1],
-        [a, b, 1],
-      ],
-    ]),
+    SIDES.map((b) => SIDES.map((end) => [a, b].toSpliced(d, 0, end)) as unknown as [Point3, Point3]),
   );
-}
-
-function line(ctx: CanvasRenderingContext2D, from: Pixel, to: Pixel): void {
-  ctx.beginPath();
-  ctx.moveTo(...from);
-  ctx.lineTo(...to);
-  ctx.stroke();
 }
 
 function equal(one: Point3, other: Point3): boolean {

@@ -1,33 +1,26 @@
 // Scenes in three dimensions, drawn by three.js. The page imports this file when the first of them is shown.
 
 import {
-  AmbientLight,
   BufferAttribute,
   BufferGeometry,
   CanvasTexture,
-  ColorManagement,
-  DirectionalLight,
   DoubleSide,
   LinearFilter,
   LineBasicMaterial,
   LineSegments,
-  LinearSRGBColorSpace,
   Mesh,
   MeshBasicMaterial,
   MeshLambertMaterial,
   NearestFilter,
   PerspectiveCamera,
   PlaneGeometry,
-  Raycaster,
-  Scene,
   Sphere,
-  Vector2,
   Vector3,
-  WebGLRenderer,
 } from "three";
 import type { MapColors } from "../../draw/content";
 import { ANGLE, cameraAt, DISTANCE, magnification, type Point3, type Viewpoint } from "./sceneView";
 import { shade } from "../colors/colors";
+import { WebGLStage } from "./webGLStage";
 
 // A plane through the box at right angles to an axis, from its lower end (0) to its upper end (1). The canvas
 // has the first other axis to the right and the second one upwards.
@@ -36,29 +29,20 @@ export type Slice = { axis: 0 | 1 | 2; place: number; canvas: HTMLCanvasElement 
 // What a ray from the camera meets first: a point of the box, and the axis of the slice that it is on.
 export type Hit = { point: Point3; slice: 0 | 1 | 2 | null };
 
-// The colours are those of the scales, not of a lamp on a surface of some material.
-ColorManagement.enabled = false;
+// The share of the light from all sides.
+const AMBIENT = 0.62;
 
-// Light from all sides, and from the camera: together 1 for a surface that faces the camera.
-const [AMBIENT, DIRECTED] = [0.62 * Math.PI, 0.38 * Math.PI];
-
-export class SceneStage {
-  private renderer: WebGLRenderer;
-  private scene = new Scene();
-  private camera = new PerspectiveCamera(ANGLE, 1, DISTANCE - 2, DISTANCE + 2);
-  private lamp = new DirectionalLight(0xffffff, DIRECTED);
+export class SceneStage extends WebGLStage {
   private surface: SurfaceMesh | null = null;
   private planes = new Map<number, Mesh<PlaneGeometry, MeshBasicMaterial>>();
   private places = new Map<number, number>();
-  private size: Point3 = [1, 1, 1];
+  private box: Point3 = [1, 1, 1];
   private cursor = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
 
-  constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
-    this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.camera.up.set(0, 0, 1);
+  constructor(canvas: HTMLCanvasElement) {
+    super(canvas, new PerspectiveCamera(ANGLE, 1, DISTANCE - 2, DISTANCE + 2), AMBIENT, DISTANCE);
     this.cursor.frustumCulled = false;
-    this.scene.add(new AmbientLight(0xffffff, AMBIENT), this.lamp, this.cursor);
+    this.scene.add(this.cursor);
   }
 
   // Show values over two axes as heights and colours. C order: index = ix * ny + iy.
@@ -68,13 +52,13 @@ export class SceneStage {
       this.surface = new SurfaceMesh(nx, ny);
       this.scene.add(this.surface.mesh);
     }
-    this.size = size;
+    this.box = size;
     this.surface.set(values, size, colors);
   }
 
   // Show planes, at most one for each axis.
   showSlices(slices: Slice[], size: Point3): void {
-    this.size = size;
+    this.box = size;
     for (const { axis, place, canvas } of slices) {
       this.places.set(axis, place);
       const [across, up] = [0, 1, 2].filter((d) => d !== axis) as [number, number];
@@ -111,7 +95,7 @@ export class SceneStage {
   // where it has no position.
   showCursor(shares: readonly (number | null)[], color: string): void {
     const points = [
-      ...(this.surface?.lines(shares, this.size) ?? []),
+      ...(this.surface?.lines(shares, this.box) ?? []),
       ...[...this.places].flatMap(([axis, place]) => this.linesOnSlice(axis, place, shares)),
     ];
     this.cursor.geometry.dispose();
@@ -121,11 +105,9 @@ export class SceneStage {
   }
 
   // What lies under a pixel of the page, from the top left, in the view that was drawn last.
-  hit(x: number, y: number, width: number, height: number): Hit | null {
-    const ray = new Raycaster();
-    ray.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
+  hit(x: number, y: number): Hit | null {
     const meshes = [...(this.surface === null ? [] : [this.surface.mesh]), ...this.planes.values()];
-    const [first] = ray.intersectObjects(meshes, false);
+    const [first] = this.ray(x, y).intersectObjects(meshes, false);
     if (first === undefined) {
       return null;
     }
@@ -143,30 +125,23 @@ export class SceneStage {
       return [0, 1].map((end) => {
         const at = [0, 0, 0];
         [at[axis], at[d], at[rest]] = [place, share, end];
-        return at.map((part, k) => (part - 0.5) * (this.size[k] as number)) as Triple;
+        return at.map((part, k) => (part - 0.5) * (this.box[k] as number)) as Triple;
       });
     });
   }
 
-  // Draw; lengths in pixels of the page, `ratio` pixels of the canvas for each.
   render(view: Viewpoint, width: number, height: number, ratio: number): void {
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
     this.camera.zoom = magnification(view, width, height);
-    const [x, y, z] = cameraAt(view);
-    this.camera.position.set(x, y, z);
+    this.camera.position.set(...(cameraAt(view) as Triple));
     // Straight above, another direction has to be up.
     const upright = Math.abs(view.elevation) < 89.9;
     const radians = (view.azimuth * Math.PI) / 180;
     this.camera.up.set(...((upright ? [0, 0, 1] : [-Math.cos(radians), -Math.sin(radians), 0]) as Triple));
     this.camera.lookAt(0, 0, 0);
-    this.camera.updateProjectionMatrix();
-    this.lamp.position.set(x, y, z + DISTANCE);
-    this.renderer.render(this.scene, this.camera);
+    this.draw(width, height, ratio);
   }
 
-  end(): void {
+  override end(): void {
     this.surface?.end();
     this.cursor.geometry.dispose();
     this.cursor.material.dispose();
@@ -175,9 +150,7 @@ export class SceneStage {
       material.map?.dispose();
       material.dispose();
     }
-    this.renderer.dispose();
-    // A browser has few contexts.
-    this.renderer.forceContextLoss();
+    super.end();
   }
 }
 

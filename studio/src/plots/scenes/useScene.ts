@@ -3,7 +3,7 @@
 // lines on it: what lies under the pointer, or where the pointer in another plot is.
 
 import { useComputedColorScheme } from "@mantine/core";
-import { type RefObject, useEffect, useRef, useState } from "react";
+import { type RefObject, useEffect, useRef } from "react";
 import type { ListedProblem } from "../../protocol";
 import { type DrawingFormat, exportScene } from "../export/exportDrawing";
 import { type Coordinate, linkedCursor, valueOn } from "../linked";
@@ -12,6 +12,7 @@ import { drawSceneFrame, type SceneFrame } from "./sceneFrame";
 import { FIRST_VIEW, turned, type Viewpoint, zoomed } from "./sceneView";
 import type { Hit, SceneStage } from "./sceneStage";
 import { useLatest } from "../useLatest";
+import { onPictures, useWebGL } from "./useWebGL";
 
 // Positions on the axes of the box; null where there is none.
 export type ScenePosition = readonly (number | null)[];
@@ -36,10 +37,8 @@ export type SceneRefs = {
   exportAs: (title: string, format: DrawingFormat) => void;
 };
 
-const NO_WEBGL: ListedProblem = {
-  what: "This browser has no WebGL, which plots in three dimensions need.",
-  fix: 'Choose "Heat map" under "Show as", or allow WebGL in the settings of the browser.',
-};
+const NO_WEBGL = "This browser has no WebGL, which plots in three dimensions need.";
+const FIX = 'Choose "Heat map" under "Show as", or allow WebGL in the settings of the browser.';
 
 const KEYS: Record<string, (view: Viewpoint) => Viewpoint> = {
   ArrowLeft: (view) => turned(view, -20, 0),
@@ -51,72 +50,49 @@ const KEYS: Record<string, (view: Viewpoint) => Viewpoint> = {
 };
 
 export function useScene(made: SceneContent): SceneRefs {
-  const host = useRef<HTMLDivElement>(null);
   const scene = useRef<LiveScene | null>(null);
   const latest = useLatest(made);
-  const [problem, setProblem] = useState<ListedProblem | null>(null);
   const scheme = useComputedColorScheme("light", { getInitialValueInEffect: false });
-
-  useEffect(() => {
-    const place = host.current;
-    if (place === null) {
-      return;
-    }
-    let ended = false;
-    const begin = async () => {
-      if (document.createElement("canvas").getContext("webgl2") === null) {
-        setProblem(NO_WEBGL);
-        return;
-      }
-      const { SceneStage: Made } = await import("./sceneStage");
-      if (!ended) {
-        scene.current = new LiveScene(
-          place,
-          (canvas) => new Made(canvas),
-          () => latest.current,
-        );
-        scene.current.redraw();
-      }
+  const { host, problem } = useWebGL(NO_WEBGL, async () => {
+    const { SceneStage: Made } = await import("./sceneStage");
+    return (place) => {
+      const begun = new LiveScene(place, new Made(document.createElement("canvas")), () => latest.current);
+      scene.current = begun;
+      begun.redraw();
+      return () => {
+        begun.end();
+        scene.current = null;
+      };
     };
-    begin().catch((error: unknown) => {
-      console.error(error);
-      setProblem({ ...NO_WEBGL, what: error instanceof Error ? error.message : String(error) });
-    });
-    return () => {
-      ended = true;
-      scene.current?.end();
-      scene.current = null;
-    };
-  }, [latest]);
+  });
   useEffect(() => scene.current?.redraw(), [scheme, made.label]);
 
   return {
     host,
     redraw: () => scene.current?.redraw(),
-    problem,
+    problem: problem === "" ? null : { what: problem, fix: FIX },
     exportAs: (title, format) => scene.current?.export(title, format),
   };
 }
 
 class LiveScene {
-  private stage: SceneStage;
   private below = document.createElement("canvas");
-  private above = document.createElement("canvas");
+  private above: HTMLCanvasElement;
   private words = document.createElement("div");
   private frame: SceneFrame | null = null;
   private pointed: Hit | null = null;
   private linked: Coordinate[] = [];
   private unlink: () => void;
   private view: Viewpoint;
-  private due = 0;
   private listening = new AbortController();
-  private observer = new ResizeObserver(() => this.redraw());
+  private pictures: ReturnType<typeof onPictures>;
 
   constructor(
     private host: HTMLElement,
-    make: (canvas: HTMLCanvasElement) => SceneStage,
+    private stage: SceneStage,
     private content: () => SceneContent,
   ) {
+    this.above = stage.canvas;
     for (const canvas of [this.below, this.above]) {
       canvas.className = "plot-scene";
       host.append(canvas);
@@ -124,9 +100,8 @@ class LiveScene {
     this.words.className = "plot-readout numbers";
     host.append(this.words);
     this.above.setAttribute("role", "img");
-    this.stage = make(this.above);
     this.view = content().view ?? FIRST_VIEW;
-    this.observer.observe(host);
+    this.pictures = onPictures(host, () => this.draw());
     this.unlink = linkedCursor.listen(this, (coordinates) => {
       this.linked = coordinates;
       this.redraw();
@@ -136,7 +111,7 @@ class LiveScene {
 
   // Draw with the next picture of the browser.
   redraw(): void {
-    this.due ||= requestAnimationFrame(() => this.draw());
+    this.pictures.redraw();
   }
 
   export(title: string, format: DrawingFormat): void {
@@ -153,9 +128,8 @@ class LiveScene {
   end(): void {
     this.point(null);
     this.unlink();
-    cancelAnimationFrame(this.due);
+    this.pictures.end();
     this.listening.abort();
-    this.observer.disconnect();
     this.stage.end();
     this.below.remove();
     this.above.remove();
@@ -164,7 +138,6 @@ class LiveScene {
   }
 
   private draw(): void {
-    this.due = 0;
     const { clientWidth: width, clientHeight: height } = this.host;
     const { label, show } = this.content();
     const frame = width > 0 && height > 0 ? show(this.stage, this.view) : null;
@@ -223,53 +196,35 @@ class LiveScene {
   }
 
   private listen(): void {
-    const { signal } = this.listening;
     const { host } = this;
-    host.addEventListener(
-      "pointerdown",
-      (event) => event.button === 0 && host.setPointerCapture(event.pointerId),
-      {
-        signal,
-      },
-    );
-    host.addEventListener(
-      "pointermove",
-      ({ pointerId, movementX, movementY, clientX, clientY }) => {
-        if (host.hasPointerCapture(pointerId)) {
-          this.point(null);
-          this.turn(turned(this.view, movementX, movementY));
-        } else {
-          const { left, top, width, height } = host.getBoundingClientRect();
-          this.point(this.stage.hit(clientX - left, clientY - top, width, height));
-        }
-      },
-      { signal },
-    );
-    host.addEventListener("pointerleave", () => this.point(null), { signal });
-    host.addEventListener("lostpointercapture", () => this.content().keep(this.view), { signal });
-    host.addEventListener(
-      "wheel",
-      (event) => {
-        event.preventDefault();
-        this.turn(zoomed(this.view, 1.001 ** -event.deltaY));
-        this.content().keep(this.view);
-      },
-      { signal, passive: false },
-    );
-    host.addEventListener(
-      "keydown",
-      (event) => {
-        const change = KEYS[event.key];
-        if (change !== undefined && !event.ctrlKey && !event.metaKey && !event.altKey) {
-          event.preventDefault();
-          // The arrow keys also show moments of the past.
-          event.stopPropagation();
-          this.turn(change(this.view));
-          this.content().keep(this.view);
-        }
-      },
-      { signal },
-    );
+    const on = <K extends keyof HTMLElementEventMap>(type: K, act: (event: HTMLElementEventMap[K]) => void) =>
+      host.addEventListener(type, act, { signal: this.listening.signal, passive: false });
+    const turnAndKeep = (event: Event, view: Viewpoint) => {
+      event.preventDefault();
+      this.turn(view);
+      this.content().keep(view);
+    };
+    on("pointerdown", ({ button, pointerId }) => button === 0 && host.setPointerCapture(pointerId));
+    on("pointermove", ({ pointerId, movementX, movementY, clientX, clientY }) => {
+      if (host.hasPointerCapture(pointerId)) {
+        this.point(null);
+        this.turn(turned(this.view, movementX, movementY));
+      } else {
+        const { left, top } = host.getBoundingClientRect();
+        this.point(this.stage.hit(clientX - left, clientY - top));
+      }
+    });
+    on("pointerleave", () => this.point(null));
+    on("lostpointercapture", () => this.content().keep(this.view));
+    on("wheel", (event) => turnAndKeep(event, zoomed(this.view, 1.001 ** -event.deltaY)));
+    on("keydown", (event) => {
+      const change = KEYS[event.key];
+      if (change !== undefined && !event.ctrlKey && !event.metaKey && !event.altKey) {
+        // The arrow keys also show moments of the past.
+        event.stopPropagation();
+        turnAndKeep(event, change(this.view));
+      }
+    });
   }
 }
 

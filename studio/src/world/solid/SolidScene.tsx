@@ -10,6 +10,7 @@ import type { Ground } from "../ground";
 import { live } from "../live";
 import { objects, type PlanPoint, within } from "../planFrame";
 import type { Hands } from "../useHands";
+import { onPictures, useWebGL } from "../../plots/scenes/useWebGL";
 import { useLatest } from "../../plots/useLatest";
 import type { Point3 } from "../../plots/scenes/sceneView";
 import { force, Puller } from "./pull";
@@ -30,38 +31,13 @@ type Gripped =
   | { body: string; index: number; own: Point3; pointer: Point3 };
 
 export function SolidScene({ scene, hands, ground }: SolidSceneProps) {
-  const host = useRef<HTMLDivElement>(null);
   const stage = useRef<SolidStage | null>(null);
-  const [problem, setProblem] = useState("");
   const [follow, setFollow] = useState(false);
   const latest = useLatest({ scene, hands, follow });
-
-  useEffect(() => {
-    const place = host.current;
-    if (place === null) {
-      return;
-    }
-    let ended = false;
-    let end = () => {};
-    const begin = async () => {
-      if (document.createElement("canvas").getContext("webgl2") === null) {
-        setProblem(NO_WEBGL);
-        return;
-      }
-      const { SolidStage: Made } = await import("./solidStage");
-      if (!ended) {
-        end = show(place, Made, stage, ground, () => latest.current);
-      }
-    };
-    begin().catch((error: unknown) => {
-      console.error(error);
-      setProblem(error instanceof Error ? error.message : String(error));
-    });
-    return () => {
-      ended = true;
-      end();
-    };
-  }, [latest, ground]);
+  const { host, problem } = useWebGL(NO_WEBGL, async () => {
+    const { SolidStage: Made } = await import("./solidStage");
+    return (place) => show(place, Made, stage, ground, () => latest.current);
+  });
   const { hovered, selected } = hands;
   useEffect(() => {
     stage.current?.mark(({ thing }) => thing !== "" && (thing === selected || thing === hovered));
@@ -117,7 +93,7 @@ type Now = { scene: SceneView; hands: Hands; follow: boolean };
 
 // Draw on a new canvas and listen to the pointer; return a function that ends both.
 function show(
-  host: HTMLDivElement,
+  host: HTMLElement,
   Stage: typeof SolidStage,
   shown: { current: SolidStage | null },
   ground: { current: Ground | null },
@@ -125,10 +101,7 @@ function show(
 ): () => void {
   const canvas = document.createElement("canvas");
   host.append(canvas);
-  let due = 0;
-  const redraw = () => {
-    due ||= requestAnimationFrame(draw);
-  };
+  const { redraw, end } = onPictures(host, draw);
   const made = new Stage(canvas, redraw);
   shown.current = made;
   const puller = new Puller(
@@ -145,7 +118,6 @@ function show(
     }
   };
   function draw() {
-    due = 0;
     const { clientWidth: width, clientHeight: height } = host;
     if (width === 0 || height === 0) {
       return;
@@ -232,8 +204,6 @@ function show(
   host.addEventListener("pointercancel", release, { signal });
   host.addEventListener("pointerleave", () => now().hands.hover(null), { signal });
   host.addEventListener("dblclick", doubled, { signal });
-  const sizes = new ResizeObserver(redraw);
-  sizes.observe(host);
   const unlisten = live.listen(redraw);
   ground.current = {
     get scale() {
@@ -249,9 +219,8 @@ function show(
   redraw();
   return () => {
     release();
-    cancelAnimationFrame(due);
+    end();
     listening.abort();
-    sizes.disconnect();
     unlisten();
     ground.current = null;
     shown.current = null;

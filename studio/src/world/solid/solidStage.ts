@@ -2,38 +2,28 @@
 // dimensions.
 
 import {
-  AmbientLight,
   ArrowHelper,
-  ColorManagement,
-  DirectionalLight,
   DoubleSide,
-  LinearSRGBColorSpace,
   Matrix4,
   Mesh,
   MeshLambertMaterial,
   PerspectiveCamera,
   Plane,
-  Raycaster,
-  Scene,
   Spherical,
-  Vector2,
   Vector3,
-  WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { SolidView } from "../../protocol";
 import type { PlanPoint } from "../planFrame";
+import { WebGLStage } from "../../plots/scenes/webGLStage";
 import { geometryOf } from "./geometry";
 import type { Point3 } from "../../plots/scenes/sceneView";
 
 // What a ray through a pixel meets first.
 export type SolidHit = { solid: SolidView; index: number; point: Point3 };
 
-// As in the other scenes of the page: the colours of a solid are those of the model's camera, without a
-// conversion.
-ColorManagement.enabled = false;
-
-const [AMBIENT, DIRECTED] = [0.55 * Math.PI, 0.45 * Math.PI];
+// The share of the light from all sides.
+const AMBIENT = 0.55;
 const ANGLE = 35;
 // Where the camera is at first: from behind the robot and from its right, so that left is left.
 const AZIMUTH = (-62 * Math.PI) / 180;
@@ -45,37 +35,29 @@ const POSE = 12;
 const MARKED = 0x404040;
 const PULL = 0xb3261e;
 
-export class SolidStage {
+export class SolidStage extends WebGLStage {
   readonly controls: OrbitControls;
-  private renderer: WebGLRenderer;
-  private scene = new Scene();
-  private camera = new PerspectiveCamera(ANGLE, 1, 0.01, 100);
-  private lamp = new DirectionalLight(0xffffff, DIRECTED);
   private arrow = new ArrowHelper(new Vector3(1, 0, 0), new Vector3(), 0.1, PULL);
   private meshes: Mesh[] = [];
   private solids: SolidView[] = [];
   private followed: Vector3 | null = null;
-  // Pixels of the page.
-  private size = new Vector2(1, 1);
   // Whether the view was turned or has followed a body, and the border and aspect that it shows as a whole
   // until then.
   private turned = false;
   private framed = "";
 
   constructor(
-    readonly canvas: HTMLCanvasElement,
+    canvas: HTMLCanvasElement,
     private changed: () => void,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
-    this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.camera.up.set(0, 0, 1);
+    super(canvas, new PerspectiveCamera(ANGLE, 1, 0.01, 100), AMBIENT, 2);
     this.arrow.visible = false;
     for (const part of [this.arrow.line, this.arrow.cone]) {
       // in front of what it starts in
       Object.assign(part.material, { depthTest: false, transparent: true });
       part.renderOrder = 1;
     }
-    this.scene.add(new AmbientLight(0xffffff, AMBIENT), this.lamp, this.arrow);
+    this.scene.add(this.arrow);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.05;
     this.controls.maxDistance = 50;
@@ -240,29 +222,14 @@ export class SolidStage {
   }
 
   render(width: number, height: number, ratio: number): void {
-    this.size.set(width, height);
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
-    this.lamp.position.copy(this.camera.position).add(new Vector3(0, 0, 2));
-    this.renderer.render(this.scene, this.camera);
+    this.draw(width, height, ratio);
   }
 
-  end(): void {
+  override end(): void {
     this.clear();
     this.controls.dispose();
     this.arrow.dispose();
-    this.renderer.dispose();
-    // A browser has few contexts.
-    this.renderer.forceContextLoss();
-  }
-
-  private ray(x: number, y: number): Raycaster {
-    this.camera.updateMatrixWorld();
-    const ray = new Raycaster();
-    ray.setFromCamera(new Vector2((2 * x) / this.size.x - 1, 1 - (2 * y) / this.size.y), this.camera);
-    return ray;
+    super.end();
   }
 
   private clear(): void {
