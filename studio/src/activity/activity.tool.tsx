@@ -51,7 +51,7 @@ function ActivityPanel() {
         {frames.map(({ title, elements }) => (
           <div key={title} role="group" aria-label={title || "Elements"}>
             {title !== "" && (
-              <div className="activity-frame" aria-hidden>
+              <div className="activity-frame fine" aria-hidden>
                 {title}
               </div>
             )}
@@ -132,10 +132,10 @@ function StripAndValue({ element, setAbove }: StripProps) {
   return lost === null ? (
     <>
       <canvas ref={canvas} className="activity-strip" aria-hidden />
-      <span ref={value} className="activity-value" />
+      <span ref={value} className="activity-value fine" />
     </>
   ) : (
-    <span className="activity-lost">{lost.what}</span>
+    <span className="activity-lost fine">{lost.what}</span>
   );
 }
 

@@ -30,13 +30,13 @@ function Inspector() {
   );
   const chain = useFocus((state) => state.chains.get(wire));
   if (!open) {
-    return <div className="inspector inspector-empty">No document is open.</div>;
+    return <div className="inspector inspector-empty dim">No document is open.</div>;
   }
   return (
     // another element begins at its top: the key makes another scrolled box of it
     <div className="inspector" inert={record} key={`${selected.join()} ${wire}`}>
       {record && (
-        <p className="inspector-record">Parameters of the record; its model can be run and changed.</p>
+        <p className="inspector-record dim">Parameters of the record; its model can be run and changed.</p>
       )}
       {only === undefined && chain !== undefined ? (
         <WireInspector key={wire} wire={wire} chain={chain} />

@@ -17,7 +17,7 @@ export function CurvePicture({ curve, words }: { curve: RegimeCurve; words: stri
       <div className="regime-drawing">
         <DrawingPlace label={`Settled activation: ${words}`} injection={null} keep={keep} />
       </div>
-      <figcaption>
+      <figcaption className="fine">
         Settled activation at its maximum: <span className="regime-key-up">input grows</span>,{" "}
         <span className="regime-key-down">input falls</span>. Where both part, the field is bistable.
       </figcaption>

@@ -57,7 +57,7 @@ function Found({ comparison }: { comparison: Comparison }) {
         </div>
       )}
       {notes.map((note) => (
-        <span key={note} className={classes.note}>
+        <span key={note} className="dim">
           {note}
         </span>
       ))}

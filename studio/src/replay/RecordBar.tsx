@@ -12,7 +12,7 @@ export function RecordBar({ record }: { record: RecordView }) {
   const copy = useReplay((state) => state.copy);
   return (
     <div className={classes.bar} role="toolbar" aria-label="Record">
-      <span className={classes.mark} title={record.path}>
+      <span className={`${classes.mark} dim`} title={record.path}>
         <IconMovie size={16} stroke={1.6} aria-hidden="true" />
         Record{record.growing ? ", growing" : record.complete ? "" : ", incomplete"}
       </span>

@@ -105,7 +105,7 @@ function Section({ sort, title, hint, suggested, children }: SectionProps) {
   return (
     <section aria-label={title}>
       <h3 className={classes.title}>{title}</h3>
-      <p className={classes.hint}>{hint}</p>
+      <p className={`${classes.hint} dim`}>{hint}</p>
       <form onSubmit={(event) => void submit(event)}>
         <Group gap={6} wrap="nowrap" mb={6}>
           <TextInput
@@ -138,7 +138,7 @@ function Row({ sort, name, about, does, run }: SavedProps) {
           <VisuallyHidden>{does} </VisuallyHidden>
           {name}
         </span>
-        <span className={`${classes.about} numbers one-line`}>{about}</span>
+        <span className={"fine numbers one-line"}>{about}</span>
       </button>
       <CloseButton
         size="sm"

@@ -133,7 +133,7 @@ export function Timeline() {
       </div>
       <div className={`${classes.moment} numbers`} role="status" aria-label="Moment shown">
         <span className={classes.time}>{shown === null ? "" : text(shown)}</span>
-        <span className={classes.count}>
+        <span className={`${classes.count} dim`}>
           {off || known === null
             ? ""
             : past

@@ -12,13 +12,17 @@ export function Busy() {
   const time = compiling === null ? "" : compilingText(compiling);
   const phase = compiling?.phase ?? busy;
   return (
-    <div className={classes.busy} role="status" title={busy === "" ? "" : `${phase} ${time}`.trimEnd()}>
+    <div
+      className={`${classes.busy} dim`}
+      role="status"
+      title={busy === "" ? "" : `${phase} ${time}`.trimEnd()}
+    >
       {busy !== "" && (
         <>
           <Loader size={14} aria-hidden="true" />
           <div className={`${classes.text} numbers`}>
             <div className="one-line">{phase}</div>
-            <div className={`${classes.under} one-line`}>{time}</div>
+            <div className={"fine one-line"}>{time}</div>
           </div>
         </>
       )}

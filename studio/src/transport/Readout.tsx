@@ -50,7 +50,7 @@ export function Readout() {
       <Tooltip label={dt}>
         <div className={classes.time} role="timer" aria-label="Simulated time">
           <div className={classes.number}>{time}</div>
-          <div className={classes.under} data-past={(past !== null && !record) || undefined}>
+          <div className={`${classes.under} fine`} data-past={(past !== null && !record) || undefined}>
             {tick}
           </div>
         </div>
@@ -58,7 +58,7 @@ export function Readout() {
       {compiling !== null && (
         <div className={classes.compiling} data-running={running || undefined} aria-hidden="true">
           <div>{compiling.phase}</div>
-          <div className={classes.under}>{compilingText(compiling)}</div>
+          <div className={`${classes.under} fine`}>{compilingText(compiling)}</div>
         </div>
       )}
       <Tooltip label={<Lines lines={clock === null ? [pace] : meterLines(pace, clock, unit)} />}>
@@ -70,7 +70,7 @@ export function Readout() {
           aria-label="Speed measured"
         >
           <div className={classes.number}>{factor}</div>
-          <div className={classes.under} data-late={(!offline && late !== "") || undefined}>
+          <div className={`${classes.under} fine`} data-late={(!offline && late !== "") || undefined}>
             {(!offline && late) || "real time"}
           </div>
         </div>

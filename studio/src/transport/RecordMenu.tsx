@@ -86,10 +86,12 @@ function Choice() {
             );
           })}
         </div>
-        {found.length > MOST && <p className={classes.hint}>{found.length - MOST} more: type to find them</p>}
-        {found.length === 0 && <p className={classes.hint}>No port has this name.</p>}
+        {found.length > MOST && (
+          <p className={`${classes.hint} fine`}>{found.length - MOST} more: type to find them</p>
+        )}
+        {found.length === 0 && <p className={`${classes.hint} fine`}>No port has this name.</p>}
       </ScrollArea.Autosize>
-      <p className={classes.hint}>
+      <p className={`${classes.hint} fine`}>
         {count === 0
           ? "None is ticked: the activation of every field is recorded."
           : `${countText(count)} ${count === 1 ? "port" : "ports"}`}

@@ -82,7 +82,7 @@ function Driven({ link }: { link: LinkView }) {
   const path = `${element?.path ?? link.element}.${link.parameter}`;
   return (
     <li>
-      <UnstyledButton className="link-path one-line" title={path} onClick={() => select([link.element])}>
+      <UnstyledButton className="link-path fine one-line" title={path} onClick={() => select([link.element])}>
         {path}
       </UnstyledButton>
       <ActionIcon

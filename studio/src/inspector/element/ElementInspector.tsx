@@ -17,7 +17,7 @@ export function ElementInspector({ id }: { id: string }) {
   const kind = useStudio((state) => state.kinds.get(element?.kind ?? ""));
   const { axes } = useAxes();
   if (element === undefined) {
-    return <div className="inspector-empty">This element was removed.</div>;
+    return <div className="inspector-empty dim">This element was removed.</div>;
   }
   const sections = sectionsOf(kind?.parameters ?? []);
   return (
@@ -34,7 +34,7 @@ export function ElementInspector({ id }: { id: string }) {
                 <Tex source={line} block />
               </div>
             ))}
-            {kind.reference !== "" && <p className="reference">{kind.reference}</p>}
+            {kind.reference !== "" && <p className="reference fine">{kind.reference}</p>}
           </section>
           {sections.map(({ section, forms }) => (
             <section key={section} className="parameters" aria-label={titleOf(section)}>
@@ -54,7 +54,7 @@ function Header({ element, kind }: { element: ElementView; kind: Kind | undefine
   const select = useStudio((state) => state.select);
   return (
     <header className="inspector-header">
-      <nav className="inspector-path" aria-label="Path of the element">
+      <nav className="inspector-path fine" aria-label="Path of the element">
         <UnstyledButton className="to-document" onClick={() => select([])}>
           Document
         </UnstyledButton>

@@ -31,7 +31,7 @@ export function PortTable({ element, kind, axes }: PortTableProps) {
             <td className="dim">{way}</td>
             <th scope="row">
               {port}
-              <span className="dim port-axes">{over(port)}</span>
+              <span className="fine port-axes">{over(port)}</span>
             </th>
             <td>
               <Prose text={kind.ports[port] ?? ""} />

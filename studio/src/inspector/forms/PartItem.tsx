@@ -8,23 +8,21 @@ import { useStudio } from "../../store";
 import type { Values } from "../../values";
 import { DotsMenu } from "../../widgets/DotsMenu";
 import { MoveItems } from "../../widgets/MoveItems";
-import { kindOf, recast, summary } from "../parameters/part";
+import { kindOf, moved, recast, summary, without } from "../parameters/part";
 import { PartFields } from "./PartFields";
 
 type PartItemProps = {
   form: ParameterForm;
   path: string;
-  part: Values;
-  place: { index: number; count: number };
+  parts: Values[];
+  index: number;
   folded: boolean;
   onFold: () => void;
-  onReplace: (part: Values) => void;
-  onRemove: () => void;
-  onMove: (to: number) => void;
+  commit: (parts: Values[]) => void;
 };
 
-export function PartItem(props: PartItemProps) {
-  const { form, path, part, place, folded, onFold, onReplace, onRemove, onMove } = props;
+export function PartItem({ form, path, parts, index, folded, onFold, commit }: PartItemProps) {
+  const part = parts[index] ?? {};
   const kinds = useStudio((state) => state.kinds);
   const kind = kindOf(kinds, part);
   const title = kind?.title ?? String(part["kind"]);
@@ -43,13 +41,16 @@ export function PartItem(props: PartItemProps) {
           {folded && <span className="dim one-line">{summary(kinds, part)}</span>}
         </UnstyledButton>
         <DotsMenu label={`More for ${path}`}>
-          <MoveItems place={place} onMove={onMove} />
-          <Menu.Item leftSection={<IconTrash size={14} />} onClick={onRemove}>
+          <MoveItems
+            place={{ index, count: parts.length }}
+            onMove={(to) => commit(moved(parts, index, to))}
+          />
+          <Menu.Item leftSection={<IconTrash size={14} />} onClick={() => commit(without(parts, index))}>
             Remove
           </Menu.Item>
           {others.length > 0 && <Menu.Label>Replace by</Menu.Label>}
           {others.map((name) => (
-            <Menu.Item key={name} onClick={() => onReplace(recast(kinds, name, part))}>
+            <Menu.Item key={name} onClick={() => commit(parts.with(index, recast(kinds, name, part)))}>
               {kinds.get(name)?.title ?? name}
             </Menu.Item>
           ))}

@@ -8,7 +8,7 @@ import { useStudio } from "../../store";
 import type { Values } from "../../values";
 import { AddButton } from "../../widgets/AddButton";
 import { MenuList } from "../../widgets/MenuList";
-import { moved, without, words } from "../parameters/part";
+import { words } from "../parameters/part";
 import { ChoiceBox } from "./ChoiceBox";
 import { FormRow, useForm } from "./FormRow";
 import { listChoices, listState } from "./listState";
@@ -29,13 +29,11 @@ export function PartsForm(props: FormProps) {
       key={`${i} ${String(part["kind"])}`}
       form={form}
       path={`${path}.${i}`}
-      part={part}
-      place={{ index: i, count: parts.length }}
+      parts={parts}
+      index={i}
       folded={folded.includes(i)}
       onFold={() => fold(i)}
-      onReplace={(next) => commit(parts.map((old, k) => (k === i ? next : old)))}
-      onRemove={() => commit(without(parts, i))}
-      onMove={(to) => commit(moved(parts, i, to))}
+      commit={commit}
     />
   ));
   return (

@@ -13,15 +13,8 @@ type TextBoxProps = {
   onForget?: () => void;
 };
 
-export function TextBox({
-  label,
-  value,
-  placeholder,
-  rejected = false,
-  autoFocus = false,
-  onCommit,
-  onForget,
-}: TextBoxProps) {
+export function TextBox(props: TextBoxProps) {
+  const { label, value, placeholder, rejected = false, autoFocus = false, onCommit, onForget } = props;
   const [draft, setDraft] = useState<string | null>(null);
   const take = async (text: string) => text === value || (await onCommit(text));
   const onKeyDown = async (event: KeyboardEvent) => {

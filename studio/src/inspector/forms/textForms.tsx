@@ -51,7 +51,7 @@ export function TextsForm(props: FormProps) {
             label={`${path} ${i + 1}`}
             text={text}
             setting={setting}
-            onText={(next) => commit(texts.map((old, k) => (k === i ? (next ?? text) : old)))}
+            onText={(next) => commit(texts.with(i, next ?? text))}
           />
           <RemoveButton label={`Remove ${text} from ${path}`} onClick={() => commit(without(texts, i))} />
         </div>
@@ -66,7 +66,6 @@ export function PairsForm(props: FormProps) {
   const setting = useForm(props);
   const pairs = Object.entries((value ?? {}) as Record<string, string>);
   const commit = (next: [string, string][]) => setting.commit(Object.fromEntries(next));
-  const put = (i: number, pair: [string, string]) => commit(pairs.map((old, k) => (k === i ? pair : old)));
   const name = fresh(pairs.map(([from]) => from));
   return (
     <ListRow
@@ -77,14 +76,14 @@ export function PairsForm(props: FormProps) {
           <TextBox
             label={`${path} name ${i + 1}`}
             value={from}
-            onCommit={(typed) => put(i, [typed, to])}
+            onCommit={(typed) => commit(pairs.with(i, [typed, to]))}
             onForget={setting.forget}
           />
           <IconArrowRight className="dim" size={12} />
           <TextBox
             label={`${path} ${from}`}
             value={to}
-            onCommit={(typed) => put(i, [from, typed])}
+            onCommit={(typed) => commit(pairs.with(i, [from, typed]))}
             onForget={setting.forget}
           />
           <RemoveButton label={`Remove ${from} from ${path}`} onClick={() => commit(without(pairs, i))} />

@@ -24,15 +24,8 @@ type NumberControlProps = {
   onRange?: () => void;
 };
 
-export function NumberControl({
-  label,
-  setting,
-  range,
-  rangeKey,
-  unit,
-  optional = false,
-  onRange,
-}: NumberControlProps) {
+export function NumberControl(props: NumberControlProps) {
+  const { label, setting, range, rangeKey, unit, optional = false, onRange } = props;
   const { value, problem, commit, move, end, nudge, forget } = setting;
   const [complaint, setComplaint] = useState<ListedProblem | null>(null);
   const shown = useCalmRange(range, rangeKey, value);
@@ -49,19 +42,20 @@ export function NumberControl({
       <ValueSlider label={label} value={value} range={shown} onMove={move} onEnd={end} onNudge={nudge} />
     );
 
+  const rangeEnd = (value: number) => (
+    <span className="range-end" title="Double-click to change the range" onDoubleClick={onRange}>
+      {endText(value, shown)}
+    </span>
+  );
   return (
     <div className={onRange === undefined ? "number-control" : "number-control number-control-ranged"}>
       {onRange === undefined ? (
         slider
       ) : (
         <div className="ranged-slider">
-          <span className="range-end" title="Double-click to change the range" onDoubleClick={onRange}>
-            {endText(shown.lower, shown)}
-          </span>
+          {rangeEnd(shown.lower)}
           {slider}
-          <span className="range-end" title="Double-click to change the range" onDoubleClick={onRange}>
-            {endText(shown.upper, shown)}
-          </span>
+          {rangeEnd(shown.upper)}
         </div>
       )}
       <NumberDrag value={value} range={shown} onMove={move} onEnd={end}>

@@ -37,19 +37,19 @@ type RowProps = {
   children?: ReactNode;
 };
 
-export function ParameterRow({
-  form,
-  path,
-  value,
-  onReset,
-  driver,
-  label,
-  leaf = false,
-  inline = false,
-  unit = "",
-  extra,
-  children,
-}: RowProps) {
+export function ParameterRow(props: RowProps) {
+  const {
+    form,
+    path,
+    value,
+    driver,
+    label,
+    leaf = false,
+    inline = false,
+    unit = "",
+    extra,
+    children,
+  } = props;
   const { element, send } = usePlace();
   const [opened, setOpened] = useState(false);
   const [naming, setNaming] = useState(false);
@@ -92,7 +92,7 @@ export function ParameterRow({
             </span>
           </span>
         </Tooltip>
-        {unit !== "" && <span className="dim unit">{unit}</span>}
+        {unit !== "" && <span className="fine unit">{unit}</span>}
         {resettable && !atDefault && (
           <span className="row-dot" role="img" aria-label="not the default" title="not the default" />
         )}
@@ -114,7 +114,7 @@ export function ParameterRow({
             driver={driver}
             byDefault={<DefaultText form={form} value={standard} />}
             atDefault={atDefault}
-            onReset={resettable ? () => onReset(standard) : undefined}
+            onReset={resettable ? () => props.onReset(standard) : undefined}
             pinnable={pinnable}
             linkable={pinnable && linkable(form)}
             opened={opened}

@@ -44,7 +44,7 @@ function RowMenuItems(props: RowMenuProps) {
       {onReset !== undefined && (
         <Menu.Item
           leftSection={<IconArrowBackUp size={14} />}
-          rightSection={<span className="dim menu-value">{byDefault}</span>}
+          rightSection={<span className="dim one-line menu-value">{byDefault}</span>}
           disabled={atDefault || driver !== undefined}
           onClick={onReset}
         >

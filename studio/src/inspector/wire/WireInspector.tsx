@@ -87,7 +87,7 @@ function ElementLink({ id, port }: { id: string; port: string }) {
     return called === name ? path : called;
   });
   return (
-    <UnstyledButton className="link-path" onClick={() => useStudio.getState().select([id])}>
+    <UnstyledButton className="link-path fine" onClick={() => useStudio.getState().select([id])}>
       {label}
       {port}
     </UnstyledButton>
