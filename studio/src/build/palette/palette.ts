@@ -9,13 +9,14 @@ import type { Values } from "../../values";
 import { useChooser } from "./choice";
 import { addComment } from "../commenting";
 import { addElement, addPart, addTemplate } from "../edits";
-import type { WireEnds } from "../wiring/ends";
 import type { ListEntry } from "./entries";
 import { isEditable } from "../editable";
 import { ELEMENTS, familyOf, isPart, isSource, takes } from "./families";
 import { DRAWN, shapeOf } from "./shapes";
 import { afterAll, beside, near, type Placing, sizeOfKind, under } from "../placing";
 import { getPointer, getStage, middleOf } from "../stage";
+import { roomFor } from "../wiring/inserting";
+import { firstOf } from "../wiring/wires";
 
 export type Add = (kind: Kind, values?: Values, name?: string) => unknown;
 
@@ -131,13 +132,15 @@ export function selectedOne(): Selected | null {
 }
 
 // Open the palette at a position on the screen, without one at the pointer. An element is inserted into
-// `wire`, if that is given.
-export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): void {
+// `into`, a connection on the canvas, if that is given.
+export function openPalette(at: Point | null = getPointer(), into?: string): void {
   const { kinds, offered } = useStudio.getState();
-  if (!isEditable() || getStage() === null) {
+  const wire = into === undefined ? undefined : firstOf(into);
+  if (!isEditable() || getStage() === null || wire === null) {
     return;
   }
-  const add: Add = (kind, values, name) => addElement(kind.name, spotFor(kind, at), { wire, values, name });
+  const add: Add = (kind, values, name) =>
+    addElement(kind.name, spotFor(kind, at, into), { wire, values, name });
   const entries = kindEntries(kinds, selectedOne(), add, wire === undefined);
   useChooser.getState().open({
     label: wire === undefined ? "Add an element" : "Insert an element",
@@ -172,8 +175,8 @@ function commentEntry(at: Point | null): ListEntry {
 export const passes = (kind: Kind): boolean => !isPart(kind) && !isSource(kind);
 
 // At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle. A
-// template (no kind) comes right of everything.
-export function spotFor(kind: Kind | null, at: Point | null): Placing {
+// template (no kind) comes right of everything. What is inserted into a connection makes room.
+export function spotFor(kind: Kind | null, at: Point | null, into?: string): Placing {
   const stage = getStage();
   if (stage === null) {
     return { at: { x: 0, y: 0 }, group: "" };
@@ -185,7 +188,9 @@ export function spotFor(kind: Kind | null, at: Point | null): Placing {
     return beyond;
   }
   if (at !== null) {
-    return under(stage.toFlow(at), scene, size);
+    const { x, y } = stage.toFlow(at);
+    const corner = { x: x - size.width / 2, y: y - size.height / 2 };
+    return roomFor(into, corner, size, kind?.room) ?? under({ x, y }, scene, size);
   }
   const selected = selectedOne();
   if (kind !== null && selected !== null && !scene.pills.has(selected.id)) {
