@@ -11,7 +11,8 @@ const ANCHORS: Record<ScaleName, string> = {
   viridis: "#440154 #482878 #3e4989 #31688e #26828e #1f9e89 #35b779 #6ece58 #b5de2b #fde725",
   // Activation: below the threshold, white at it, above it. Lightness falls on both sides.
   diverging:
-    "#08294b #0e4070 #21659f #4e93cb #93c1e6 #d3e6f5 #ffffff #ffe3bd #ffb968 #f98328 #dd4d0d #a02f06 #641a02",
+    "#08294b #0e4070 #21659f #4e93cb #93c1e6 #d3e6f5 #ffffff" +
+    " #ffe3bd #ffb968 #f98328 #dd4d0d #a02f06 #641a02",
   gray: "#000000 #ffffff",
 };
 
