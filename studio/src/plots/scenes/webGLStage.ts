@@ -23,7 +23,7 @@ export class WebGLStage {
   private renderer: WebGLRenderer;
   private lamp: DirectionalLight;
 
-  // `ambient` is the share of the light that comes from all sides; a surface that faces the camera gets 1. The
+  // `ambient`: the share of the light that comes from all sides; a surface that faces the camera gets 1. The
   // lamp is `above` the camera.
   constructor(
     readonly canvas: HTMLCanvasElement,
