@@ -22,7 +22,7 @@ import { useStudio } from "./store";
 import { TourCard } from "./tour/TourCard";
 import { FailureBar } from "./transport/FailureBar";
 import { Foot } from "./transport/Foot";
-import { useRobotStop } from "./world/robotStop";
+import { useRobotStop } from "./world/LinkState";
 import classes from "./App.module.css";
 
 export function App() {

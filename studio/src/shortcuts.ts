@@ -21,7 +21,7 @@ import { usePage } from "./state/page";
 import { undo } from "./state/undo";
 import { useStudio } from "./store";
 import { play, reset, step } from "./transport/run";
-import { stopRobot } from "./world/robotStop";
+import { stopRobot } from "./world/LinkState";
 
 export const SHORTCUTS: readonly Shortcut[] = [
   { keys: ["Space"], does: "Play or pause", run: play },

@@ -12,6 +12,9 @@ const deodar = shades("#eef7f2 #dbede3 #b7dbc8 #90c8ab #6bb691 #4ba37b #3a9069 #
 const gray = shades("#f4f4f5 #ededef #e2e2e5 #d0d0d5 #b4b4bc #8b8b94 #5b5b64 #434349 #2c2c31 #18181b");
 const dark = shades("#ececef #c6c6cd #a5a5b0 #6d6d78 #3b3b42 #2c2c31 #232327 #1a1a1d #121214 #0d0d0f");
 
+const SMALL = { defaultProps: { size: "xs" } };
+const LIST = { defaultProps: { size: "xs", comboboxProps: { shadow: "md" } } };
+
 export const theme = createTheme({
   respectReducedMotion: true,
   primaryColor: "deodar",
@@ -31,6 +34,16 @@ export const theme = createTheme({
     ActionIcon: { defaultProps: { variant: "subtle", color: "gray" } },
     // the placeholder for the first focus is no entry, and a menu may contain only entries
     Menu: { defaultProps: { withInitialFocusPlaceholder: false, shadow: "md" } },
+    Popover: { defaultProps: { shadow: "md" } },
+    Autocomplete: LIST,
+    Checkbox: SMALL,
+    MultiSelect: LIST,
+    NativeSelect: SMALL,
+    SegmentedControl: SMALL,
+    Select: LIST,
+    Switch: SMALL,
+    Textarea: SMALL,
+    TextInput: { defaultProps: { size: "xs", autoComplete: "off", spellCheck: false } },
   },
 });
 

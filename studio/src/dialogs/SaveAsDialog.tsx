@@ -38,6 +38,7 @@ export function SaveAsDialog({ question, answer }: Asking<"save_as">) {
       />
       <TextInput
         label="Name"
+        size="sm"
         mt="md"
         value={name}
         onChange={(event) => setName(event.currentTarget.value)}

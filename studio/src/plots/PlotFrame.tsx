@@ -85,7 +85,6 @@ export function PlotFrame(props: PlotFrameProps) {
           )}
           {ports !== undefined && (
             <NativeSelect
-              size="xs"
               variant="unstyled"
               className="plot-port"
               disabled={off}
@@ -109,7 +108,7 @@ export function PlotFrame(props: PlotFrameProps) {
             onOpened={setEditing}
           />
           {controls !== undefined && (
-            <Popover position="bottom-end" width={260} shadow="md" trapFocus {...afterFields}>
+            <Popover position="bottom-end" width={260} trapFocus {...afterFields}>
               <Popover.Target>
                 <Tooltip label="Settings of this plot">
                   <ActionIcon size="sm" aria-label="Settings of this plot">
@@ -121,7 +120,7 @@ export function PlotFrame(props: PlotFrameProps) {
             </Popover>
           )}
         </NeedsServer>
-        <Menu position="bottom-end" shadow="md" withinPortal>
+        <Menu position="bottom-end" withinPortal>
           <Menu.Target>
             <ActionIcon size="sm" aria-label="Menu of this plot">
               <IconDots size={15} />

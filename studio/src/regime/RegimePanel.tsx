@@ -30,7 +30,6 @@ export function RegimePanel() {
     <div className="regime">
       <div className="regime-head">
         <NativeSelect
-          size="xs"
           aria-label="Field or node"
           value={chosen}
           onChange={(event) => setAsked(event.currentTarget.value)}

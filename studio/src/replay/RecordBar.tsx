@@ -22,7 +22,6 @@ export function RecordBar({ record }: { record: RecordView }) {
             {name}
           </span>
           <NativeSelect
-            size="xs"
             aria-label={name}
             data={values.map((value, index) => ({ value: String(index), label: value }))}
             value={String(copy[name] ?? 0)}

@@ -109,13 +109,11 @@ function Section({ sort, title, hint, suggested, children }: SectionProps) {
       <form onSubmit={(event) => void submit(event)}>
         <Group gap={6} wrap="nowrap" mb={6}>
           <TextInput
-            size="xs"
             flex={1}
             aria-label={`Name of the ${sort}`}
             placeholder={suggested || "Name"}
             value={typed}
             maxLength={80}
-            spellCheck={false}
             onChange={(event) => setTyped(event.currentTarget.value)}
           />
           <Button size="xs" type="submit" variant="default" disabled={name === ""}>

@@ -1,6 +1,6 @@
 // The slider over the moments that can be shown. It is always there, so that nothing moves when a run begins.
 
-import { Button, Slider, Tooltip } from "@mantine/core";
+import { Button, NativeSelect, Slider, Tooltip } from "@mantine/core";
 import {
   IconChevronLeft,
   IconChevronRight,
@@ -12,23 +12,23 @@ import {
 import { type KeyboardEvent, useEffect, useRef } from "react";
 
 import { type Studio, useStudio } from "../store";
-import { countText, timeText } from "../transport/format";
+import { countText, speedText, timeText } from "../transport/format";
 import { useThrottled } from "../transport/throttled";
 import { TipButton } from "../widgets/TipButton";
-import { thinnedShare } from "./playback";
+import { REPLAY_SPEEDS, thinnedShare } from "./playback";
 import {
   replay,
   seek,
   seekFirst,
   seekFrames,
   seekLast,
+  setReplaySpeed,
   showAgain,
   showPresent,
   stop,
   useReplay,
 } from "./replay";
 import { SavedMenu } from "./SavedMenu";
-import { ReplaySpeed } from "./ReplaySpeed";
 import { RunFromButton } from "./RunFromButton";
 import classes from "./Timeline.module.css";
 
@@ -172,3 +172,21 @@ const KEYS: Record<string, () => void> = {
   Home: seekFirst,
   End: seekLast,
 };
+
+const OPTIONS = REPLAY_SPEEDS.map((speed) => ({ value: String(speed), label: speedText(speed) }));
+
+function ReplaySpeed({ disabled }: { disabled: boolean }) {
+  const speed = useReplay((state) => state.speed);
+  return (
+    <NativeSelect
+      variant="unstyled"
+      className={classes.speed}
+      aria-label="Speed of the replay"
+      title="Speed of the replay: time of the model in relation to real time"
+      data={OPTIONS}
+      value={String(speed)}
+      disabled={disabled}
+      onChange={(event) => setReplaySpeed(Number(event.currentTarget.value))}
+    />
+  );
+}

@@ -61,7 +61,6 @@ function Choice() {
     <div className={classes.choice}>
       {findPorts(elements, [], "").length > MANY && (
         <TextInput
-          size="xs"
           placeholder="Find a port"
           aria-label="Find a port to record"
           value={search}
@@ -77,7 +76,6 @@ function Choice() {
             return (
               <Checkbox
                 key={name}
-                size="xs"
                 label={name}
                 title={name}
                 checked={isIn(ticked, port)}

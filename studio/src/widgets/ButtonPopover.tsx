@@ -32,7 +32,6 @@ export function ButtonPopover(props: ButtonPopoverProps) {
       {...afterFields}
       position={position}
       withArrow
-      shadow="md"
       trapFocus
       returnFocus
     >

@@ -97,16 +97,9 @@ export function World() {
     <section className="world" aria-label={solid ? "World in three dimensions" : "World from above"}>
       <header className="world-head">
         {hasSolids && (
-          <SegmentedControl
-            size="xs"
-            aria-label="View of the world"
-            data={VIEWS}
-            value={view}
-            onChange={setView}
-          />
+          <SegmentedControl aria-label="View of the world" data={VIEWS} value={view} onChange={setView} />
         )}
         <NativeSelect
-          size="xs"
           variant="unstyled"
           aria-label="Object to move"
           value={selected ?? ""}

@@ -36,7 +36,6 @@ export function WorldDialog({ answer }: Asking<"world">) {
     <>
       <NativeSelect
         label="Kind of world"
-        size="xs"
         value={name}
         data={worlds.map((one) => ({ value: one.name, label: one.title }))}
         onChange={(event) => setName(event.currentTarget.value)}
@@ -156,7 +155,6 @@ function Source({ kind, setting, argument, choose }: SourceProps) {
       <TextInput
         label={setting.name}
         description={setting.meaning}
-        size="xs"
         value={shown}
         onChange={(event) => choose(event.currentTarget.value)}
       />
@@ -168,7 +166,6 @@ function Source({ kind, setting, argument, choose }: SourceProps) {
       {kind.names.length > 0 && (
         <NativeSelect
           label={setting.name}
-          size="xs"
           value={kind.names.includes(shown) ? shown : ""}
           data={[{ value: "", label: "a file" }, ...kind.names]}
           onChange={(event) => choose(event.currentTarget.value)}

@@ -59,7 +59,6 @@ export function AxisFields({ axis }: { axis: AxisView }) {
       {number("samples", "Samples")}
       {text("unit", "Unit")}
       <Switch
-        size="xs"
         label="Periodic"
         checked={axis.periodic}
         onChange={(event) => void change({ periodic: event.currentTarget.checked })}

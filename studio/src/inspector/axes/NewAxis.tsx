@@ -52,11 +52,8 @@ export function NewAxis({ axes, onMake, onDone }: NewAxisProps) {
             <label key={word}>
               <span>{word}</span>
               <TextInput
-                size="xs"
                 aria-label={`${word} of the new axis`}
                 inputMode={word === "name" || word === "unit" ? "text" : "decimal"}
-                autoComplete="off"
-                spellCheck={false}
                 ref={word === "name" ? field : undefined}
                 value={typed[word]}
                 onFocus={(event) => event.currentTarget.select()}
@@ -67,7 +64,6 @@ export function NewAxis({ axes, onMake, onDone }: NewAxisProps) {
           <label>
             <span>periodic</span>
             <Checkbox
-              size="xs"
               aria-label="periodic new axis"
               checked={periodic}
               onChange={(event) => setPeriodic(event.currentTarget.checked)}

@@ -8,7 +8,7 @@ import { refusalOf, socket } from "../../socket";
 import { useStudio } from "../../store";
 import { AddButton } from "../../widgets/AddButton";
 import { addAxis, NewAxis } from "../axes/NewAxis";
-import { AxisLines } from "../forms/AxisLines";
+import { AxisLines } from "../forms/AxesForm";
 import { ChoiceBox } from "../forms/ChoiceBox";
 import { TextBox } from "../forms/TextBox";
 import { DocumentParameters } from "./DocumentParameters";
@@ -75,7 +75,6 @@ export function DocumentInspector() {
         </PlainRow>
         <ProblemLine problem={problem} />
         <Textarea
-          size="xs"
           label="notes"
           autosize
           minRows={2}

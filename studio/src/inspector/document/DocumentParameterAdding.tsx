@@ -29,7 +29,6 @@ export function DocumentParameterNaming({ element, path, suggestion, onDone }: P
     >
       {(refused) => (
         <TextInput
-          size="xs"
           aria-label="Name of the document parameter"
           placeholder="name"
           value={name}
@@ -69,7 +68,6 @@ export function DocumentParameterAdding({ name, onDone }: { name?: string; onDon
         <>
           {isNew && (
             <TextInput
-              size="xs"
               aria-label="Name of the document parameter"
               placeholder="name"
               ref={field}
@@ -79,7 +77,6 @@ export function DocumentParameterAdding({ name, onDone }: { name?: string; onDon
           )}
           <Select
             ref={isNew ? undefined : field}
-            size="xs"
             searchable
             limit={MOST_SHOWN}
             data={options}
@@ -87,7 +84,6 @@ export function DocumentParameterAdding({ name, onDone }: { name?: string; onDon
             aria-label="Driven parameter"
             placeholder="what it drives"
             nothingFoundMessage="No such parameter"
-            comboboxProps={{ shadow: "md" }}
             onChange={setChosen}
           />
         </>

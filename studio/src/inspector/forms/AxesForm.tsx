@@ -1,15 +1,18 @@
-// One of the document's axes, or several in order.
+// One of the document's axes, or several in order, and what they are: name, range, samples; a click on a line
+// opens its fields.
 
-import { MultiSelect } from "@mantine/core";
+import { MultiSelect, Popover, UnstyledButton } from "@mantine/core";
 import { type ReactNode, useState } from "react";
 
 import type { AxisProperties } from "../../model/elementAxes";
 import { useStudio } from "../../store";
 import { NewAxis } from "../axes/NewAxis";
-import { AxisLines, axisOption, NEW_AXIS } from "./AxisLines";
 import { ChoiceBox } from "./ChoiceBox";
 import { FormRow, useForm } from "./FormRow";
 import type { FormProps } from "./props";
+import type { AxisView } from "../../protocol";
+import { AxisFields } from "../axes/AxisFields";
+import { numberText } from "../../widgets/number";
 
 export function AxesForm(props: FormProps) {
   const keys = (props.value ?? []) as string[];
@@ -18,13 +21,11 @@ export function AxesForm(props: FormProps) {
       {(options, choose) => (
         <MultiSelect
           className="grow"
-          size="xs"
           aria-label={props.path}
           data={options.map(({ value, label }) => ({ value, label: keys.includes(value) ? value : label }))}
           value={keys}
           placeholder={keys.length > 0 ? undefined : "none: a node"}
           hidePickedOptions
-          comboboxProps={{ shadow: "md" }}
           onChange={choose}
         />
       )}
@@ -76,3 +77,44 @@ function AxisRow({ keys, including, children, ...props }: AxisRowProps) {
     </FormRow>
   );
 }
+
+export function AxisLines({ axes }: { axes: AxisView[] }) {
+  return (
+    <ul className="axis-lines">
+      {axes.map((axis) => (
+        <li key={axis.key}>
+          <Popover position="left-start" width={230} trapFocus>
+            <Popover.Target>
+              <UnstyledButton className="axis-line" title={`Edit the axis ${axis.name}`}>
+                <b className="one-line" title={axis.name}>
+                  {calledAxis(axis)}
+                </b>
+                <span>{rangeText(axis)}</span>
+                <span className="dim">{samplesText(axis)}</span>
+              </UnstyledButton>
+            </Popover.Target>
+            <Popover.Dropdown>
+              <AxisFields axis={axis} />
+            </Popover.Dropdown>
+          </Popover>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+// An axis in a list to choose from: two of one name differ by key, and in the range or the samples.
+export function axisOption(axis: AxisView): { value: string; label: string } {
+  return { value: axis.key, label: `${calledAxis(axis)}: ${rangeText(axis)}, ${samplesText(axis)}` };
+}
+
+const calledAxis = ({ key, name }: AxisView): string => (key === name ? key : `${key} (${name})`);
+
+const rangeText = ({ lower, upper, unit }: AxisView): string =>
+  `${numberText(lower)} to ${numberText(upper)} ${unit}`.trim();
+
+const samplesText = ({ samples, periodic }: AxisView): string =>
+  `${samples} samples${periodic ? ", periodic" : ""}`;
+
+// The last entry of lists of axes.
+export const NEW_AXIS = { value: "+", label: "+ New axis" };

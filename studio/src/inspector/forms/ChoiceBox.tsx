@@ -15,7 +15,6 @@ export function ChoiceBox({ label, value, choices, optional = false, onCommit }:
   return (
     <Select
       className="grow"
-      size="xs"
       aria-label={label}
       data={choices}
       value={value}
@@ -23,7 +22,6 @@ export function ChoiceBox({ label, value, choices, optional = false, onCommit }:
       clearable={optional}
       allowDeselect={optional}
       checkIconPosition="right"
-      comboboxProps={{ shadow: "md" }}
       onChange={onCommit}
     />
   );

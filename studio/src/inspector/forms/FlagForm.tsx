@@ -10,7 +10,6 @@ export function FlagForm(props: FormProps) {
   return (
     <FormRow {...props} setting={setting} inline>
       <Switch
-        size="xs"
         aria-label={props.path}
         checked={props.value === true}
         onChange={(event) => void setting.commit(event.currentTarget.checked)}

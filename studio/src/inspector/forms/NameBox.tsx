@@ -29,7 +29,6 @@ export function NameBox({ label, value, names, placeholder = "choose or type", o
   return (
     <Autocomplete
       className="grow"
-      size="xs"
       aria-label={label}
       title={value}
       data={names}
@@ -39,7 +38,6 @@ export function NameBox({ label, value, names, placeholder = "choose or type", o
       maxDropdownHeight={220}
       autoComplete="off"
       spellCheck={false}
-      comboboxProps={{ shadow: "md" }}
       // all names are listed until one is typed
       filter={draft === null ? ({ options }) => options : undefined}
       onChange={(text) => !chosen.current && setDraft(text)}

@@ -40,15 +40,12 @@ export function TextBox(props: TextBoxProps) {
   return (
     <TextInput
       className="grow"
-      size="xs"
       aria-label={label}
       title={value}
       placeholder={placeholder}
       value={draft ?? value}
       error={rejected && draft !== null}
-      autoComplete="off"
       autoFocus={autoFocus}
-      spellCheck={false}
       onChange={(event) => {
         setDraft(event.currentTarget.value);
         onForget?.();

@@ -3,11 +3,8 @@
 import { ArrayForm } from "./ArrayForm";
 import { AxesForm, AxisForm } from "./AxesForm";
 import { FlagForm } from "./FlagForm";
-import { NumberForm } from "./NumberRow";
-import { NumbersForm } from "./NumbersForm";
-import { PartForm } from "./PartForm";
-import { PartsForm } from "./PartsForm";
-import { PerAxisForm } from "./PerAxisForm";
+import { NumberForm, NumbersForm, PerAxisForm } from "./numberForms";
+import { PartForm, PartsForm } from "./partForms";
 import type { FormTable } from "./props";
 import { PairsForm, TextForm, TextsForm, ValueForm } from "./textForms";
 

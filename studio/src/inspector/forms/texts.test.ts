@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 
 import { arrayText } from "./ArrayForm";
-import { axisOption } from "./AxisLines";
+import { axisOption } from "./AxesForm";
 
 test.each([
   [{ shape: [3, 4], min: -1, max: 2.5 }, "3 × 4 numbers, -1 to 2.5"],

@@ -1,15 +1,17 @@
-// A slider and a number beside it: one number of an element, or a document parameter.
+// A slider and a number beside it, which is dragged sideways, and typed after a click: one number of an
+// element, or a document parameter.
 
-import { useRef, useState } from "react";
+import { type ReactNode, useRef, useState } from "react";
 
 import type { ListedProblem } from "../../protocol";
 import { numberText } from "../../widgets/number";
 import { NumberBox } from "../../widgets/NumberBox";
-import { NumberDrag } from "./NumberDrag";
 import { ProblemLine } from "../../widgets/ProblemLine";
-import { including, nudged, type SliderRange } from "./sliderRange";
+import { type SliderRange, dragged, finer, including, nudged, snapped } from "./sliderRange";
 import type { Setting } from "../parameters/setting";
 import { ValueSlider } from "./ValueSlider";
+import { useOffline } from "../../connection/NeedsServer";
+import { usePull } from "../../widgets/usePull";
 
 type NumberControlProps = {
   label: string;
@@ -98,4 +100,35 @@ function useCalmRange(range: SliderRange, key: string, value: number | null): Sl
     kept.current.range = including(kept.current.range, value);
   }
   return kept.current.range;
+}
+
+type NumberDragProps = {
+  value: number | null;
+  range: SliderRange;
+  onMove: (value: number) => void;
+  onEnd: () => void;
+  children: ReactNode;
+};
+
+const isFocused = (target: EventTarget): boolean => target === document.activeElement;
+
+function NumberDrag({ value, range, onMove, onEnd, children }: NumberDragProps) {
+  const offline = useOffline();
+  const { isPressed, handlers } = usePull({
+    begin: ({ target }) => (offline || isFocused(target) ? null : value),
+    isFree: () => true,
+    pulled: (at, pixels, { shiftKey }) => dragged(at, pixels, shiftKey, range),
+    move: (at, { shiftKey }) => onMove(snapped(at, shiftKey ? finer(range) : range)),
+    end: onEnd,
+    click: ({ currentTarget }) => currentTarget.querySelector("input")?.focus(),
+  });
+  return (
+    <div
+      className={value === null ? undefined : "number-drag"}
+      {...handlers}
+      onMouseDown={(event) => isPressed() && event.preventDefault()}
+    >
+      {children}
+    </div>
+  );
 }

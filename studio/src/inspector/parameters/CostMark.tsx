@@ -2,9 +2,10 @@
 
 import { Loader, Tooltip } from "@mantine/core";
 import { IconRefresh, IconSettingsAutomation } from "@tabler/icons-react";
+import { create } from "zustand";
 
 import type { ParameterForm } from "../../protocol";
-import { useBusy } from "./lastChange";
+import { useStudio } from "../../store";
 
 const COSTS = {
   rebuild: { text: "Rebuilds the kernel; takes effect at once", Icon: IconRefresh },
@@ -35,4 +36,23 @@ export function CostMark({
       </span>
     </Tooltip>
   );
+}
+
+type LastChange = { element: string; parameter: string };
+
+const useLastChange = create<LastChange>(() => ({ element: "", parameter: "" }));
+
+export function noteChange(element: string, parameter: string): void {
+  useLastChange.setState({ element, parameter });
+}
+
+// Whether the server is busy with the change of this parameter, or of something inside it.
+function useBusy(element: string, parameter: string): boolean {
+  const last = useLastChange(
+    (change) =>
+      change.element === element &&
+      (change.parameter === parameter || change.parameter.startsWith(`${parameter}.`)),
+  );
+  const busy = useStudio((state) => (state.clock?.busy ?? "") !== "");
+  return last && busy;
 }

@@ -6,7 +6,7 @@ import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { Gesture } from "../../gesture";
 import type { Answer, ParameterForm, ListedProblem } from "../../protocol";
 import { socket } from "../../socket";
-import { noteChange } from "./lastChange";
+import { noteChange } from "./CostMark";
 import { usePlace } from "../place";
 
 export type Setting<T = unknown> = {

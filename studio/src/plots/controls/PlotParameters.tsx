@@ -36,15 +36,7 @@ export function PlotParameters({ element, kind, axes, opened, onOpened }: PlotPa
     return null;
   }
   return (
-    <Popover
-      position="bottom-end"
-      width={300}
-      shadow="md"
-      trapFocus
-      opened={opened}
-      onChange={onOpened}
-      withinPortal
-    >
+    <Popover position="bottom-end" width={300} trapFocus opened={opened} onChange={onOpened} withinPortal>
       <Popover.Target>
         <Tooltip label="Edit what this plot shows">
           <ActionIcon size="sm" aria-label="Edit what this plot shows" onClick={() => onOpened(!opened)}>

@@ -41,7 +41,6 @@ export function PlotSettingsControls({ names, sides, shown, form, range, amplitu
             Newest {unit ?? "time units"} shown
           </Text>
           <SegmentedControl
-            size="xs"
             fullWidth
             aria-label="Displayed duration"
             data={WINDOWS.map((length) => ({ value: String(length), label: String(length ?? "all") }))}
@@ -52,7 +51,6 @@ export function PlotSettingsControls({ names, sides, shown, form, range, amplitu
       )}
       {has("down") && (
         <SegmentedControl
-          size="xs"
           fullWidth
           aria-label="Direction of time"
           data={[
@@ -113,7 +111,6 @@ export function AxisControl({ axes, labels, set }: AxisChoice) {
       {labels.map((label, place) => (
         <NativeSelect
           key={label}
-          size="xs"
           label={label}
           data={[...names].sort()}
           value={drawn[place]}
@@ -127,7 +124,6 @@ export function AxisControl({ axes, labels, set }: AxisChoice) {
 export function ColorControl({ settings, set }: { settings: PlotSettings; set: SetSettings }) {
   return (
     <NativeSelect
-      size="xs"
       label="Colours"
       data={[
         { value: "auto", label: "Fitting the port" },
@@ -147,7 +143,6 @@ export function RangeControl({ settings: { range }, shown, set }: RangeChoice) {
   return (
     <>
       <Switch
-        size="xs"
         label="Range follows the values"
         checked={range === null}
         onChange={(event) => set({ range: event.currentTarget.checked ? null : shown() })}
@@ -188,7 +183,6 @@ function TrajectoryControls({ shown, set }: Pick<ControlsProps, "shown" | "set">
       </More>
       <More title="Upwards">
         <Checkbox
-          size="xs"
           label="rate of change of the other axis"
           checked={up === null}
           onChange={(event) => set({ up: event.currentTarget.checked ? null : across })}

@@ -10,7 +10,7 @@ import { mainPort, portAxes, portsOf } from "../../model/ports";
 import type { TraceSetting } from "../settings";
 import { traceOf } from "../traces";
 
-const SELECT = { size: "xs", allowDeselect: false, comboboxProps: { withinPortal: false } } as const;
+const SELECT = { allowDeselect: false, comboboxProps: { withinPortal: false } } as const;
 
 // `label` says what it is the choice of.
 type TraceChoice = { trace: TraceSetting; label: string; set: (trace: TraceSetting) => void };
@@ -49,7 +49,6 @@ export function TraceControl({ trace, label, set }: TraceChoice) {
       />
       {axes.length > 0 && (
         <SegmentedControl
-          size="xs"
           fullWidth
           aria-label={`Reduction of ${label}`}
           data={[

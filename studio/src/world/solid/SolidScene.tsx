@@ -66,7 +66,6 @@ export function SolidScene({ scene, hands, ground }: SolidSceneProps) {
       {problem === "" ? (
         <Switch
           className="world-follow"
-          size="xs"
           label="Follow"
           checked={follow}
           onChange={(event) => setFollow(event.currentTarget.checked)}
