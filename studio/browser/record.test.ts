@@ -87,6 +87,7 @@ test("a click on the number of a wire of a record selects the wire, and nothing 
   await card.waitFor();
   expect(await chip.count(), "the number is not typed").toBe(1);
   expect(await card.getByRole("slider").count(), "a slider without a thumb").toBe(0);
+  expect(await card.innerText()).toContain("A record is not changed; its model can be.");
   await shot(page, "record-wire");
   await page.keyboard.press("Escape");
 });

@@ -2,7 +2,7 @@
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { box, number, openEmpty, panel, showEverything, slider, type } from "./hands";
+import { box, button, number, openEmpty, panel, settled, showEverything, slider, type } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -54,6 +54,19 @@ async function hover(): Promise<void> {
   const { x, y } = await middle(wire().locator("path").first());
   await studio.page.mouse.move(x, y);
   await chip().waitFor();
+}
+
+/** Select the wire beside what is drawn on it. */
+async function pick(): Promise<void> {
+  const { x, y } = await wire()
+    .locator("path")
+    .first()
+    .evaluate((path: SVGPathElement) => {
+      const { x, y } = path.getPointAtLength(0.8 * path.getTotalLength());
+      const { a, d, e, f } = path.getScreenCTM() as DOMMatrix;
+      return { x: a * x + e, y: d * y + f };
+    });
+  await studio.page.mouse.click(x, y);
 }
 
 async function drag(pixels: number): Promise<void> {
@@ -188,15 +201,7 @@ test("keys change the strength by 0.1 and flip its sign", async () => {
 
 test("a selected wire fills the inspector and has a card with a slider", async () => {
   const { page } = studio;
-  const { x, y } = await wire()
-    .locator("path")
-    .first()
-    .evaluate((path: SVGPathElement) => {
-      const { x, y } = path.getPointAtLength(0.8 * path.getTotalLength());
-      const { a, d, e, f } = path.getScreenCTM() as DOMMatrix;
-      return { x: a * x + e, y: d * y + f };
-    });
-  await page.mouse.click(x, y);
+  await pick();
   const inspector = panel(page, "Inspector");
   await inspector.getByRole("heading", { name: "saccade → decision", exact: true }).waitFor();
   const card = page.locator(".graph-wire-card");
@@ -238,3 +243,38 @@ test("the amplitude of a kernel is the number of its wire", async () => {
   await page.getByRole("button", { name: /^spread/ }).click();
   await panel(page, "Inspector").getByRole("heading", { name: "spread", exact: true }).waitFor();
 });
+
+for (const kind of ["kernels", "weights"] as const) {
+  test(`a connection with ${kind} has a strength that scales them together`, async () => {
+    const { page } = studio;
+    const { source, target } = observer.document?.connections[0] ?? { source: "", target: "" };
+    const wired = { type: "add_element", name: "spread", wire: { source, target } } as const;
+    const kernel = (amplitude: number) => ({ kind: "Gaussian", amplitude });
+    await observer.ask(
+      kind === "kernels"
+        ? { ...wired, kind: "Convolve", values: { kernel: [kernel(8), kernel(-3)] } }
+        : { ...wired, kind: "Weights" },
+    );
+    await page.locator(".graph-pill", { hasText: "spread" }).waitFor();
+    await settled(page, () => wire().boundingBox());
+    const before = await text();
+    const steps = observer.document?.undo ?? 0;
+    await pick();
+    await chip().waitFor();
+    await drag(40);
+    await observer.until(() => factor() === 3);
+    expect(observer.document?.undo).toBe(steps + 1);
+    await expect.poll(() => chip().textContent()).toBe("3");
+    await panel(page, "Inspector").getByRole("button", { name: "spread", exact: true }).waitFor();
+    expect(await number(page, "strength").inputValue()).toBe("3");
+    await shot(page, `strength-${kind}`);
+    await button(page, "Undo").click();
+    await observer.until(() => factor() === undefined);
+    expect(await text()).toBe(before);
+    await type(page, "strength", "-2");
+    await observer.until(() => factor() === -2);
+    await type(page, "strength", "1");
+    await observer.until(() => factor() === undefined);
+    expect(await text()).toBe(before);
+  });
+}

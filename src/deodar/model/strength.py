@@ -6,7 +6,10 @@ A plain connection has strength 1. Another strength is the factor of a `Gain` in
 
 from __future__ import annotations
 
+import dataclasses as dc
+
 from deodar import codec
+from deodar.codec import Json
 from deodar.couplings.arithmetic import Gain
 from deodar.element import Element
 from deodar.errors import ModelError
@@ -20,20 +23,27 @@ from deodar.parameters import parameters
 
 FACTOR = Gain.scaled_by
 
+STATED = "stated_ports"
+"""Key of the layout for the port that a connection states without its `Gain`, where another port is usual:
+`{id of the Gain: port}`.
+"""
+
 
 def set_strength(
     doc: Document, ends: EndPorts, strength: float, keeps: bool = False
 ) -> tuple[Document, str | None]:
     """Return a document in which a connection has another strength, and the id of its `Gain`, or None.
 
-    A plain connection gets a `Gain`, which takes its place among the connections. At strength 1 the `Gain` is
-    removed and the document is as it was before, unless the `Gain` is more than a number: it has a name of
+    A connection without a `Gain` gets one, which takes its place among the connections. Behind a coupling
+    with several kernels or with weights it scales all of them together. At strength 1 the `Gain` is removed
+    and the document is as it was before, unless the `Gain` is more than a number: it has a name of
     its own, which does not end in `>Gain`, lies in another group than its source, has a step of its own or
     other connections, a document parameter drives it, the layout refers to it (a plot, a pinned slider, a
     position), it belongs to a linked template, or the two elements are connected beside it.
 
     Where the target needs numbers between 0 and 1 (`bounded_inputs`), the `Gain` reads the `bounded_port` of
-    the source, as the target does without it.
+    the source, as the target does without it. If the connection states that port itself, the layout has it
+    (`STATED`), and the connection states it again at strength 1.
 
     Args:
         doc: the document.
@@ -60,7 +70,8 @@ def set_strength(
     plain = _plain(doc, ident) if strength == 1 else None
     if plain is None:
         return _bounded(doc, ident), ident
-    return edit.remove(edit.replace_connections(doc, _halves(doc, ident), [plain]), [ident]), None
+    doc = edit.remove(edit.replace_connections(doc, _halves(doc, ident), [plain]), [ident])
+    return _stating(doc, {i: port for i, port in _stated(doc).items() if i != ident}), None
 
 
 def gain_on_wire(doc: Document, ident: str) -> Entry | None:
@@ -127,7 +138,32 @@ def _with_gain(doc: Document, wire: Connection, strength: float) -> tuple[Docume
         Connection(wire.source, wire.source_port, gain.id, "input", wire.reads),
         Connection(gain.id, "output", wire.target, wire.target_port),
     ]
+    if wire.source_port != _stated_by(doc, wire)[0]:
+        doc = _stating(doc, {**_stated(doc), gain.id: wire.source_port})
     return edit.replace_connections(doc, [wire], halves), gain.id
+
+
+def _stated(doc: Document) -> dict[str, Json]:
+    ports = doc.layout.get(STATED)
+    return dict(ports) if isinstance(ports, dict) else {}
+
+
+def _stating(doc: Document, ports: dict[str, Json]) -> Document:
+    """Return a document whose layout has other ports that connections state without their `Gain`."""
+    if ports == _stated(doc):
+        return doc
+    rest = {key: value for key, value in doc.layout.items() if key != STATED}
+    return edit.arrange(doc, {**rest, STATED: ports} if ports else rest)
+
+
+def _stated_by(doc: Document, wire: Connection) -> list[str]:
+    """Return the ports that a connection may state for what it reads, the usual one first."""
+    source = find.entry(doc, wire.source)
+    bounded = source.element.bounded_port
+    if not _needs_bounded(doc, wire):
+        return [wire.source_port]
+    ports = [p for p in find.outputs(source) if bounded(p) == bounded(wire.source_port)]
+    return sorted(ports, key=lambda p: p == bounded(p))
 
 
 def _bounded(doc: Document, ident: str) -> Document:
@@ -156,14 +192,14 @@ def _plain(doc: Document, ident: str) -> Connection | None:
     unnamed = edit.is_unnamed(gain.names[-1], gain.element) and gain.group == source.group
     alone = gain.every == 1 and not out.reads and (gain.id, FACTOR) not in doc.links()
     used = any(gain.id == i for use in doc.uses for _, i in use.elements)
-    if not unnamed or not alone or used or gain.id in codec.line(doc.layout):
+    layout = {key: value for key, value in doc.layout.items() if key != STATED}
+    if not unnamed or not alone or used or gain.id in codec.line(layout):
         return None
-    ports = [into.source_port]
-    if _needs_bounded(doc, out):  # a plain connection states the port that has values beyond the range too
-        bounded = source.element.bounded_port
-        ports = sorted(
-            (p for p in find.outputs(source) if bounded(p) == bounded(into.source_port)),
-            key=lambda p: p == into.source_port,
-        )
+    stated = _stated(doc).get(gain.id)
+    # a plain connection states the port that has values beyond the range too
+    ports = sorted(
+        _stated_by(doc, dc.replace(into, target=out.target, target_port=out.target_port)),
+        key=lambda port: port != stated,
+    )
     plain = [Connection(into.source, p, out.target, out.target_port, into.reads) for p in ports]
     return next((c for c in plain if c.ends not in doc.ends()), None)

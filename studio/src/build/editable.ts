@@ -1,7 +1,13 @@
 import { useStudio } from "../store";
 
-// Whether the document can be changed: a record cannot, and without a connection nothing can.
-export function isEditable(): boolean {
+// Why the document cannot be changed; empty where it can.
+export function whyFixed(): string {
   const { document, connection } = useStudio.getState();
-  return document !== null && document.record == null && connection === "open";
+  return document === null || connection !== "open"
+    ? "There is no connection to the server."
+    : document.record != null
+      ? "A record is not changed; its model can be."
+      : "";
 }
+
+export const isEditable = (): boolean => whyFixed() === "";

@@ -86,7 +86,7 @@ export function pillsWidth(names: string[]): number {
 
 // The boxes stay apart as they are where a connection gets a strength.
 function widthOf({ couplings, gain }: Chain, names: Map<string, ElementView>): number {
-  return gain !== null ? 0 : pillsWidth(couplings.map((id) => names.get(id)?.name ?? ""));
+  return pillsWidth(couplings.flatMap((id) => (id === gain ? [] : (names.get(id)?.name ?? ""))));
 }
 
 // Folded groups hide their elements; an open group is a frame and precedes its elements, because xyflow

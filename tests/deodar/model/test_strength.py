@@ -14,7 +14,7 @@ from deodar.model import document_files, edit, uses
 from deodar.model.building import EndPorts, placed
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.model.strength import set_strength, strength_path
+from deodar.model.strength import STATED, set_strength, strength_path
 
 X = dd.Axis("x", 0, 100, samples=101)
 
@@ -222,6 +222,66 @@ def test_two_ports_that_a_trace_reads_keep_their_own_strengths() -> None:
     assert gain is not None
     back, _ = set_strength(doc, (model["u"].id, "bounded", gain, ""), 1)
     assert stored(back) == stored(model.document)
+
+
+def test_a_connection_that_states_the_bounded_port_states_it_again() -> None:
+    usual, bounded = remembered(), remembered()
+    bounded.disconnect(bounded["u"], bounded["trace"])
+    bounded["u"]["bounded"] >> bounded["trace"]
+    for model, port in ((usual, "output"), (bounded, "bounded")):
+        doc, gain = set_strength(model.document, (model["u"].id, port, model["trace"].id, ""), 2, keeps=True)
+        doc, _ = set_strength(doc, (model["u"].id, port, gain or "", ""), -3)
+        assert wires(doc)[1:] == [("u", "u>Gain", ""), ("u>Gain", "trace", "")]
+        assert doc.connections[1].source_port == "bounded"
+        back, none = set_strength(doc, (model["u"].id, "", gain or "", ""), 1)
+        assert none is None and stored(back) == stored(model.document)
+
+
+def _stated_odd(doc: Document, gain: str) -> Document:
+    return edit.arrange(doc, {STATED: ["bounded", gain]})
+
+
+def test_another_content_of_the_layout_under_that_key_is_passed_over() -> None:
+    model = remembered()
+    doc, gain = set_strength(model.document, plain(model, "u", "trace"), 2)
+    back, none = set_strength(_stated_odd(doc, gain or ""), (model["u"].id, "", gain or "", ""), 1)
+    assert none is None and back.connections == model.document.connections
+
+
+def coupled(coupling: Element) -> Model:
+    """Return two fields that a coupling without a name connects, with a stimulus."""
+    model = Model("coupled")
+    stimulus = model.add(dd.GaussianStimulus("s", [X], amplitude=12, sigma=4.0))
+    u, v = (model.add(dd.Field(name, [X], resting_level=-5.0)) for name in "uv")
+    stimulus >> u
+    u >> coupling >> v
+    return model
+
+
+@pytest.mark.parametrize(
+    "coupling",
+    [
+        dd.Convolve([dd.Gaussian(amplitude=6, sigma=4), dd.Gaussian(amplitude=-2, sigma=12)]),
+        dd.Weights(3 * np.eye(101), [X]),
+    ],
+)
+def test_several_kernels_and_weights_are_scaled_together_and_1_gives_the_same_bytes(
+    coupling: Element,
+) -> None:
+    model = coupled(coupling)
+    name = f"u>{type(coupling).__name__}"
+    ends = (model[name].id, "", model["v"].id, "")
+    doc, gain = set_strength(model.document, ends, 2)
+    assert wires(doc)[2:] == [(name, f"{name}>Gain", ""), (f"{name}>Gain", "v", "")]
+    doc, _ = set_strength(doc, (model[name].id, "", gain or "", ""), -0.5)
+    session, before = dd.Session(Model(document=doc)), dd.Session(model)
+    for one in (session, before):
+        one.step(300)
+    arrived = before.read(f"{name}.output")
+    assert np.abs(arrived).max() > 1
+    assert np.allclose(session.read(f"{name}>Gain.output"), -0.5 * arrived, atol=1e-5)
+    back, none = set_strength(doc, (model[name].id, "", gain or "", ""), 1)
+    assert none is None and stored(back) == stored(model.document) and back == model.document
 
 
 @pytest.mark.parametrize(

@@ -1,33 +1,52 @@
-// Above the number of a selected connection: what it does, and a slider of its strength. Of the size that it
-// has at a zoom of 1.
+// Above the number of a selected connection: what it does, and a slider of its strength, or why it has none.
+// Of the size that it has at a zoom of 1.
 
 import { useStore } from "@xyflow/react";
-import { isEditable } from "../../build/editable";
+import { whyFixed } from "../../build/editable";
 import { including } from "../../inspector/numbers/sliderRange";
 import { ValueSlider } from "../../inspector/numbers/ValueSlider";
 import { useStudio } from "../../store";
 import type { Chain } from "./chains";
 import { RANGE, useStrength, wireText } from "./strength";
 
-export function WireCard({ chain }: { chain: Chain }) {
+// `count`: the connections that are drawn as one.
+export function WireCard({ chain, count }: { chain: Chain | undefined; count: number }) {
   const zoom = useStore((state) => state.transform[2]);
-  const text = useStudio(({ elements }) => wireText(chain, elements));
-  const { value, move, end, nudge } = useStrength(chain);
   return (
     <div
       className="graph-wire-card nodrag nopan"
       style={{ transform: `translateX(-50%) scale(${1 / zoom})` }}
     >
+      {chain !== undefined ? (
+        <WireSlider chain={chain} />
+      ) : (
+        <span>
+          {count > 1
+            ? `${count} connections, each with a strength of its own: open the group to change it.`
+            : "Several couplings, each with a number of its own."}
+        </span>
+      )}
+    </div>
+  );
+}
+
+function WireSlider({ chain }: { chain: Chain }) {
+  const text = useStudio(({ elements }) => wireText(chain, elements));
+  const why = useStudio(whyFixed);
+  const { value, move, end, nudge } = useStrength(chain);
+  return (
+    <>
       <span className="one-line">{text}</span>
       <ValueSlider
         label={`Strength, ${text}`}
         value={value}
         range={including(RANGE, value)}
-        disabled={!useStudio(isEditable)}
+        disabled={why !== ""}
         onMove={move}
         onEnd={end}
         onNudge={nudge}
       />
-    </div>
+      {why !== "" && <span className="dim">{why}</span>}
+    </>
   );
 }

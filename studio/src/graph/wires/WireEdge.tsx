@@ -12,7 +12,7 @@ import type { Point } from "../layout/rects";
 import type { Wire } from "../nodes";
 import type { Chain } from "./chains";
 import { StrengthControl } from "./StrengthControl";
-import { strengthOf, useStrength, widthOf, wireText } from "./strength";
+import { hasOwn, strengthOf, useStrength, widthOf, wireText } from "./strength";
 import { WireCard } from "./WireCard";
 import { type Course, direct } from "./wirePath";
 
@@ -31,6 +31,7 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   const over = usePicked((state) => state.over === id);
   const chain = data?.chains.length === 1 ? data.chains[0] : undefined;
   const strength = useStudio((state) => (chain === undefined ? null : strengthOf(chain, state)));
+  const isOwn = useStudio((state) => chain !== undefined && hasOwn(chain, state.elements));
   const near = useFocus((state) => state.wire === id || state.changed === id);
   if (data === undefined) {
     return null;
@@ -38,8 +39,10 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   const { path, middle } = courseNow(data.course, { x: sourceX, y: sourceY }, { x: targetX, y: targetY });
   const several = data.count > 1;
   const contracted = data.content !== null;
-  const isPlain = chain !== undefined && (chain.gain !== null || chain.couplings.length === 0);
+  const pills = data.pills.filter((pill) => pill !== chain?.gain);
   const shown = contracted ? touched || picked : data.pills.length > 0 || several;
+  const isListed = !contracted || picked || revealed || pills.length === 0;
+  const hasNumber = isOwn && isListed && (near || picked || (shown && chain?.gain != null));
   return (
     <>
       <BaseEdge
@@ -55,27 +58,28 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
         data-picked={picked || over || undefined}
         style={strength === null ? undefined : ({ "--wire-width": widthOf(strength) } as CSSProperties)}
       />
-      {(isPlain
-        ? near || picked || (shown && chain.gain !== null)
-        : shown && (data.pills.length > 0 || several)) && (
+      {(hasNumber || (shown && (pills.length > 0 || several))) && (
         <EdgeLabelRenderer>
           <div
             className="graph-pills"
             data-listed={contracted || undefined}
             style={{ transform: `translate(-50%, -50%) translate(${middle.x}px, ${middle.y}px)` }}
+            onPointerEnter={() => overWire(id)}
+            onPointerLeave={() => overWire(null)}
+            onFocus={() => useFocus.setState({ changed: id })}
+            onBlur={() => useFocus.setState({ changed: null })}
           >
-            {chain !== undefined && alone && strength !== null && <WireCard chain={chain} />}
-            {isPlain ? (
-              <WireStrength wire={id} chain={chain} />
-            ) : contracted && !picked && !revealed ? (
-              <Chip wire={id} pills={data.pills} />
+            {alone && <WireCard chain={chain} count={data.count} />}
+            {!isListed ? (
+              <Chip wire={id} pills={pills} />
             ) : several ? (
               <span className="graph-count" title={`${data.count} connections`}>
                 {data.count}
               </span>
             ) : (
-              data.pills.map((pill) => <Pill key={pill} element={pill} />)
+              pills.map((pill) => <Pill key={pill} element={pill} />)
             )}
+            {hasNumber && chain !== undefined && <WireStrength wire={id} chain={chain} />}
           </div>
         </EdgeLabelRenderer>
       )}
@@ -91,10 +95,6 @@ function WireStrength({ wire, chain }: { wire: string; chain: Chain }) {
       className="graph-pill graph-chip-strength"
       data-element={chain.gain ?? undefined}
       data-problem={problem !== "" || undefined}
-      onPointerEnter={() => overWire(wire)}
-      onPointerLeave={() => overWire(null)}
-      onFocus={() => useFocus.setState({ changed: wire })}
-      onBlur={() => useFocus.setState({ changed: null })}
     >
       <StrengthControl label={label} setting={useStrength(chain)} onClick={() => pickWire(wire, false)} />
     </div>

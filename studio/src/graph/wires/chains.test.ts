@@ -45,7 +45,10 @@ test("a Gain without a name of its own is the strength of its edge, whose id sta
   const [plain] = of([], "u v").edges;
   expect(edgesOf(named("u>Gain2"), "u g v")).toMatchObject([{ id: plain?.id, gain: "g", couplings: ["g"] }]);
   expect(edgesOf(named("boost"), "u g v")).toMatchObject([{ gain: null }]);
-  expect(edgesOf(named("u>Gain"), "u g k v")).toMatchObject([{ gain: null }]);
+  const [coupled] = of(["k"], "u k v").edges;
+  for (const path of ["u g k v", "u k g v"]) {
+    expect(edgesOf(named("u>Gain"), path)).toMatchObject([{ id: coupled?.id, gain: "g" }]);
+  }
   const beside = edgesOf(named("u>Gain"), "u v", "u g v");
   expect(beside.map((edge) => edge.gain)).toEqual([null, "g"]);
   expect(new Set(beside.map(({ id }) => id)).size).toBe(2);

@@ -5,7 +5,7 @@ import { isUnnamed } from "../boxes/label";
 import { product, type Sign } from "./sign";
 
 // A connection as it is drawn: from a node to a node, with the couplings on the way in their order. `gain`:
-// the only one, which is the strength of the connection; the id is the same without it.
+// the one that is the strength of the connection alone; the id is the same without it.
 export type Chain = {
   id: string;
   source: string;
@@ -57,8 +57,9 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
   return {
     edges: edges.map((edge) => {
       const gain = gainOf(edge.couplings, known);
-      const whole = endsId(edge);
-      const id = gain === null || ids.has(whole) ? edge.id : whole;
+      const rest = edge.couplings.filter((coupling) => coupling !== gain);
+      const without = [endsId(edge), ...rest].join(" ");
+      const id = ids.has(without) ? edge.id : without;
       ids.add(id);
       return { ...edge, id, gain, sign: signOf(edge, known, kinds) };
     }),
@@ -66,10 +67,14 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
   };
 }
 
-// The Gain without a name of its own that is all that a connection has.
-export function gainOf([only, ...others]: string[], elements: Map<string, ElementView>): string | null {
-  const { name = "", kind = "" } = elements.get(only ?? "") ?? {};
-  return only !== undefined && others.length === 0 && kind === "Gain" && isUnnamed(name, kind) ? only : null;
+// The last Gain without a name of its own.
+export function gainOf(couplings: string[], elements: Map<string, ElementView>): string | null {
+  return (
+    couplings.findLast((id) => {
+      const { name = "", kind = "" } = elements.get(id) ?? {};
+      return kind === "Gain" && isUnnamed(name, kind);
+    }) ?? null
+  );
 }
 
 // An input of a coupling with a box is a number, which inhibits nothing.

@@ -27,9 +27,11 @@ const STRENGTH = { stated: 40, plain: 20 };
 
 // The width of what is drawn on a wire.
 export function roomOf(data: WireData | undefined): number {
-  const [chain, ...others] = data?.chains ?? [];
-  const isSingle = chain !== undefined && others.length === 0 && data?.room === 0;
-  return !isSingle ? (data?.room ?? 0) : chain.gain === null ? STRENGTH.plain : STRENGTH.stated;
+  const { chains: [chain, ...others] = [], room = 0, content = null } = data ?? {};
+  if (chain === undefined || others.length > 0) {
+    return room;
+  }
+  return Math.max(room + (chain.gain !== null && content === null ? STRENGTH.stated : 0), STRENGTH.plain);
 }
 
 // `rooms` are the widths of what is drawn on wires.

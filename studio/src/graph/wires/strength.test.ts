@@ -23,7 +23,7 @@ test("a wire is 1.4 to 2.6 px wide, with the logarithm of its strength", () => {
   expect(widthOf(3)).toBeCloseTo(2.286, 3);
 });
 
-test("the strength is 1, the number of the one coupling that has one, or nothing", () => {
+test("the strength is that of the Gain, of the one coupling with a single number, or 1", () => {
   const convolution = { strength: "kernel.0.amplitude", values: { kernel: [{ amplitude: -12 }] } };
   const document = fakeDocument([
     fakeElement("g", "Gain", { strength: "factor", values: { factor: 3 } }),
@@ -32,7 +32,7 @@ test("the strength is 1, the number of the one coupling that has one, or nothing
   ]);
   const elements = new Map(document.elements.map((element) => [element.id, element]));
   const of = (...couplings: string[]) => strengthOf({ couplings, gain: null }, { elements, document });
-  expect([of(), of("g"), of("k"), of("w"), of("w", "k"), of("g", "k")]).toEqual([1, 3, -12, null, -12, null]);
+  expect([of(), of("g"), of("k"), of("w"), of("w", "k"), of("g", "k")]).toEqual([1, 3, -12, 1, -12, 1]);
   const driven = { name: "drive", value: 5, links: [{ element: "g", parameter: "factor" }] };
   const shared = { ...document, parameters: [driven] };
   expect(strengthOf({ couplings: ["g"], gain: "g" }, { elements, document: shared })).toBe(5);

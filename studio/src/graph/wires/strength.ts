@@ -2,6 +2,7 @@
 // the factor of a Gain inside it, which the server makes and removes.
 
 import { useMemo, useRef } from "react";
+import type { WireEnds } from "../../build/wiring/ends";
 import type { SliderRange } from "../../inspector/numbers/sliderRange";
 import { driver } from "../../inspector/parameters/leaf";
 import { type SendSetting, type Setting, useSetting } from "../../inspector/parameters/setting";
@@ -51,10 +52,12 @@ export function widthOf(strength: number): number {
   return size === 0 ? 1.4 : Math.min(2.6, Math.max(1.4, 2 + 0.6 * Math.log10(size)));
 }
 
-// The element that has the strength of a connection, and its parameter; null: it is a plain one, or several
-// numbers are on it.
+type Weighted = Pick<Chain, "couplings" | "gain">;
+
+// The element that has the strength of a connection, and its parameter: its Gain, or the one coupling with a
+// single number. Null: nothing has, and another strength than 1 makes a Gain.
 export function holderOf(
-  { couplings, gain }: Pick<Chain, "couplings" | "gain">,
+  { couplings, gain }: Weighted,
   elements: Studio["elements"],
 ): { element: string; path: string } | null {
   const stated = (gain === null ? couplings : [gain]).flatMap((element) => {
@@ -64,17 +67,17 @@ export function holderOf(
   return stated.length === 1 ? (stated[0] ?? null) : null;
 }
 
-// Null where a connection has no single number.
+// Whether the strength is a number of the connection itself, and of no coupling with a name.
+export const hasOwn = (chain: Weighted, elements: Studio["elements"]): boolean =>
+  chain.gain !== null || holderOf(chain, elements) === null;
+
 export function strengthOf(
-  chain: Pick<Chain, "couplings" | "gain">,
+  chain: Weighted,
   { elements, document }: Pick<Studio, "elements" | "document">,
-): number | null {
-  const holder = holderOf(chain, elements);
-  if (holder === null || document === null) {
-    return chain.couplings.length === 0 ? 1 : null;
-  }
-  const element = elements.get(holder.element);
-  return element === undefined ? null : numberAt(element, holder.path, document);
+): number {
+  const { element: id = "", path = "" } = holderOf(chain, elements) ?? {};
+  const element = elements.get(id);
+  return element === undefined || document === null ? 1 : (numberAt(element, path, document) ?? 1);
 }
 
 // The number at a path of an element, or of the document parameter that drives it.
@@ -95,8 +98,8 @@ export function wireText({ source, target, sign }: Chain, elements: Studio["elem
 export function useStrength(chain: Chain): Setting<number> {
   const holder = useStudio((state) => holderOf(chain, state.elements)?.element ?? "");
   const path = useStudio((state) => holderOf(chain, state.elements)?.path ?? "");
-  const stored = useStudio((state) => strengthOf(chain, state) ?? 1);
-  const isOwn = chain.gain !== null || chain.couplings.length === 0;
+  const stored = useStudio((state) => strengthOf(chain, state));
+  const isOwn = useStudio((state) => hasOwn(chain, state.elements));
   const { send, hold } = useSending(chain);
   const last = useRef<number | null>(null);
   const setting = useNumber(holder, path, stored, isOwn ? send : undefined);
@@ -137,6 +140,18 @@ export function useNumber(
   );
 }
 
+// The connection into the Gain, or the one into which it is made: the last, so that it scales what arrives.
+function weightedEnds({ couplings, gain, ...ends }: Chain, now: string | null): WireEnds {
+  const before = couplings.slice(0, now === null || now !== gain ? undefined : couplings.indexOf(now));
+  const last = before.findLast((id) => id !== gain);
+  return {
+    source: last ?? ends.source,
+    source_port: last === undefined ? ends.source_port : "",
+    target: now ?? ends.target,
+    target_port: now === null ? ends.target_port : "",
+  };
+}
+
 function useSending(chain: Chain): { send: SendSetting; hold: (held: boolean) => void } {
   const latest = useRef({ chain, gain: chain.gain, flying: 0, held: false });
   latest.current.chain = chain;
@@ -146,12 +161,10 @@ function useSending(chain: Chain): { send: SendSetting; hold: (held: boolean) =>
   return useMemo(() => {
     const send: SendSetting = async (_, value, gesture) => {
       const now = latest.current;
-      const { source, source_port, target, target_port } = now.chain;
-      const ends = now.gain === null ? { target, target_port } : { target: now.gain, target_port: "" };
       now.flying += 1;
       const answer = await request({
         type: "set_strength",
-        wire: { source, source_port, ...ends },
+        wire: weightedEnds(now.chain, now.gain),
         value: value as number,
         gesture,
         dragging: now.held,

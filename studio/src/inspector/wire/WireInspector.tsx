@@ -7,7 +7,7 @@ import { openPalette } from "../../build/palette/palette";
 import { middleOf } from "../../build/wiring/wires";
 import { labelOf } from "../../graph/boxes/label";
 import type { Chain } from "../../graph/wires/chains";
-import { RANGE, strengthOf, useStrength, wireText } from "../../graph/wires/strength";
+import { RANGE, useStrength, wireText } from "../../graph/wires/strength";
 import { useStudio } from "../../store";
 import { PlainRow } from "../PlainRow";
 import { NumberControl } from "../numbers/NumberControl";
@@ -23,7 +23,6 @@ export function WireInspector({ wire, chain }: { wire: string; chain: Chain }) {
   const { source, source_port, target, target_port, couplings, gain, reads } = chain;
   const text = useStudio(({ elements }) => wireText(chain, elements));
   const elements = useStudio((state) => state.elements);
-  const hasStrength = useStudio((state) => strengthOf(chain, state) !== null);
   const setting = useStrength(chain);
   const several = (ports: string[] | undefined, port: string) => ((ports?.length ?? 0) > 1 ? `.${port}` : "");
   const others = couplings.filter((id) => id !== gain);
@@ -49,21 +48,19 @@ export function WireInspector({ wire, chain }: { wire: string; chain: Chain }) {
         <PlainRow name="to">
           <ElementLink id={target} port={several(elements.get(target)?.inputs, target_port)} />
         </PlainRow>
-        {hasStrength && (
-          <div className="row" role="group" aria-label="strength">
-            <div className="row-label">strength</div>
-            <div className="row-control">
-              <NumberControl
-                label="strength"
-                // a number that is not optional is never null
-                setting={setting as Setting<number | null>}
-                range={RANGE}
-                rangeKey={wire}
-                unit=""
-              />
-            </div>
+        <div className="row" role="group" aria-label="strength">
+          <div className="row-label">strength</div>
+          <div className="row-control">
+            <NumberControl
+              label="strength"
+              // a number that is not optional is never null
+              setting={setting as Setting<number | null>}
+              range={RANGE}
+              rangeKey={wire}
+              unit=""
+            />
           </div>
-        )}
+        </div>
         {others.map((id) => (
           <PlainRow key={id} name={couplingOf(elements.get(id)?.kernel)}>
             <ElementLink id={id} port="" />
