@@ -964,6 +964,13 @@ export type PictureView = {
   rows: number;
 };
 
+// Pin up to five parameters that are tuned most, chosen by what they are for.
+export type PinUsual = {
+  type: "pin_usual";
+  request?: number;
+  session?: number;
+};
+
 // Move boxes to positions, by the ids of their elements.
 export type PlaceBoxes = {
   type: "place";
@@ -1675,6 +1682,7 @@ export type ToServer =
   | OpenText
   | Paste
   | Pause
+  | PinUsual
   | PlaceBoxes
   | PlaceObject
   | Play
@@ -2013,6 +2021,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "new_experiment",
   "open_record_model",
   "paste",
+  "pin_usual",
   "place",
   "reconnect",
   "redo",

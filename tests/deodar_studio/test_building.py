@@ -671,3 +671,21 @@ def test_a_slider_that_changes_the_sign_of_a_coupling_changes_what_the_page_draw
 
     with studio(root, root / "selection.json") as address:
         play(address, scene)
+
+
+def test_the_usual_parameters_are_pinned_as_one_step_of_undo(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.do("pin_usual")
+        pins = p.document["layout"]["pins"]
+        paths = {e["id"]: e["path"] for e in p.document["elements"]}
+        assert [f"{paths[pin['element']]}.{pin['parameter']}" for pin in pins][:3] == [
+            "u.resting_level",
+            "u.kernel.0.amplitude",
+            "left.amplitude",
+        ]
+        assert len(pins) == 5 and p.document["undo"] == 1
+        await p.do("undo")
+        assert "pins" not in p.document["layout"] and not p.document["unsaved"]
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)

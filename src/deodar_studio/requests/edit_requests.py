@@ -12,6 +12,7 @@ from deodar.importers.report import Line
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.kept_presets import kept_preset
+from deodar.model.usual_pins import with_usual_pins
 from deodar_studio.files import content
 from deodar_studio.files.file_thread import in_file_thread
 from deodar_studio.messages.message import Id
@@ -86,6 +87,12 @@ def remove_document_parameter(doc: Document, *, name: Text) -> Document:
 async def arrange(hub: Hub, page: Page, *, layout: dict[str, Any], undoable: bool = True) -> None:
     """Change parts of the layout: each key replaces that key of the document's layout, None removes it."""
     await hub.project.history.arrange(layout, undoable)
+
+
+@edits()
+def pin_usual(doc: Document) -> Document:
+    """Pin up to five parameters that are tuned most, chosen by what they are for."""
+    return with_usual_pins(doc)
 
 
 @changes()

@@ -5,6 +5,7 @@ import { Activity, type CSSProperties, type KeyboardEvent, type PointerEvent } f
 import { type RefObject, useRef, useState } from "react";
 import { flushSync } from "react-dom";
 import { NeedsServer } from "../connection/NeedsServer";
+import { dropParameter } from "../pins/pinDrag";
 import { usePage } from "../state/page";
 import { changePerson, usePerson } from "../state/person";
 import { openTool } from "../state/tool";
@@ -79,6 +80,7 @@ export function Dock() {
               className={classes.tab}
               onClick={() => choose(tool)}
               onKeyDown={(event) => key(event, tool)}
+              {...(tool === "pins" && dropParameter(() => tool !== shown && choose(tool)))}
             >
               <span className="one-line">{TOOLS.get(tool)?.title}</span>
               {/* A tab may not contain a button: screen readers do not reach it. */}

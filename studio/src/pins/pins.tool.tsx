@@ -4,17 +4,19 @@
 import "../inspector/inspector.css";
 import "./pins.css";
 
-import { Menu } from "@mantine/core";
+import { Button, Menu } from "@mantine/core";
 import { useState } from "react";
 
 import { AddButton } from "../widgets/AddButton";
 import { moved } from "../inspector/parameters/part";
 import type { DockTool } from "../state/tool";
+import { request } from "../socket";
 import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import { KeptPresets } from "./KeptPresets";
 import { PinRow } from "./PinRow";
 import { isAt, pinsOf, withPin } from "./pin";
+import { dropParameter } from "./pinDrag";
 import { keepPins } from "./pinning";
 
 export const tool: DockTool = { title: "Sliders", tab: 2, firstIn: ["run", "robot"], component: Pins };
@@ -23,6 +25,7 @@ function Pins() {
   const pins = useStudio((state) => pinsOf(state.document?.layout));
   const open = useStudio((state) => state.document !== null);
   const record = useStudio((state) => state.document?.record != null);
+  const isEmpty = useStudio((state) => state.elements.size === 0);
   // The dragged row, and the row before which it would be placed.
   const [dragged, setDragged] = useState<number | null>(null);
   const [over, setOver] = useState<number | null>(null);
@@ -38,16 +41,16 @@ function Pins() {
     setOver(null);
   };
   return (
-    <div className="pins" inert={record}>
+    <div className="pins" inert={record} {...dropParameter()}>
       {pins.length === 0 && (
         <div className="pins-empty">
           <p>
             <b>No sliders yet.</b>
           </p>
-          <p>
-            Select an element and choose “Pin to Sliders” in the menu of a parameter. The sliders are kept
-            with the document.
-          </p>
+          <p>Pin a value: “…” beside it, or drag it here.</p>
+          <Button size="compact-xs" disabled={isEmpty} onClick={() => void request({ type: "pin_usual" })}>
+            Pin the usual five
+          </Button>
         </div>
       )}
       <ul className="pin-list" aria-label="Pinned parameters">

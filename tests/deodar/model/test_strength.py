@@ -274,12 +274,12 @@ def test_several_kernels_and_weights_are_scaled_together_and_1_gives_the_same_by
     doc, gain = set_strength(model.document, ends, 2)
     assert wires(doc)[2:] == [(name, f"{name}>Gain", ""), (f"{name}>Gain", "v", "")]
     doc, _ = set_strength(doc, (model[name].id, "", gain or "", ""), -0.5)
-    session, before = dd.Session(Model(document=doc)), dd.Session(model)
-    for one in (session, before):
-        one.step(300)
-    arrived = before.read(f"{name}.output")
-    assert np.abs(arrived).max() > 1
-    assert np.allclose(session.read(f"{name}>Gain.output"), -0.5 * arrived, atol=1e-5)
+    weaker, unchanged = dd.Session(Model(document=doc)), dd.Session(model)
+    for session in (weaker, unchanged):
+        session.step(300)
+    arriving = unchanged.read(f"{name}.output")
+    assert np.abs(arriving).max() > 1
+    assert np.allclose(weaker.read(f"{name}>Gain.output"), -0.5 * arriving, atol=1e-5)
     back, none = set_strength(doc, (model[name].id, "", gain or "", ""), 1)
     assert none is None and stored(back) == stored(model.document) and back == model.document
 

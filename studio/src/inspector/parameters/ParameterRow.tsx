@@ -4,6 +4,7 @@ import { Tooltip } from "@mantine/core";
 import { IconLink } from "@tabler/icons-react";
 import { useState, type MouseEvent, type ReactNode } from "react";
 
+import { dragParameter } from "../../pins/pinDrag";
 import type { DocumentParameterView, ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
 import { CostMark } from "./CostMark";
@@ -85,7 +86,11 @@ export function ParameterRow(props: RowProps) {
           disabled={form.description === "" && form.meaning === ""}
           position="top-start"
         >
-          <span className="row-name">
+          <span
+            className="row-name"
+            draggable={pinnable}
+            onDragStart={(event) => dragParameter(event, element, path)}
+          >
             {label === undefined && symbolOf(form) !== "" && <Tex source={symbolOf(form)} />}
             <span className="one-line" title={label}>
               {label ?? words(form.name)}
