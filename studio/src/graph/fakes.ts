@@ -83,6 +83,45 @@ export function fakeCosivina(file: string): DocumentView {
   return fakeDocument(elements, links);
 }
 
+type StoredModel = {
+  elements: Record<string, { kind: string }>;
+  connections: { source: string; target: string }[];
+  groups: string[];
+};
+
+const WEIGHTS = /^(Gain|Project|Convolve|Shift|Weighting|Weights|AdaptiveWeights|Pointwise|Resample)$/;
+
+// An example of the gallery: its elements with the ports that are connected, without their values.
+export function fakeExample(name: string): DocumentView {
+  const path = join(import.meta.dirname, "../../../examples", `${name}.json`);
+  const { elements, connections, groups } = JSON.parse(readFileSync(path, "utf8")) as StoredModel;
+  const parted = (end: string) => ({
+    id: end.slice(0, end.lastIndexOf(".")),
+    port: end.slice(end.lastIndexOf(".") + 1),
+  });
+  const links = connections.map(({ source, target }) => ({ from: parted(source), to: parted(target) }));
+  const portsOf = (id: string, side: "from" | "to") => [
+    ...new Set(links.flatMap((link) => (link[side].id === id ? [link[side].port] : []))),
+  ];
+  return fakeDocument(
+    Object.entries(elements).map(([id, { kind }]) =>
+      fakeElement(id, WEIGHTS.test(kind) ? "Gain" : "Field", {
+        inputs: portsOf(id, "to"),
+        outputs: portsOf(id, "from"),
+        axes: { output: ["x"] },
+      }),
+    ),
+    links.map(({ from, to }) => ({
+      source: from.id,
+      source_port: from.port,
+      target: to.id,
+      target_port: to.port,
+      reads: "",
+    })),
+    { groups: groups.map((group) => group.split(".")) },
+  );
+}
+
 export function fakeKind(name: string, room: string, more: Partial<Kind> = {}): Kind {
   return {
     name,

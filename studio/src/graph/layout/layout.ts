@@ -23,7 +23,7 @@ export const COUNT = 24;
 
 // Gaps between boxes; edges and pills take little room between the boxes that they pass, because room makes
 // all boxes smaller.
-const GAP = { rank: 40, node: 20, pill: 4, edge: 4, apart: 24 };
+const GAP = { rank: 40, node: 24, pill: 4, edge: 4, apart: 24 };
 
 type Item = { id: string; rect: Rect; placed: boolean; inner: Laid | null; group: Branch | null };
 type Laid = { items: Item[]; rect: Rect; placed: boolean };
