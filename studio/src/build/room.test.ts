@@ -8,9 +8,9 @@ import { onWire } from "./room";
 
 const BOX = { width: 156, height: 104 };
 
-type Drawn = { boxes: Record<string, Point>; wires: string[]; groups?: string[][]; comments?: object };
+type DrawnModel = { boxes: Record<string, Point>; wires: string[]; groups?: string[][]; comments?: object };
 
-function drawn({ boxes, wires, groups = [], comments = {} }: Drawn) {
+function drawn({ boxes, wires, groups = [], comments = {} }: DrawnModel) {
   const elements = Object.keys(boxes).map((path) => fakeElement(path, "Field", { axes: { output: ["x"] } }));
   const layout = { boxes, comments };
   return scene(
@@ -116,7 +116,7 @@ test("a wire that leads back makes no room, and a box in the gap is not covered"
   expect(areNear({ ...made.at, ...BOX }, { ...between.in, ...BOX })).toBe(false);
 });
 
-test("the box that is dropped does not stand in its own way", () => {
+test("the box that is dropped is no obstacle of its own", () => {
   const boxes = { ...chain, n: { x: 160, y: 10 } };
   const { made, at } = inserted(drawn({ boxes, wires: ["a b c"] }), BOX, "n");
   expect(made.at).toEqual({ x: 192, y: 0 });

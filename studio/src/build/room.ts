@@ -19,7 +19,7 @@ export type RoomyPlacing = Placing & { moves: Moves };
 // `dragged`: the box, where it exists already.
 export function onWire(
   wire: Wire,
-  wish: Point,
+  corner: Point,
   size: Size,
   scene: GraphScene,
   dragged?: string,
@@ -44,8 +44,8 @@ export function onWire(
     levels.move(level, downstream(target, source, level, levels, scene.wires), missing);
   }
   const at = {
-    x: Math.max(left, Math.min(wish.x, right + missing - size.width)),
-    y: [from.y, to.y].find((y) => Math.abs(y - wish.y) <= GAP.side) ?? wish.y,
+    x: Math.max(left, Math.min(corner.x, right + missing - size.width)),
+    y: [from.y, to.y].find((y) => Math.abs(y - corner.y) <= GAP.side) ?? corner.y,
   };
   const after = levels.shifted();
   const boxes = moved(after, scene.tree, scene.places);

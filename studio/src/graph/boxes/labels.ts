@@ -30,7 +30,7 @@ export function labelPlaces(wires: LabelledWire[], boxes: Rect[]): Map<string, P
 }
 
 // A place of a label, and what it covers there.
-type Spot = { place: Point; rect: Rect };
+type LabelSpot = { place: Point; rect: Rect };
 
 class Labels {
   private readonly lines = new Map<number, Piece[]>();
@@ -56,7 +56,7 @@ class Labels {
     for (let wire = waiting.shift(); wire !== undefined; wire = waiting.shift()) {
       const free = this.free(wire);
       const { place, rect } = free ?? this.least(wire);
-      // Others make way, as long as that does not go on and on.
+      // Others make way, a limited number of times.
       for (const id of free === null ? this.below(rect) : []) {
         const moved = (this.moves.get(id) ?? 0) + 1;
         if (moved <= MOST_MOVED) {
@@ -71,7 +71,7 @@ class Labels {
     return found;
   }
 
-  private free(wire: LabelledWire): Spot | null {
+  private free(wire: LabelledWire): LabelSpot | null {
     for (const spot of this.spots(wire)) {
       if (this.below(spot.rect).length === 0) {
         return spot;
@@ -81,7 +81,7 @@ class Labels {
   }
 
   // The places of a label that cover no box, the best first.
-  private *spots(wire: LabelledWire): Generator<Spot> {
+  private *spots(wire: LabelledWire): Generator<LabelSpot> {
     const reached = around(extent(wire), wire.room + HEIGHT.far);
     const boxes = this.boxes.filter((box) => meet(box, reached));
     const coarse = places(wire);
@@ -98,9 +98,9 @@ class Labels {
   }
 
   // The place that covers the fewest labels, of which those that moved often count more.
-  private least(wire: LabelledWire): Spot {
+  private least(wire: LabelledWire): LabelSpot {
     const [first = wire.from] = places(wire);
-    const cost = ({ rect }: Spot) =>
+    const cost = ({ rect }: LabelSpot) =>
       this.below(rect).reduce((sum, id) => sum + 1 + (this.moves.get(id) ?? 0), 0);
     const costs = [...this.spots(wire)].map((spot) => ({ spot, cost: cost(spot) }));
     const best = costs.reduce<(typeof costs)[0] | null>(
@@ -120,7 +120,7 @@ class Labels {
   }
 }
 
-function* spotsAt(all: Point[], room: number, size: LabelSize, boxes: Rect[]): Generator<Spot> {
+function* spotsAt(all: Point[], room: number, size: LabelSize, boxes: Rect[]): Generator<LabelSpot> {
   for (const place of all) {
     const rect = sized(place, room, size);
     if (!boxes.some((box) => meet(rect, box))) {
