@@ -8,6 +8,7 @@ import gc
 import os
 import signal
 import sys
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -101,8 +102,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
-    """Keep compiled programs in pytest's own folder, and byte code, also for processes that tests start."""
+    """Keep compiled programs in pytest's own folder, and byte code, also for processes that tests start; keys
+    of robots and other states of a user are in a temporary folder.
+    """
     os.environ.setdefault("DEODAR_CACHE", str(config.rootpath / ".pytest_cache" / "programs"))
+    if not hasattr(config, "workerinput"):  # workers inherit it
+        states = tempfile.TemporaryDirectory(prefix="deodar-states-", ignore_cleanup_errors=True)
+        os.environ["DEODAR_STATE"] = states.name
+        config.add_cleanup(states.cleanup)
     # a shell without job control makes what it starts with `&` ignore SIGINT, and that what it starts
     signal.signal(signal.SIGINT, signal.default_int_handler)
     # compiled kernels have tests of their own, in `native/tests`

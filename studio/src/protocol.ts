@@ -771,6 +771,17 @@ export type MeasureRegime = {
   element: string;
 };
 
+// What a motor of a robot allows: the range of its commands, and their greatest change per second.
+//
+// None: any value, or any change.
+export type MotorLimits = {
+  motor: string;
+  lower?: number | null;
+  upper?: number | null;
+  slew?: number | null;
+  unit?: string;
+};
+
 // Move elements and groups into a group; an empty `group` is the top level.
 //
 // `positions` are those of boxes, which change in the same step of undo.
@@ -791,6 +802,13 @@ export type MoveObject = {
   name: string;
   x: number;
   y: number;
+};
+
+// Narrow what a motor of the running world allows, from its next command on; nothing widens it again.
+export type NarrowMotor = {
+  type: "narrow_motor";
+  request?: number;
+  limits: MotorLimits;
 };
 
 // Open an empty document without a file.
@@ -1277,10 +1295,13 @@ export type ReturnTo = {
 //
 // `robot`: its name; empty: the world is in this process. `age`: time since its last message, ms; `lost`:
 // periods that did not arrive; `refused`: messages that one of both sides refused; `round_trip`: time from a
-// command to the message that answers it, ms.
+// command to the message that answers it, ms. `motors`: what its motors allow; `can_narrow`: whether the
+// request `narrow_motor` narrows them.
 export type RobotLink = {
   type: "robot_link";
   robot?: string;
+  motors?: MotorLimits[];
+  can_narrow?: boolean;
   age?: number;
   lost?: number;
   refused?: number;
@@ -1672,6 +1693,7 @@ export type ToServer =
   | MeasureRegime
   | MoveInto
   | MoveObject
+  | NarrowMotor
   | NewDocument
   | NewExperiment
   | OpenExample
@@ -1824,7 +1846,8 @@ export type Unwatch = {
 
 // Use a world of a kind, opened with a file below the root, or with another argument of `open`.
 //
-// `settings` are further arguments of its constructor.
+// `settings` are further arguments of its constructor. Motors are narrowed to `limits` before the first
+// command.
 export type UseWorld = {
   type: "use_world";
   request?: number;
@@ -1832,6 +1855,7 @@ export type UseWorld = {
   kind: string;
   path: string;
   settings?: Record<string, unknown>;
+  limits?: MotorLimits[];
 };
 
 // Use a world of a kind, made from the content (base64) of a file that was dropped on the page.
@@ -1946,11 +1970,13 @@ export type Welcome = {
 
 // What a world looks like: from above, or what its sensor reads, as bytes (base64) of rows of pixels.
 //
-// `missing` lists sensors and motors of the document that the world does not have.
+// `missing` lists sensors and motors of the document that the world does not have; `limits` what the motors
+// of a robot allow, if they can be narrowed.
 export type WorldPreview = {
   sensors: string[];
   motors: string[];
   missing: string[];
+  limits: MotorLimits[];
   scene: SceneView | null;
   width: number;
   height: number;

@@ -327,6 +327,108 @@ def test_the_page_shows_the_link_with_a_robot_in_another_process_and_a_pause_sto
         served.close()
 
 
+def test_a_connected_robot_is_narrowed_and_keeps_its_limits_after_a_reset_and_in_another_page(
+    file: Path,
+) -> None:
+    served = ServedWorld(Arena(LAYOUT), "epuck", "live")
+    world = dd.Zenoh(at=served.endpoint, patience=20.0)
+
+    def limits(p: Page) -> dict[str, tuple[Any, Any, Any]]:
+        motors = p.said.get("robot_link", {}).get("motors", [])
+        return {m["motor"]: (m.get("lower"), m.get("upper"), m.get("slew")) for m in motors}
+
+    async def narrow(p: Page, **stated: Any) -> Any:
+        return (await p.ask("narrow_motor", limits=stated))["problems"]
+
+    def newest(motor: str) -> float:
+        command = served.server._inbox.commands().get(motor)
+        return 0.0 if command is None else float(command.value[0])
+
+    async def story(p: Page) -> None:
+        await p.runs()
+        await p.until(lambda: limits(p) == {"left": (None, None, None), "right": (None, None, None)})
+        assert p.said["robot_link"]["can_narrow"]
+        await p.do("play")
+        await until(lambda: newest("left") == newest("right") == 1000)
+        assert await narrow(p, motor="left", lower=-5, upper=5) == []
+        assert await narrow(p, motor="right", lower=-5, upper=50, slew=2000) == []
+        assert await narrow(p, motor="right", upper=4) == []
+        assert await narrow(p, motor="left", upper=70) == []
+        await until(lambda: newest("left") == 5 and newest("right") == 4)
+        for stated, message in [
+            ({"motor": "left", "lower": 6, "upper": 9}, "no value lies within both -5 to 5 and 6 to 9"),
+            ({"motor": "lift", "lower": 6, "upper": 9}, "has no motor 'lift'"),
+        ]:
+            (problem,) = await narrow(p, **stated)
+            assert message in problem["what"], problem
+        present = {"left": (-5, 5, None), "right": (-5, 4, 2000)}
+        await p.until(lambda: limits(p) == present)
+        await p.do("reset")
+        await p.do("play")
+        await until(lambda: newest("left") == 5 and newest("right") == 4)
+        async with page(address) as second:
+            await second.until(lambda: limits(second) == present)
+
+    try:
+        with studio(file.parent, file, world=world) as address:
+            play(address, story)
+    finally:
+        world.close()
+        served.close()
+
+
+def test_a_robot_is_narrowed_before_it_gets_a_command(file: Path) -> None:
+    seen: list[float] = []
+
+    class Watched(Arena):
+        def exchange(self, motors: Any, *others: Any) -> Any:
+            seen.extend(float(command[0]) for command in motors.values())
+            return super().exchange(motors, *others)
+
+    served = ServedWorld(Watched(LAYOUT), "epuck", "live")
+    place = {"kind": "Zenoh", "path": f"epuck, at={served.endpoint}, patience=20"}
+    wide = {"unit": "", "lower": None, "upper": None, "slew": None}
+
+    async def story(p: Page) -> None:
+        await p.runs()
+        previewed = await p.ask("preview_world", **place)
+        assert previewed["problems"] == []
+        preview = previewed["preview"]
+        assert [m["motor"] for m in preview["limits"]] == ["left", "right"]
+        one_end = [{"motor": "left", "upper": 3}]
+        (problem,) = (await p.ask("use_world", **place, limits=one_end))["problems"]
+        assert "has one end" in problem["what"]
+        narrower = [
+            {**wide, "motor": "left", "lower": -3, "upper": 3},
+            {"motor": "right", "lower": -2, "upper": 2},
+        ]
+        await p.do("use_world", **place, limits=narrower)
+        await p.do("play")
+        await until(lambda: 3 in seen and 2 in seen)
+        assert set(seen) <= {0.0, 2.0, 3.0}, "no command was wider"
+
+    try:
+        with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+            play(address, story)
+    finally:
+        served.close()
+
+
+def test_the_preview_of_a_world_that_is_not_narrowed_has_no_limits(file: Path) -> None:
+    async def story(p: Page) -> None:
+        await p.runs()
+        for kind, path, motors in [("Arena", "blocks", []), ("Robot", "epuck", ["left", "right"])]:
+            preview = (await p.ask("preview_world", kind=kind, path=path))["preview"]
+            assert [m["motor"] for m in preview["limits"]] == motors
+        (problem,) = (await p.ask("narrow_motor", limits={"motor": "left", "lower": -1, "upper": 1}))[
+            "problems"
+        ]
+        assert "the world Arena cannot narrow what its motors allow" in problem["what"]
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+        play(address, story)
+
+
 @pytest.mark.parametrize(
     ("clock", "unattended", "pauses"), [("live", False, True), ("live", True, False), ("step", False, False)]
 )

@@ -725,16 +725,32 @@ class OfferedSignals(Message, frozen=True, tag="offered_signals"):
     worlds: list[WorldSignals]
 
 
+class MotorLimits(Data, frozen=True):
+    """What a motor of a robot allows: the range of its commands, and their greatest change per second.
+
+    None: any value, or any change.
+    """
+
+    motor: str
+    lower: float | None = None
+    upper: float | None = None
+    slew: float | None = None
+    unit: str = ""
+
+
 @MESSAGES.register
 class RobotLink(Message, frozen=True, tag="robot_link"):
     """The link with a robot in another process, a few times a second.
 
     `robot`: its name; empty: the world is in this process. `age`: time since its last message, ms; `lost`:
     periods that did not arrive; `refused`: messages that one of both sides refused; `round_trip`: time from a
-    command to the message that answers it, ms.
+    command to the message that answers it, ms. `motors`: what its motors allow; `can_narrow`: whether the
+    request `narrow_motor` narrows them.
     """
 
     robot: str = ""
+    motors: list[MotorLimits] = []
+    can_narrow: bool = False
     age: float = 0.0
     lost: int = 0
     refused: int = 0
@@ -866,12 +882,14 @@ class Lost(Message, frozen=True, tag="lost"):
 class WorldPreview(Data, frozen=True):
     """What a world looks like: from above, or what its sensor reads, as bytes (base64) of rows of pixels.
 
-    `missing` lists sensors and motors of the document that the world does not have.
+    `missing` lists sensors and motors of the document that the world does not have; `limits` what the motors
+    of a robot allow, if they can be narrowed.
     """
 
     sensors: list[str]
     motors: list[str]
     missing: list[str]
+    limits: list[MotorLimits]
     scene: SceneView | None
     width: int
     height: int

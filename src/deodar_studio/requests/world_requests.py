@@ -4,29 +4,42 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Annotated, Any
+
+import msgspec
 
 from deodar.credentials import masked
+from deodar.errors import WorldError
 from deodar.session.session import Session
 from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 from deodar_studio.files.file_thread import in_file_thread
-from deodar_studio.messages.to_page import Answer
+from deodar_studio.messages.to_page import Answer, MotorLimits
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
 from deodar_studio.requests.request import MESSAGES, Request, Text, answer, asks, changes
 from deodar_studio.world.embodiment import preview
 from deodar_studio.world.scene import SentBodies
 
+Limits = Annotated[Sequence[MotorLimits], msgspec.Meta(max_length=1000)]
+
 
 @changes()
 async def use_world(
-    hub: Hub, page: Page, *, kind: Text, path: Text, settings: Mapping[str, Any] = {}
+    hub: Hub,
+    page: Page,
+    *,
+    kind: Text,
+    path: Text,
+    settings: Mapping[str, Any] = {},
+    limits: Limits = (),
 ) -> None:
     """Use a world of a kind, opened with a file below the root, or with another argument of `open`.
 
-    `settings` are further arguments of its constructor.
+    `settings` are further arguments of its constructor. Motors are narrowed to `limits` before the first
+    command.
     """
-    world = await in_file_thread(lambda: _world(hub, kind, path, settings), masked(path))
+    world = await in_file_thread(lambda: _narrow_world(hub, kind, path, settings, limits), masked(path))
     await hub.project.embody(world, kind, path)
 
 
@@ -39,6 +52,47 @@ async def preview_world(
     doc = None if model is None else model.document
     picture = await in_file_thread(lambda: preview(_world(hub, kind, path, settings), doc), masked(path))
     return answer(preview=picture)
+
+
+@asks()
+async def narrow_motor(hub: Hub, page: Page, *, limits: MotorLimits) -> None:
+    """Narrow what a motor of the running world allows, from its next command on; nothing widens it again."""
+    hub.project.require_run()
+    await hub.in_engine(lambda: _narrow(hub, limits))
+
+
+def _narrow(hub: Hub, limits: MotorLimits) -> None:
+    session = hub.engine.session
+    world = None if session is None else session.world
+    hub.engine.narrow(limits.motor, *_narrower(limits, world))
+
+
+def _narrow_world(
+    hub: Hub, kind: str, path: str, settings: Mapping[str, Any], limits: Sequence[MotorLimits]
+) -> World:
+    """Open a world, and narrow its motors; after an error it is closed."""
+    world = _world(hub, kind, path, settings)
+    try:
+        with errors_of(world, "narrow"):
+            for narrow in limits:
+                world.narrow(narrow.motor, *_narrower(narrow, world))
+    except BaseException:
+        world.close()
+        raise
+    return world
+
+
+def _narrower(limits: MotorLimits, world: World | None) -> tuple[tuple[float, float] | None, float | None]:
+    """Return the arguments of `World.narrow`; an end that is missing is that of the world."""
+    rule = None if world is None else world.rules.get(limits.motor)
+    ends = (None, None) if rule is None or rule.limits is None else rule.limits
+    lower = ends[0] if limits.lower is None else limits.lower
+    upper = ends[1] if limits.upper is None else limits.upper
+    if lower is None and upper is None:
+        return None, limits.slew
+    if lower is None or upper is None:
+        raise WorldError("has one end; a range has two", where=limits.motor, fix="Type both numbers")
+    return (lower, upper), limits.slew
 
 
 def _world(hub: Hub, kind: str, path: str, settings: Mapping[str, Any]) -> World:

@@ -351,7 +351,9 @@ def preview(world: World, doc: Document | None) -> WorldPreview:
             if own is not None:
                 picture = own
             elif seen is None and free:
-                picture = world.sense(free[0], PREVIEW, 0.0).transpose(1, 0, 2)
+                # a robot is recognised by its name; its first sensor may be read over other axes only
+                with contextlib.suppress(*() if world.link() is None else (WorldError,)):
+                    picture = world.sense(free[0], PREVIEW, 0.0).transpose(1, 0, 2)
     finally:
         world.close()
     pixels = (np.clip(picture, 0, 1) * 255).astype(np.uint8)
@@ -359,6 +361,7 @@ def preview(world: World, doc: Document | None) -> WorldPreview:
         sensors=list(world.sensors),
         motors=list(world.motors),
         missing=[] if doc is None else missing(world, doc),
+        limits=scene.motor_limits(world) if world.can_narrow else [],
         scene=scene.scene(seen).scene,
         width=pixels.shape[1],
         height=pixels.shape[0],

@@ -6,6 +6,7 @@ import base64
 
 from deodar.worlds import _scene
 from deodar.worlds._base import World
+from deodar.worlds._motor_rule import MotorRule
 from deodar.worlds._scene import Solid
 from deodar_studio.live.published import PublishedState
 from deodar_studio.live.track import Trail
@@ -15,6 +16,7 @@ from deodar_studio.messages.to_page import (
     BodyView,
     BoxView,
     MarkView,
+    MotorLimits,
     PictureView,
     RobotLink,
     SceneView,
@@ -60,9 +62,26 @@ def scene(seen: _scene.Scene | None, note: str = "", world: World | None = None)
 def robot_link(world: World | None) -> RobotLink:
     """Return the message with the link of a running world, rounded to what a page shows."""
     link = None if world is None else world.link()
-    if link is None:
+    if world is None or link is None:
         return RobotLink()
-    return made_of(RobotLink, link, age=round(link.age, -1), round_trip=round(link.round_trip, 1))
+    return made_of(
+        RobotLink,
+        link,
+        age=round(link.age, -1),
+        round_trip=round(link.round_trip, 1),
+        motors=motor_limits(world),
+        can_narrow=world.can_narrow,
+    )
+
+
+def motor_limits(world: World) -> list[MotorLimits]:
+    """Return what the motors of a world allow."""
+    limits: list[MotorLimits] = []
+    for motor, signal in world.motors.items():
+        rule = world.rules.get(motor, MotorRule())
+        lower, upper = rule.limits or (None, None)
+        limits.append(MotorLimits(motor=motor, lower=lower, upper=upper, slew=rule.slew, unit=signal.unit))
+    return limits
 
 
 class SentBodies:

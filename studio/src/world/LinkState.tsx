@@ -1,14 +1,18 @@
-// The link with a robot in another process: a line in the panel of the world, and its stop: a button in the
-// foot of the page, and the key Escape everywhere. The run pauses; the server then puts the motors to rest,
-// and they get no more commands.
+// The link with a robot in another process: a line in the panel of the world, and its stop with what the motors
+// allow: a button in the foot of the page, and the key Escape everywhere. The run pauses; the server then puts
+// the motors to rest, and they get no more commands.
 
-import { Button } from "@mantine/core";
+import "./world.css";
+
+import { Button, Popover } from "@mantine/core";
 import { useEffect, useSyncExternalStore } from "react";
 
 import { linkText } from "./linkText";
 import { live } from "./live";
+import { motorText } from "./motorText";
+import { NarrowMotors } from "./NarrowMotors";
 import type { Answer } from "../protocol";
-import { request } from "../socket";
+import { request, socket } from "../socket";
 
 export function LinkState() {
   const link = useSyncExternalStore(live.listen, live.link);
@@ -22,14 +26,48 @@ export function LinkState() {
   );
 }
 
+// How many motors are named beside the stop.
+const MOST_NAMED = 3;
+
 export function StopButton() {
-  const connected = useSyncExternalStore(live.listen, () => live.link() !== null);
+  const link = useSyncExternalStore(live.listen, live.link);
+  if (link === null) {
+    return null;
+  }
+  const { motors = [], can_narrow = false } = link;
+  const named = motors.length > MOST_NAMED ? motors.slice(0, MOST_NAMED - 1) : motors;
   return (
-    connected && (
+    <div className="robot-stop">
       <Button size="compact-md" color="red" title="Stop the robot (Escape)" onClick={() => void stopRobot()}>
         Stop
       </Button>
-    )
+      {motors.length > 0 && (
+        <Popover position="top-start" width={330} shadow="md" trapFocus returnFocus>
+          <Popover.Target>
+            <button type="button" className="robot-motors numbers" title={motors.map(motorText).join("\n")}>
+              {named.map((motor) => (
+                <span key={motor.motor} className="one-line">
+                  {motorText(motor)}
+                </span>
+              ))}
+              {named.length < motors.length && <span>and {motors.length - named.length} more motors</span>}
+            </button>
+          </Popover.Target>
+          <Popover.Dropdown aria-label="Limits of the motors">
+            <p className="dim">
+              {can_narrow
+                ? "Each number can be made narrower, from the next command on."
+                : "The robot states these limits; they cannot be narrowed here."}
+            </p>
+            {can_narrow ? (
+              <NarrowMotors motors={motors} set={(limits) => socket.ask({ type: "narrow_motor", limits })} />
+            ) : (
+              motors.map((motor) => <p key={motor.motor}>{motorText(motor)}</p>)
+            )}
+          </Popover.Dropdown>
+        </Popover>
+      )}
+    </div>
   );
 }
 

@@ -12,13 +12,14 @@ import { base64, isTooLarge } from "../files/flows";
 import { lastPart } from "../files/paths";
 import { pageInk } from "../plots/colors/look";
 import { paintBytes } from "../draw/paint";
-import type { Answer, Kind, ListedProblem, WorldPreview, WorldSettingView } from "../protocol";
+import type { Answer, Kind, ListedProblem, MotorLimits, WorldPreview, WorldSettingView } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
 import { NumberField } from "../widgets/NumberField";
 import { bytesOf } from "./base64";
 import { draw } from "./draw";
 import { NOTHING_SEEN } from "./live";
+import { NarrowMotors } from "./NarrowMotors";
 import { frameOf } from "./planFrame";
 
 type SettingValues = Record<string, unknown>;
@@ -52,6 +53,7 @@ function WorldForm({ kind, done }: { kind: Kind; done: () => void }) {
   const [values, setValues] = useState<SettingValues>({});
   const [problems, setProblems] = useState<ListedProblem[]>([]);
   const [preview, setPreview] = useState<WorldPreview | null>(null);
+  const [limits, setLimits] = useState<Record<string, MotorLimits>>({});
   const take = (found: Answer) => {
     setProblems(found.problems ?? []);
     return (found.problems ?? []).length === 0;
@@ -61,6 +63,7 @@ function WorldForm({ kind, done }: { kind: Kind; done: () => void }) {
   // What the world looks like, some time after the last change.
   useEffect(() => {
     setPreview(null);
+    setLimits({});
     if (path === "") {
       return;
     }
@@ -82,7 +85,13 @@ function WorldForm({ kind, done }: { kind: Kind; done: () => void }) {
     const settings = values;
     const { answer } =
       typeof argument === "string"
-        ? await socket.ask({ type: "use_world", kind: kind.name, path: argument, settings })
+        ? await socket.ask({
+            type: "use_world",
+            kind: kind.name,
+            path: argument,
+            settings,
+            limits: Object.values(limits),
+          })
         : await socket.ask({
             type: "use_world_content",
             kind: kind.name,
@@ -116,6 +125,15 @@ function WorldForm({ kind, done }: { kind: Kind; done: () => void }) {
         </details>
       )}
       {preview !== null && <Preview preview={preview} />}
+      {preview !== null && preview.limits.length > 0 && (
+        <fieldset className="world-limits">
+          <legend>The robot stays within these limits</legend>
+          <NarrowMotors
+            motors={preview.limits}
+            set={(typed) => setLimits((before) => ({ ...before, [typed.motor]: typed }))}
+          />
+        </fieldset>
+      )}
       {missing.length > 0 && (
         <p className="world-missing" role="status">
           This world has no {missing.join(", ")}, which the model needs.
