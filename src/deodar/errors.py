@@ -106,6 +106,10 @@ class WorldFix(Fix):
     """A fix that is another world, or another sensor or motor of the world, which the user chooses."""
 
 
+class TrustFix(Fix):
+    """A fix that is trust in the functions that a document names."""
+
+
 class EditFix(Fix):
     """A fix that is an edit of the document; its text follows from the edit.
 

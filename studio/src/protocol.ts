@@ -718,7 +718,8 @@ export type ListSaved = {
 //
 // A warning does not prevent a run. `repair` says what the request of that name does about it; empty:
 // nothing. `wire` is a connection of which the person has to choose a part: an empty end, or the coupling
-// between two ends. `world`: another world, or another sensor or motor of the world, may solve it.
+// between two ends. `world`: another world, or another sensor or motor of the world, may solve it. `trust`:
+// the document names functions, which the studio runs only with trust.
 export type ListedProblem = {
   what: string;
   where?: string;
@@ -728,6 +729,7 @@ export type ListedProblem = {
   repair?: string;
   wire?: EndsView | null;
   world?: boolean;
+  trust?: boolean;
 };
 
 // A stream without data, and the reason: the element was removed, or the port cannot be read.
@@ -907,6 +909,13 @@ export type OpenText = {
   name: string;
   text: string;
   discard?: boolean;
+};
+
+// Remove the elements that run functions which the file names, as one step of undo.
+export type OpenWithoutFunctions = {
+  type: "open_without_functions";
+  request?: number;
+  session?: number;
 };
 
 // The whole document; None: none is open. `session` increases when a document is opened or closed.
@@ -1702,6 +1711,7 @@ export type ToServer =
   | OpenPackage
   | OpenRecordModel
   | OpenText
+  | OpenWithoutFunctions
   | Paste
   | Pause
   | PinUsual
@@ -2046,6 +2056,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "move_into",
   "new_experiment",
   "open_record_model",
+  "open_without_functions",
   "paste",
   "pin_usual",
   "place",

@@ -211,7 +211,15 @@ def test_a_pasted_function_runs_only_where_the_studio_was_started_with_trust(
         await p.runs()
         await made(p, "paste", text=text)
         await p.until(lambda: p.clock["failure"])
-        assert "--trust" in p.clock["failure"][0]["fix"] and not p.clock["failure"][0]["repair"]
+        (problem,) = p.clock["failure"]
+        assert problem["trust"] and not problem["repair"] and "--" not in problem["what"] + problem["fix"]
+        assert "pasted_module:f" in problem["what"]
+        before = len(p.document["elements"])
+        await p.do("open_without_functions")
+        await p.until(lambda: len(p.document["elements"]) == before - 1)
+        await p.until(lambda: not p.clock["failure"])
+        await p.do("undo")
+        await p.until(lambda: p.clock["failure"])
         await p.do("undo")
         await p.runs()
         await p.do("step", n=5)

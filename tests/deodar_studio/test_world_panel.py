@@ -406,6 +406,9 @@ def test_a_robot_is_narrowed_before_it_gets_a_command(file: Path) -> None:
         await p.do("play")
         await until(lambda: 3 in seen and 2 in seen)
         assert set(seen) <= {0.0, 2.0, 3.0}, "no command was wider"
+        assert "is commanded by" in (await p.ask("preview_world", **place))["problems"][0]["what"]
+        await p.do("use_world", kind="Arena", path="blocks")
+        assert (await p.ask("preview_world", **place))["problems"] == [], "the robot was left"
 
     try:
         with studio(file.parent, file, world=Arena(LAYOUT)) as address:

@@ -42,7 +42,7 @@ from deodar.compiler.plan import Plan, plan
 from deodar.compiler.program import BEGUN, Chunk, Port, Program, precision_context
 from deodar.compiler.shard import DividedFields
 from deodar.element import Arrays
-from deodar.errors import Fix, Untrusted
+from deodar.errors import TrustFix, Untrusted
 from deodar.kind_errors import leaked
 from deodar.leaves import parameter_values
 from deodar.model.document import Document
@@ -605,10 +605,10 @@ def require_trust(model: Model, doc: Document) -> None:
             raise Untrusted(
                 f"the document asks to run the function {name!r}",
                 where=e.path,
-                fix=Fix(
+                fix=TrustFix(
                     "If you trust it: dd.load(file, trust=True); after unpickling"
                     " dd.Model(document=model.document, trusted=True)",
                     "If you trust it: --trust",
-                    "If you trust it, start the studio with --trust",
+                    "Open it without them, or state your trust where the studio is started",
                 ),
             )

@@ -310,12 +310,15 @@ class Engine:
         )
 
     def see(self, world: World) -> None:
-        """Use another world."""
+        """Use another world. A robot that it replaces is left, and may be commanded by others again."""
         self._halt()
         if self.session is not None:
-            worlds = world, self.session.world
-            if any(one is not None and one.can_narrow for one in worlds):
+            replaced = self.session.world
+            if any(each is not None and each.can_narrow for each in (world, replaced)):
                 self.states.forget()  # they have the motors of another world, or other limits
+            if replaced is not None and replaced is not world and replaced.link() is not None:
+                with errors_of(replaced, "close"):
+                    replaced.close()
             self.session.world = world
         self.failure, self._stale = ((), ()), True
 

@@ -32,7 +32,8 @@ class ListedProblem(Data, frozen=True):
 
     A warning does not prevent a run. `repair` says what the request of that name does about it; empty:
     nothing. `wire` is a connection of which the person has to choose a part: an empty end, or the coupling
-    between two ends. `world`: another world, or another sensor or motor of the world, may solve it.
+    between two ends. `world`: another world, or another sensor or motor of the world, may solve it. `trust`:
+    the document names functions, which the studio runs only with trust.
     """
 
     what: str
@@ -43,6 +44,7 @@ class ListedProblem(Data, frozen=True):
     repair: str = ""
     wire: EndsView | None = None
     world: bool = False
+    trust: bool = False
 
 
 class ParameterForm(Data, frozen=True):

@@ -9,7 +9,7 @@ from typing import Any
 from deodar.errors import ParameterError
 from deodar.importers import presets
 from deodar.importers.report import Line
-from deodar.model import edit, find
+from deodar.model import building, edit, find
 from deodar.model.document import Document
 from deodar.model.kept_presets import kept_preset
 from deodar.model.usual_pins import with_usual_pins
@@ -54,6 +54,12 @@ async def describe(
 async def repair(hub: Hub, page: Page, *, where: Text, what: Text) -> Answer:
     """Do what the `repair` of a listed problem says, as one step of undo."""
     return answer(cost=await hub.project.history.repair(where, what))
+
+
+@edits()
+def open_without_functions(doc: Document) -> Document:
+    """Remove the elements that run functions which the file names, as one step of undo."""
+    return building.remove(doc, [e.id for e in doc.entries if e.element.external_code()])
 
 
 @edits()

@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 
 from deodar.errors import Problem as Wrong
+from deodar.errors import TrustFix
 from deodar.experiments.design import KINDS, USUAL, Design, by_key
 from deodar.experiments.trial import TrialPlan
 from deodar.importers import stored_report
@@ -124,8 +125,9 @@ def problems(
         if doc is not None and places is not None:
             button = repairs.button(doc, p, places) if buttons else button
             elements = [i for path in (p.where, *paths) if (i := places.element(path))] or [""]
+        trust = isinstance(p.fix, TrustFix)
         out += [
-            made_of(ListedProblem, p, fix=p.fix_at("page"), element=ident, **button)
+            made_of(ListedProblem, p, fix=p.fix_at("page"), element=ident, trust=trust, **button)
             for ident in dict.fromkeys(elements)
         ]
     return out

@@ -38,7 +38,12 @@ export function StopButton() {
   const named = motors.length > MOST_NAMED ? motors.slice(0, MOST_NAMED - 1) : motors;
   return (
     <div className="robot-stop">
-      <Button size="compact-md" color="red" title="Stop the robot (Escape)" onClick={() => void stopRobot()}>
+      <Button
+        size="compact-md"
+        color="#b3261e"
+        title="Stop the robot (Escape)"
+        onClick={() => void stopRobot()}
+      >
         Stop
       </Button>
       {motors.length > 0 && (
