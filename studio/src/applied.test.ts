@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 
 import { applied } from "./applied";
 import { fakeConnections, fakeDocument, fakeElement } from "./graph/fakes";
-import type { DocumentView, Difference } from "./protocol";
+import type { DocumentView, KeyedDifference } from "./protocol";
 import { useStudio } from "./store";
 
 const [u, v, w] = [
@@ -50,7 +50,7 @@ test("entries of an object are removed, replaced and added by their keys", () =>
 
 test("a removed element is no longer selected in the store, and the others keep their entries", () => {
   const { take, select } = useStudio.getState();
-  const edited = (version: number, difference: Difference) =>
+  const edited = (version: number, difference: KeyedDifference) =>
     take({ type: "edited", version, difference, cost: "recompile" });
   take({ type: "opened", session: 1, version: 1, document });
   const { elements } = useStudio.getState();

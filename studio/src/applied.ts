@@ -1,8 +1,8 @@
 // An object or a list after a difference: what did not change stays the same object.
 
-import type { Difference } from "./protocol";
+import type { KeyedDifference } from "./protocol";
 
-export function applied<T>(before: T, { inside = {}, removed = [], changed = {} }: Difference): T {
+export function applied<T>(before: T, { inside = {}, removed = [], changed = {} }: KeyedDifference): T {
   const entries = new Map<string, unknown>(Object.entries(before as object));
   Object.entries(inside).forEach(([key, part]) => entries.set(key, applied(entries.get(key), part)));
   removed.forEach((key) => entries.delete(key));

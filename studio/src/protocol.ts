@@ -141,7 +141,9 @@ export type ApplyTuning = {
   session?: number;
 };
 
-// Change parts of the layout: each key replaces that key of the document's layout, None removes it.
+// Change parts of the layout: each key replaces that key of `LayoutView`, None removes it.
+//
+// What later versions and other programs store beside it stays in the document.
 export type Arrange = {
   type: "arrange";
   request?: number;
@@ -182,6 +184,12 @@ export type BodyView = {
   y: number;
   heading: number;
   radius: number;
+};
+
+// The upper left corner of a box, in pixels.
+export type BoxPlace = {
+  x: number;
+  y: number;
 };
 
 // A solid box of the world: its middle, size and colour (red, green, blue, 0 to 1).
@@ -254,6 +262,15 @@ export type Comment = {
   at?: unknown[] | null;
   size?: unknown[] | null;
   remove?: boolean;
+};
+
+// A comment on the canvas.
+export type CommentView = {
+  x: number;
+  y: number;
+  text: string;
+  width: number;
+  height: number;
 };
 
 // Compare the open record with another one below the root; a `comparison` message follows.
@@ -359,17 +376,6 @@ export type Describe = {
   time_unit?: string | null;
 };
 
-// What an edit changes of an object or a list, by key.
-//
-// The keys in `removed` go, `inside` has the differences of entries that changed in part, `changed` the new
-// values of the others. A list has the indices of its entries as keys: in `removed` and `inside` those before
-// the edit, in `changed` those after it, where the entries are inserted in ascending order.
-export type Difference = {
-  removed?: string[];
-  inside?: Record<string, Difference>;
-  changed?: Record<string, unknown>;
-};
-
 // The first moment at which a port of two records differs, and the sample with the largest difference.
 //
 // `at` is the position of the sample, as text; `copy` the trial and the point of a sweep, as indices. A value
@@ -418,7 +424,7 @@ export type DocumentView = {
   connections: ConnectionView[];
   groups: string[][];
   parameters: DocumentParameterView[];
-  layout: Record<string, unknown>;
+  layout: LayoutView;
   problems: ListedProblem[];
   unsaved: boolean;
   undo: number;
@@ -449,7 +455,7 @@ export type EditExperiment = {
 export type Edited = {
   type: "edited";
   version: number;
-  difference: Difference;
+  difference: KeyedDifference;
   cost: "live" | "rebuild" | "recompile";
 };
 
@@ -646,6 +652,23 @@ export type InsertElement = {
   comments?: Record<string, unknown[]>;
 };
 
+// A preset of the document; `group` is the menu or switch that it is a choice of, if any.
+export type KeptPresetView = {
+  name: string;
+  group: string;
+};
+
+// What an edit changes of an object or a list, by key.
+//
+// The keys in `removed` go, `inside` has the differences of entries that changed in part, `changed` the new
+// values of the others. A list has the indices of its entries as keys: in `removed` and `inside` those before
+// the edit, in `changed` those after it, where the entries are inserted in ascending order.
+export type KeyedDifference = {
+  removed?: string[];
+  inside?: Record<string, KeyedDifference>;
+  changed?: Record<string, unknown>;
+};
+
 // A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 //
 // `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
@@ -667,6 +690,23 @@ export type Kind = {
   opens: string[];
   names: string[];
   settings: WorldSettingView[];
+};
+
+// How the document is shown.
+//
+// `boxes` and `comments` are by id, `tiles` by view. `folded` are the folded groups, None if the document
+// does not state them; `tiles`: None, if it has none. `view` is the one in which the document opens.
+// `every_element`: the canvas contracts none.
+export type LayoutView = {
+  boxes: Record<string, BoxPlace>;
+  folded: string[] | null;
+  comments: Record<string, CommentView>;
+  pins: PinView[];
+  presets: KeptPresetView[];
+  tiles: Record<string, TileView[]> | null;
+  plots: PlottedPort[];
+  view: "build" | "experiment" | "robot" | "run" | null;
+  every_element: boolean;
 };
 
 // Open the document that was set aside for the record of a trial, with its edits.
@@ -998,6 +1038,19 @@ export type PinUsual = {
   session?: number;
 };
 
+// A pinned parameter; `element` is empty for a document parameter.
+//
+// `lower` and `upper` are a chosen range, `label` is a name of its own; `switch`: a switch between the ends
+// of the range takes the place of a slider.
+export type PinView = {
+  element: string;
+  parameter: string;
+  lower?: number;
+  upper?: number;
+  label?: string;
+  switch?: boolean;
+};
+
 // Move boxes to positions, by the ids of their elements.
 export type PlaceBoxes = {
   type: "place";
@@ -1037,6 +1090,12 @@ export type PlotView = {
   axes: number;
   periodic: boolean;
   module: string;
+};
+
+// A port that the document names for its first plots.
+export type PlottedPort = {
+  element: string;
+  port: string;
 };
 
 // A port of an element; an empty `port` means the default one: the output, the first input.
@@ -1618,6 +1677,14 @@ export type TemplateView = {
   sentence: string;
   picture: string;
   room: "architectures" | "examples";
+};
+
+// A plot; of a `kind` that the page does not know, or None, it shows the first that fits the port.
+export type TileView = {
+  element: string;
+  kind: string | null;
+  port: string;
+  settings: Record<string, unknown>;
 };
 
 // The moments that the page can show, in document time, and the one that it shows.

@@ -552,7 +552,7 @@ def test_comments_have_no_effect_on_the_model(root: Path) -> None:
         assert not p.clock["busy"] and p.document["undo"] == 3 and p.document["unsaved"]
         await p.do("comment", comment=two, remove=True)
         await p.do("comment", comment=one, remove=True)
-        assert "comments" not in p.document["layout"]
+        assert p.document["layout"]["comments"] == {}
         assert "no comment" in (await p.ask("comment", comment=one, text="x"))["problems"][0]["what"]
 
     with studio(root, root / "selection.json") as address:

@@ -103,7 +103,7 @@ def test_two_pages_drag_one_element(root: Path) -> None:
         assert a.document["undo"] == 11, "each position is one step"
         await a.do("remove", elements=[u])
         await b.do("place", positions={u: [1, 1]})
-        assert u not in b.document["layout"].get("boxes", {}) and b.document["undo"] == 12
+        assert u not in b.document["layout"]["boxes"] and b.document["undo"] == 12
         await a.do("undo")
         assert u in [e["id"] for e in a.document["elements"]]
 

@@ -318,11 +318,9 @@ def test_one_document_parameter_drives_several(root: Path) -> None:
 def test_the_layout_is_stored_in_the_document(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
-        await p.do("arrange", layout={"panels": {"a": 1}}, undoable=False)
-        await p.until(lambda: p.document["layout"] == {"panels": {"a": 1}})
-        assert not p.document["unsaved"] and p.document["undo"] == 0, (
-            "how panels stand is nothing to ask about"
-        )
+        await p.do("arrange", layout={"folded": ["g"]}, undoable=False)
+        await p.until(lambda: p.document["layout"]["folded"] == ["g"])
+        assert not p.document["unsaved"] and p.document["undo"] == 0, "which groups are folded is no edit"
         await p.do("arrange", layout={"pins": [{"element": "e", "parameter": "tau"}]})
         await p.until(lambda: p.document["unsaved"] and p.document["undo"] == 1)
         await p.do("save")
@@ -330,10 +328,10 @@ def test_the_layout_is_stored_in_the_document(root: Path) -> None:
     with studio(root, root / "selection.json") as address:
         play(address, scene)
     layout = json.loads((root / "selection.json").read_text())["layout"]
-    assert layout == {"panels": {"a": 1}, "pins": [{"element": "e", "parameter": "tau"}]}
+    assert layout == {"folded": ["g"], "pins": [{"element": "e", "parameter": "tau"}]}
 
 
-def test_panels_and_folds_are_no_part_of_the_history(root: Path) -> None:
+def test_views_and_folds_are_no_part_of_the_history(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         u = p.element("u")
@@ -342,22 +340,23 @@ def test_panels_and_folds_are_no_part_of_the_history(root: Path) -> None:
             await p.do("arrange", layout=layout, undoable=False)
 
         def status() -> tuple[int, int, Any]:
-            return p.document["undo"], p.document["redo"], p.document["layout"]
+            layout = p.document["layout"]
+            return p.document["undo"], p.document["redo"], (layout["view"], layout["folded"])
 
         await p.do("set", element=u, parameter="tau", value=33.0)
         await p.do("undo")
-        await arrange(panels={"a": 1})
-        assert status() == (0, 1, {"panels": {"a": 1}}), "redo remains"
+        await arrange(view="run")
+        assert status() == (0, 1, ("run", None)), "redo remains"
         await p.do("redo")
         await arrange(folded=["g"])
         await p.do("undo")
-        assert status() == (0, 1, {"panels": {"a": 1}, "folded": ["g"]}), "the fold is not undone with tau"
-        for k, value in enumerate((21.0, 22.0)):  # the drag of a slider
+        assert status() == (0, 1, ("run", ["g"])), "the fold is not undone with tau"
+        for view, value in (("build", 21.0), ("robot", 22.0)):  # the drag of a slider
             await p.do("set", element=u, parameter="tau", value=value, gesture=5)
-            await arrange(panels={"a": 2 + k})
-        assert status() == (1, 0, {"panels": {"a": 3}, "folded": ["g"]}), "the drag is one step"
+            await arrange(view=view)
+        assert status() == (1, 0, ("robot", ["g"])), "the drag is one step"
         await p.do("undo")
-        assert p.document["layout"]["panels"] == {"a": 3}
+        assert p.document["layout"]["view"] == "robot"
 
     with studio(root, root / "selection.json") as address:
         play(address, scene)

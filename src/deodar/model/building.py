@@ -263,11 +263,16 @@ def placed(doc: Document, boxes: Mapping[str, BoxPosition | None]) -> Document:
     if not isinstance(old, dict):
         old = {}
     new = {k: v for k, v in old.items() if boxes.get(k, ()) is not None}
-    new |= {k: {"x": at[0], "y": at[1]} for k, at in boxes.items() if at is not None}
+    new |= {k: _box(old.get(k), at) for k, at in boxes.items() if at is not None}
     if new == old:
         return doc
     layout = {k: v for k, v in {**doc.layout, BOXES: new or None}.items() if v is not None}
     return edit.arrange(doc, layout)
+
+
+def _box(stored: Json, at: BoxPosition) -> Json:
+    """Return a box at another position, with all else that the layout holds of it."""
+    return {**(stored if isinstance(stored, dict) else {}), "x": at[0], "y": at[1]}
 
 
 def positions(doc: Document) -> dict[str, BoxPosition]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
 import msgspec
 
@@ -16,6 +16,9 @@ from deodar_studio.messages.message import Data, Id, Message
 
 MESSAGES = Family(Message)
 """All messages to the page; each class below is registered by a decorator."""
+
+ViewName: TypeAlias = Literal["build", "run", "experiment", "robot"]
+"""A view of the page."""
 
 
 class EndsView(Data, frozen=True):
@@ -203,6 +206,78 @@ class RecordView(Data, frozen=True):
     ports: dict[str, list[str]]
 
 
+class BoxPlace(Data, frozen=True):
+    """The upper left corner of a box, in pixels."""
+
+    x: float
+    y: float
+
+
+class CommentView(BoxPlace, frozen=True):
+    """A comment on the canvas."""
+
+    text: str
+    width: float
+    height: float
+
+
+class PinView(Data, frozen=True):
+    """A pinned parameter; `element` is empty for a document parameter.
+
+    `lower` and `upper` are a chosen range, `label` is a name of its own; `switch`: a switch between the ends
+    of the range takes the place of a slider.
+    """
+
+    element: Id
+    parameter: str
+    lower: float | msgspec.UnsetType = msgspec.UNSET
+    upper: float | msgspec.UnsetType = msgspec.UNSET
+    label: Annotated[str, msgspec.Meta(min_length=1)] | msgspec.UnsetType = msgspec.UNSET
+    switch: bool | msgspec.UnsetType = msgspec.UNSET
+
+
+class KeptPresetView(Data, frozen=True):
+    """A preset of the document; `group` is the menu or switch that it is a choice of, if any."""
+
+    name: str
+    group: str
+
+
+class PlottedPort(Data, frozen=True):
+    """A port that the document names for its first plots."""
+
+    element: Id
+    port: str
+
+
+class TileView(Data, frozen=True):
+    """A plot; of a `kind` that the page does not know, or None, it shows the first that fits the port."""
+
+    element: Id
+    kind: str | None
+    port: str
+    settings: dict[str, Any]
+
+
+class LayoutView(Data, frozen=True):
+    """How the document is shown.
+
+    `boxes` and `comments` are by id, `tiles` by view. `folded` are the folded groups, None if the document
+    does not state them; `tiles`: None, if it has none. `view` is the one in which the document opens.
+    `every_element`: the canvas contracts none.
+    """
+
+    boxes: dict[str, BoxPlace]
+    folded: list[str] | None
+    comments: dict[str, CommentView]
+    pins: list[PinView]
+    presets: list[KeptPresetView]
+    tiles: dict[str, list[TileView]] | None
+    plots: list[PlottedPort]
+    view: ViewName | None
+    every_element: bool
+
+
 class DocumentView(Data, frozen=True):
     """The open document.
 
@@ -221,7 +296,7 @@ class DocumentView(Data, frozen=True):
     connections: list[ConnectionView]
     groups: list[list[str]]
     parameters: list[DocumentParameterView]
-    layout: dict[str, Any]
+    layout: LayoutView
     problems: list[ListedProblem]
     unsaved: bool
     undo: int
@@ -417,7 +492,7 @@ class Comparison(Message, frozen=True, tag="comparison"):
     problems: list[ListedProblem]
 
 
-class Difference(Data, frozen=True, omit_defaults=True):
+class KeyedDifference(Data, frozen=True, omit_defaults=True):
     """What an edit changes of an object or a list, by key.
 
     The keys in `removed` go, `inside` has the differences of entries that changed in part, `changed` the new
@@ -426,7 +501,7 @@ class Difference(Data, frozen=True, omit_defaults=True):
     """
 
     removed: list[str] = msgspec.field(default_factory=list[str])
-    inside: dict[str, Difference] = msgspec.field(default_factory=dict[str, Any])
+    inside: dict[str, KeyedDifference] = msgspec.field(default_factory=dict[str, Any])
     changed: dict[str, Any] = msgspec.field(default_factory=dict[str, Any])
 
 
@@ -439,7 +514,7 @@ class Edited(Message, frozen=True, tag="edited"):
     """
 
     version: int
-    difference: Difference
+    difference: KeyedDifference
     cost: Cost
 
 

@@ -17,12 +17,12 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.sketch import effect
 from deodar.numerics.signs import Sign
-from deodar_studio.messages.to_page import Difference, Edited, ImportReportView
+from deodar_studio.messages.to_page import Edited, ImportReportView, KeyedDifference
 from deodar_studio.project.change_queue import ChangeQueue
 from deodar_studio.project.checker import Checker
 from deodar_studio.project.conversions import Conversions
 from deodar_studio.project.recent_changes import RecentChanges
-from deodar_studio.views import converted, repairs, view
+from deodar_studio.views import converted, layouts, repairs, view
 
 
 class DocumentHistory:
@@ -172,6 +172,7 @@ class DocumentHistory:
         """Change parts of the layout; without `undoable`, in all documents of the history."""
         model = self._require()
         before = model.document
+        layout = layouts.changed(before.layout, layout)
         if undoable:
             merged = {k: v for k, v in {**before.layout, **layout}.items() if v is not None}
             model.history.commit(edit.arrange(before, merged))
@@ -261,7 +262,7 @@ class DocumentHistory:
                 changes, {"problems": view.problems(new.problems, model.document)} if structural else {}, cost
             )
 
-    def _add(self, changes: Difference, others: dict[str, Any], cost: Cost) -> None:
+    def _add(self, changes: KeyedDifference, others: dict[str, Any], cost: Cost) -> None:
         """Start a new version, of which pages receive what changed and other fields of the document."""
         history = self._require().history
         status = {"unsaved": self.unsaved, "undo": history.depth, "redo": history.ahead}

@@ -91,7 +91,10 @@ def remove_document_parameter(doc: Document, *, name: Text) -> Document:
 
 @changes()
 async def arrange(hub: Hub, page: Page, *, layout: dict[str, Any], undoable: bool = True) -> None:
-    """Change parts of the layout: each key replaces that key of the document's layout, None removes it."""
+    """Change parts of the layout: each key replaces that key of `LayoutView`, None removes it.
+
+    What later versions and other programs store beside it stays in the document.
+    """
     await hub.project.history.arrange(layout, undoable)
 
 

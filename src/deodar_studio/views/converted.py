@@ -11,7 +11,6 @@ from typing import Any
 
 from deodar.element import Element
 from deodar.errors import Problem
-from deodar.importers import stored_report
 from deodar.model import document_files, find, proposed
 from deodar.model.document import Document, Entry
 from deodar.model.document_graph import graph
@@ -25,11 +24,13 @@ from deodar_studio.messages.message import made_of
 from deodar_studio.messages.to_page import (
     AxisView,
     ConnectionView,
-    Difference,
     DocumentParameterView,
     ElementView,
+    KeyedDifference,
+    LayoutView,
     LinkView,
 )
+from deodar_studio.views import layouts
 from deodar_studio.views.difference import difference
 
 MOST_RESOLVED = 2000
@@ -49,6 +50,7 @@ class Converted:
         ports: axes of the ports of each element, by id.
         elements: its elements as sent to the page, in their order, by id.
         connections: its connections as sent to the page.
+        layout: its layout as sent to the page.
         problems: problems of its structure, without warnings; those with edits are solved by them.
         nodes: its resolved nodes, for the warnings.
         warnings: its warnings in the present world.
@@ -60,6 +62,7 @@ class Converted:
     ports: Mapping[str, Ports]
     elements: Mapping[str, ElementView]
     connections: list[ConnectionView]
+    layout: LayoutView
     problems: Sequence[Problem]
     nodes: Sequence[Node]
     warnings: Sequence[Problem] = ()
@@ -67,8 +70,12 @@ class Converted:
 
 def convert(doc: Document, before: Converted | None = None) -> Converted:
     """Convert a document; elements that `before` has already are taken from there."""
+    if before is not None and before.document.layout is doc.layout:
+        layout = before.layout
+    else:
+        layout = layouts.layout(doc)
     if before is not None and _same_model(before.document, doc):
-        return dc.replace(before, document=doc)
+        return dc.replace(before, document=doc, layout=layout)
     resolved = graph(doc)
     axes, arrays = document_files.axes(doc), document_files.arrays(doc)
     found = {n.id: n for n in resolved.nodes if n.declared}
@@ -90,7 +97,7 @@ def convert(doc: Document, before: Converted | None = None) -> Converted:
         connections = [made_of(ConnectionView, wire) for wire in wires]
     most = min(proposed.MOST_TRIED, 1 + MOST_RESOLVED // (1 + len(doc.entries)))
     problems = proposed.proven(doc, resolved.problems, most)
-    return Converted(doc, axes, arrays, ports, elements, connections, problems, resolved.nodes)
+    return Converted(doc, axes, arrays, ports, elements, connections, layout, problems, resolved.nodes)
 
 
 def _same_model(old: Document, new: Document) -> bool:
@@ -130,20 +137,15 @@ def parts(converted: Converted) -> dict[str, Any]:
         "connections": converted.connections,
         "groups": [list(g) for g in doc.groups],
         "parameters": parameters(doc),
-        "layout": dict(shown_layout(doc)),
+        "layout": converted.layout,
     }
 
 
-def changes(before: Converted, after: Converted) -> Difference | None:
+def changes(before: Converted, after: Converted) -> KeyedDifference | None:
     """Return the difference of two documents; None if pages need the whole document."""
     if not (_same_axes(before.axes, after.axes) and _same_arrays(before.arrays, after.arrays)):
         return None
     return difference(parts(before), parts(after))
-
-
-def shown_layout(doc: Document) -> Mapping[str, Any]:
-    """Return the layout that the page gets: without the import report, which is a message of its own."""
-    return stored_report.without_report(doc).layout
 
 
 def _same_axes(old: Mapping[str, Axis], new: Mapping[str, Axis]) -> bool:

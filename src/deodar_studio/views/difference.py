@@ -7,14 +7,14 @@ from typing import Any, cast
 
 import msgspec
 
-from deodar_studio.messages.to_page import Difference
+from deodar_studio.messages.to_page import KeyedDifference
 
 
-def difference(before: Mapping[str, Any], after: Mapping[str, Any]) -> Difference:
+def difference(before: Mapping[str, Any], after: Mapping[str, Any]) -> KeyedDifference:
     """Return what changed between two objects; what is equal in both is left out."""
     removed = [key for key in before if key not in after]
     changed: dict[str, Any] = {}
-    inside: dict[str, Difference] = {}
+    inside: dict[str, KeyedDifference] = {}
     for key, value in after.items():
         if key not in before:
             changed[key] = value
@@ -24,10 +24,10 @@ def difference(before: Mapping[str, Any], after: Mapping[str, Any]) -> Differenc
                 changed[key] = value
             else:
                 inside[key] = part
-    return Difference(removed=removed, changed=changed, inside=inside)
+    return KeyedDifference(removed=removed, changed=changed, inside=inside)
 
 
-def _part(before: Any, after: Any) -> Difference | None:
+def _part(before: Any, after: Any) -> KeyedDifference | None:
     """Return the difference of two values; None if the second one replaces the first."""
     if isinstance(before, list) and isinstance(after, list):
         return _in_list(cast("list[Any]", before), cast("list[Any]", after))
@@ -38,7 +38,7 @@ def _part(before: Any, after: Any) -> Difference | None:
     return None
 
 
-def _in_list(before: Sequence[Any], after: Sequence[Any]) -> Difference | None:
+def _in_list(before: Sequence[Any], after: Sequence[Any]) -> KeyedDifference | None:
     """Return the difference of two lists of structs; None if entries are equal or changed their order."""
     if not all(isinstance(entry, msgspec.Struct) for entry in (*before, *after)):
         return None
@@ -50,14 +50,14 @@ def _in_list(before: Sequence[Any], after: Sequence[Any]) -> Difference | None:
         return None
     removed = [k for key, (k, _) in old.items() if key not in new]
     changed = {k: entry for key, (k, entry) in new.items() if key not in old}
-    inside: dict[str, Difference] = {}
+    inside: dict[str, KeyedDifference] = {}
     for key, (k, entry) in old.items():
         if key in new and entry is not new[key][1] and entry != new[key][1]:
             part = _part(entry, new[key][1])
             if part is None:
                 return None
             inside[k] = part
-    return Difference(removed=removed, changed=changed, inside=inside)
+    return KeyedDifference(removed=removed, changed=changed, inside=inside)
 
 
 def _key(entry: msgspec.Struct) -> object:

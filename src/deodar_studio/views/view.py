@@ -28,13 +28,13 @@ from deodar_studio.messages.to_page import (
     CopyDimension,
     Costs,
     CostView,
-    Difference,
     DocumentView,
     ExperimentForms,
     Fits,
     FittingKindView,
     FitView,
     ImportReportView,
+    KeyedDifference,
     Kind,
     ListedProblem,
     OfferView,
@@ -133,15 +133,15 @@ def problems(
     return out
 
 
-def one_parameter(doc: Document, element: str, parameter: str) -> Difference:
+def one_parameter(doc: Document, element: str, parameter: str) -> KeyedDifference:
     """Return what changed of a document of which a parameter of an element has another value."""
     axes, arrays = {a: key for key, a in document_files.axes(doc).items()}, document_files.arrays(doc)
     values = converted.values(doc.by_id()[element].element, axes, arrays)
     name = parameter.split(".")[0]
-    inside = Difference(changed={name: values[name]})
+    inside = KeyedDifference(changed={name: values[name]})
     place = next(k for k, entry in enumerate(doc.entries) if entry.id == element)
     for key in ("values", str(place), "elements"):
-        inside = Difference(inside={key: inside})
+        inside = KeyedDifference(inside={key: inside})
     return inside
 
 

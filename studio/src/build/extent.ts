@@ -1,6 +1,5 @@
 // The size of a document that is pasted, from its text.
 
-import { readBoxes } from "../graph/boxes/boxes";
 import { FRAME } from "../graph/layout/layout";
 import { boundsOf, type Point, type Size } from "../graph/layout/rects";
 import type { Kind } from "../protocol";
@@ -19,9 +18,9 @@ export function extentOf(text: string, kinds: Map<string, Kind>): Extent | null 
 }
 
 function measured(read: Pasted | null, kinds: Map<string, Kind>): Extent | null {
-  const boxes = readBoxes(read?.layout ?? {});
+  const boxes = read?.layout?.boxes ?? {};
   const rects = Object.values(read?.elements ?? {}).flatMap(({ id = "", kind = "" }) => {
-    const at = boxes.get(id);
+    const at = boxes[id];
     return at === undefined ? [] : [{ ...at, ...sizeOfKind(kinds.get(kind)) }];
   });
   if (read === null || rects.length === 0 || rects.length < Object.keys(read.elements).length) {
@@ -29,16 +28,15 @@ function measured(read: Pasted | null, kinds: Map<string, Kind>): Extent | null 
   }
   const { width, height } = boundsOf(rects);
   const depth = Math.max(0, ...(read.groups ?? []).map((path) => path.split(".").length));
-  return {
-    size: { width: width + 2 * depth * FRAME.side, height: height + depth * (FRAME.top + FRAME.bottom) },
-    pad: { x: depth * FRAME.side, y: depth * FRAME.top },
-  };
+  const size = { width: width + 2 * depth * FRAME.side, height: height + depth * (FRAME.top + FRAME.bottom) };
+  const pad = { x: depth * FRAME.side, y: depth * FRAME.top };
+  return Number.isFinite(size.width + size.height) ? { size, pad } : null;
 }
 
 type Pasted = {
   elements: Record<string, { id?: string; kind?: string }>;
   groups?: string[];
-  layout?: Record<string, unknown>;
+  layout?: { boxes?: Record<string, Point> };
 };
 
 function parsed(text: string): Pasted | null {

@@ -3,12 +3,18 @@ import { expect, test } from "vitest";
 import { fakeConnections, fakeDocument, fakeElement, fakeKind, kindsOf } from "../graph/fakes";
 import { boxesOf, overlaps, type Point } from "../graph/layout/rects";
 import { scene } from "../graph/scene";
+import type { CommentView } from "../protocol";
 import { areNear } from "./placing";
 import { onWire } from "./room";
 
 const BOX = { width: 156, height: 104 };
 
-type DrawnModel = { boxes: Record<string, Point>; wires: string[]; groups?: string[][]; comments?: object };
+type DrawnModel = {
+  boxes: Record<string, Point>;
+  wires: string[];
+  groups?: string[][];
+  comments?: Record<string, CommentView>;
+};
 
 function drawn({ boxes, wires, groups = [], comments = {} }: DrawnModel) {
   const elements = Object.keys(boxes).map((path) => fakeElement(path, "Field", { axes: { output: ["x"] } }));

@@ -1,5 +1,6 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 
+import { fakeLayout } from "../graph/fakes";
 import { openTool } from "../state/tool";
 import type { DocumentView, ExperimentView, Folder, Kind, Welcome } from "../protocol";
 import { useStudio } from "../store";
@@ -19,7 +20,7 @@ const document: DocumentView = {
   connections: [],
   groups: [],
   parameters: [],
-  layout: {},
+  layout: fakeLayout(),
   problems: [],
   unsaved: true,
   undo: 1,

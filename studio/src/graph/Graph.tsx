@@ -32,7 +32,7 @@ import { SHORTCUTS } from "../shortcuts";
 import type { Answer } from "../protocol";
 import { useOffline } from "../connection/NeedsServer";
 import { useStudio } from "../store";
-import { contractionIn, showsEvery } from "./contract";
+import { contractionIn } from "./contract";
 import { place, showEvery, toGrid, unfold } from "./layout/arrange";
 import { Box } from "./boxes/Box";
 import { ElementCard } from "./boxes/ElementCard";
@@ -146,7 +146,7 @@ function Canvas({ structure }: { structure: Structure }) {
     },
     [showAll],
   );
-  const every = contraction === null ? null : showsEvery(structure.layout);
+  const every = contraction === null ? null : structure.layout.every_element;
 
   // While the canvas is moved it is one layer that the browser only shifts: live boxes are painted about once
   // a second.

@@ -1,10 +1,18 @@
 import { expect, test } from "vitest";
-import { contract, contractAll, contractionIn, everyElement } from "./contract";
-import { fakeConnections, fakeCosivina, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
 import { openSearch } from "../build/commands";
 import { useChooser } from "../build/palette/choice";
 import { search } from "../build/palette/entries";
 import { useStudio } from "../store";
+import { contract, contractAll, contractionIn } from "./contract";
+import {
+  fakeConnections,
+  fakeCosivina,
+  fakeDocument,
+  fakeElement,
+  fakeKind,
+  fakeLayout,
+  kindsOf,
+} from "./fakes";
 import type { ElementView } from "../protocol";
 
 const KINDS = kindsOf(
@@ -53,10 +61,10 @@ test("small documents, those with groups, and those that show every element are 
   const large = fakeCosivina("presetSceneRepresentation.json");
   expect(contract(fakeCosivina("presetThreeLayerField_spRecall_adult.json"), KINDS)).toBeNull();
   expect(contract({ ...large, groups: [["g"]] }, KINDS)).toBeNull();
-  const shown = { ...large, layout: everyElement(true) };
+  const shown = { ...large, layout: fakeLayout({ every_element: true }) };
   expect(contract(shown, KINDS)).toBeNull();
   expect(contractionIn(shown, KINDS)).not.toBeNull();
-  expect(contract({ ...large, layout: everyElement(false) }, KINDS)).not.toBeNull();
+  expect(contract(large, KINDS)).not.toBeNull();
 });
 
 test("couplings between two boxes are on one wire, whatever way they lead", () => {
@@ -118,7 +126,10 @@ test("what no box reads or feeds is a box", () => {
 
 test("elements that a person has placed stay boxes", () => {
   const large = fakeCosivina("presetSceneRepresentation.json");
-  const placed = contract({ ...large, layout: { boxes: { "boost wm_s": { x: 0, y: 0 } } } }, KINDS);
+  const placed = contract(
+    { ...large, layout: fakeLayout({ boxes: { "boost wm_s": { x: 0, y: 0 } } }) },
+    KINDS,
+  );
   expect(placed?.boxes).toHaveLength(21);
 });
 

@@ -3,7 +3,6 @@
 // person has placed stay boxes.
 
 import type { ConnectionView, DocumentView, ElementView, Kind } from "../protocol";
-import { readBoxes } from "./boxes/boxes";
 import { isGrid } from "./grid";
 import { by, type Chain, gainOf, isWeight, later } from "./wires/chains";
 import { product, together, type Sign } from "./wires/sign";
@@ -34,21 +33,11 @@ export type Contraction = {
   couplings: Set<string>;
 };
 
-// The layout of a document with this key set to true shows every element.
-const EVERY = "every_element";
-
-export const showsEvery = (layout: Structure["layout"]): boolean => layout[EVERY] === true;
-
-// The change of the layout that shows every element, or contracts them again.
-export const everyElement = (shown: boolean): Record<string, true | null> => ({
-  [EVERY]: shown ? true : null,
-});
-
 // Null where all elements are drawn: in small documents, in those whose names form no grid, in those with
 // groups, which fold instead, and where a person wants to see every element.
 export function contract(structure: Structure, kinds: Map<string, Kind>): Contraction | null {
-  const placed = new Set(readBoxes(structure.layout).keys());
-  return showsEvery(structure.layout) ? null : contracted(structure, kinds, placed);
+  const { boxes, every_element } = structure.layout;
+  return every_element ? null : contracted(structure, kinds, new Set(Object.keys(boxes)));
 }
 
 // The same whatever a person wants to see or has placed; null where nothing can be contracted.

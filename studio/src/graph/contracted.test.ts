@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { CHIP } from "./contracted";
-import { fakeCosivina, fakeKind, kindsOf } from "./fakes";
+import { fakeCosivina, fakeKind, fakeLayout, kindsOf } from "./fakes";
 import { nearOf } from "./focus";
 import { PANEL } from "./layout/layout";
 import { scene } from "./scene";
@@ -42,7 +42,7 @@ test("near a box are those that a wire joins with it; near a coupling and a stim
 
 test("stored positions are kept, and where most boxes have one there is no grid for the others", () => {
   const at = (id: string, boxes: Record<string, { x: number; y: number }>) =>
-    scene({ ...DOCUMENT, layout: { boxes } }, KINDS, PANEL).places.elements.get(id);
+    scene({ ...DOCUMENT, layout: fakeLayout({ boxes }) }, KINDS, PANEL).places.elements.get(id);
   const grid = SCENE.places.elements.get("cos");
   expect(at("wm_s", { wm_s: { x: 5000, y: 7 } })).toEqual({ x: 5000, y: 7 });
   expect(at("cos", { wm_s: { x: 5000, y: 7 } })).toBeDefined();
@@ -59,5 +59,5 @@ test("small documents have no links, and their boxes show no other elements", ()
 
 test("pinned sliders change no cell of the grid", () => {
   const pins = SCENE.nodes.slice(0, 2).map(({ id }) => ({ element: id, parameter: "tau" }));
-  expect(scene({ ...DOCUMENT, layout: { pins } }, KINDS, PANEL).nodes).toEqual(SCENE.nodes);
+  expect(scene({ ...DOCUMENT, layout: fakeLayout({ pins }) }, KINDS, PANEL).nodes).toEqual(SCENE.nodes);
 });

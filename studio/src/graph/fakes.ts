@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-import type { ConnectionView, DocumentView, ElementView, Kind, ParameterForm } from "../protocol";
+import type { ConnectionView, DocumentView, ElementView, Kind, LayoutView, ParameterForm } from "../protocol";
 
 export function fakeElement(path: string, kind = "Field", more: Partial<ElementView> = {}): ElementView {
   const parts = path.split(".");
@@ -40,17 +40,22 @@ export function fakeConnections(...paths: string[]): ConnectionView[] {
   });
 }
 
+export function fakeLayout(more: Partial<LayoutView> = {}): LayoutView {
+  const lists = { pins: [], presets: [], plots: [], tiles: null, folded: null };
+  return { boxes: {}, comments: {}, view: null, every_element: false, ...lists, ...more };
+}
+
 export function fakeDocument(
   elements: ElementView[],
   connections: ConnectionView[] = [],
-  more: Partial<DocumentView> = {},
+  { layout = {}, ...more }: Partial<Omit<DocumentView, "layout">> & { layout?: Partial<LayoutView> } = {},
 ): DocumentView {
   const rest = {
     notes: "",
     axes: [],
     groups: [],
     parameters: [],
-    layout: {},
+    layout: fakeLayout(layout),
     problems: [],
     unsaved: false,
     undo: 0,

@@ -1,7 +1,7 @@
 // What the canvas shows: boxes, frames, folded groups, comments and wires, as xyflow takes them.
 
+import type { PinView } from "../protocol";
 import type { Edge, Node } from "@xyflow/react";
-import type { Pin } from "../pins/pin";
 import type { WireContent } from "./contract";
 import type { Rect } from "./layout/rects";
 import type { Chain } from "./wires/chains";
@@ -21,7 +21,7 @@ export type BoxData = {
   dots: string[];
   badges: string[];
   // Those with a slider in the box.
-  pins: Pin[];
+  pins: PinView[];
 };
 // A port of an element in a folded group that is connected with the outside.
 export type FoldedPort = { element: string; port: string; path: string };

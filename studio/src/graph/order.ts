@@ -2,7 +2,7 @@
 // by group of the document.
 
 import type { ElementView, Kind } from "../protocol";
-import { boxSize, readBoxes } from "./boxes/boxes";
+import { boxSize } from "./boxes/boxes";
 import { contract } from "./contract";
 import { inGrid } from "./contracted";
 import { digitOf, partsOf } from "./grid";
@@ -19,7 +19,7 @@ export function canvasOrder(structure: Structure, kinds: Map<string, Kind>): Ord
     return byGroup(tree(structure.elements, structure.groups, [], new Set()).root, names);
   }
   const sizes = new Map(structure.elements.map((e) => [e.id, boxSize(e)]));
-  const stored = readBoxes(structure.layout);
+  const stored = new Map(Object.entries(structure.layout.boxes));
   const grid = inGrid({ contraction, names, kinds, sizes }, stored);
   const places = grid.size === 0 ? grid : new Map([...grid, ...stored]);
   const others = structure.elements.filter(({ id }) => !places.has(id));

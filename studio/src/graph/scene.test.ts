@@ -100,14 +100,6 @@ test("all wires have courses, from port to port; those back run side by side", (
   expect(found[0]?.from).toEqual({ x: x + width + PORT / 2, y: y + height / 2 });
 });
 
-test("an invalid layout is ignored", () => {
-  const odd = { boxes: { s: { x: "left", y: 1 }, t: null }, folded: [3, "g"] };
-  expect(scene(fakeDocument(ELEMENTS, WIRES, { layout: odd }), KINDS).nodes).toHaveLength(3);
-  expect(
-    scene(fakeDocument(ELEMENTS, WIRES, { layout: { boxes: 4, folded: "g" } }), KINDS).nodes,
-  ).toHaveLength(5);
-});
-
 test("the folded groups around an element are found", () => {
   expect(foldedAround(made(["g"]).tree, "g.k")).toEqual(["g"]);
   expect(foldedAround(made([]).tree, "g.k")).toEqual([]);

@@ -2,14 +2,13 @@
 // are no part of it.
 
 import { Position, type NodeHandle } from "@xyflow/react";
-import { boxPins, type Pin } from "../pins/pin";
-import type { ElementView, Kind } from "../protocol";
-import { boxSize, dimensions, portHeight, readBoxes, readFolded } from "./boxes/boxes";
+import { boxPins } from "../pins/pin";
+import type { CommentView, ElementView, Kind, PinView } from "../protocol";
+import { boxSize, dimensions, portHeight } from "./boxes/boxes";
 import { contract, type Structure } from "./contract";
 import type { BoxNode, CommentNode, FoldedNode, FrameNode, GroupData, SceneNode, Wire } from "./nodes";
 import { CHIP, contractedWires, inGrid, linksOf, withParts } from "./contracted";
 import { chains, type Chain } from "./wires/chains";
-import { type CanvasComment, readComments } from "./boxes/comments";
 import { COUNT, FOLDED, places, type Places } from "./layout/layout";
 import type { Point, Rect, Size } from "./layout/rects";
 import { signText, together } from "./wires/sign";
@@ -41,14 +40,14 @@ export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Si
   const { elements, groups, layout } = structure;
   const contraction = contract(structure, kinds);
   const chained = contraction ?? chains(structure, kinds);
-  const found = tree(elements, groups, readFolded(layout), chained.couplings);
+  const found = tree(elements, groups, layout.folded ?? [], chained.couplings);
   const names = new Map(elements.map((e) => [e.id, e]));
   // The cells of a grid are of one size, which sliders in one of them would change for all.
   const pins = (id: string) => (contraction === null ? boxPins(layout, id) : []);
   const sizes = new Map<string, Size>(elements.map((e) => [e.id, boxSize(e, pins(e.id).length)]));
   const room = (edge: Chain) => (contraction === null ? widthOf(edge, names) : CHIP);
   const bonds = chained.edges.map((e) => ({ source: e.source, target: e.target, room: room(e) }));
-  const stored = readBoxes(layout);
+  const stored = new Map(Object.entries(layout.boxes));
   const grid = contraction === null ? [] : inGrid({ contraction, names, kinds, sizes }, stored, panel);
   const boxes = new Map([...grid, ...stored]);
   const where = places(found.root, sizes, bonds, boxes, panel);
@@ -59,7 +58,7 @@ export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Si
   return {
     nodes: [
       ...nodes.map((node) => (contraction === null ? withPins(node, pins) : withParts(node, contraction))),
-      ...readComments(layout).map(commentNode),
+      ...Object.entries(layout.comments).map(commentNode),
     ],
     wires,
     tree: found,
@@ -122,13 +121,13 @@ function nodesOf(
   return [...groups, ...boxes];
 }
 
-const withPins = (node: SceneNode, pins: (element: string) => Pin[]): SceneNode =>
+const withPins = (node: SceneNode, pins: (element: string) => PinView[]): SceneNode =>
   node.type === "box" ? { ...node, data: { ...node.data, pins: pins(node.id) } } : node;
 
 // Ids of comments cannot be those of elements.
 export const commentId = (node: string): string => node.slice("comment:".length);
 
-function commentNode({ id, text, x, y, width, height }: CanvasComment): CommentNode {
+function commentNode([id, { text, x, y, width, height }]: [string, CommentView]): CommentNode {
   return {
     id: `comment:${id}`,
     type: "comment",

@@ -11,9 +11,8 @@ import { viewOf } from "../state/person";
 import { beginTiles, followTiles, tilesIn, useTiles } from "../state/tiles";
 import { useStudio } from "../store";
 import { live } from "../world/live";
-import { viewOfAuthor } from "./author";
 import { Dock } from "./Dock";
-import { firstTiles, tilesOf } from "./firstTiles";
+import { firstTiles } from "./firstTiles";
 import classes from "./Workspace.module.css";
 import { TileGrid } from "./TileGrid";
 import { TITLES } from "./titles";
@@ -35,7 +34,7 @@ function begin(session: number): void {
   const { document, kinds } = useStudio.getState();
   if (document !== null && usePage.getState().session !== session) {
     const { layout, file } = document;
-    const stored = viewOf(file) ?? viewOfAuthor(layout);
+    const stored = viewOf(file) ?? layout.view;
     beginTiles(firstTiles(document, kinds), tilesNow);
     usePage.setState({ ...emptyPage(session, stored ?? "build"), chosen: stored !== null }, true);
   }
@@ -95,11 +94,11 @@ function Part({ title, className, hidden = false, children }: PartProps) {
   );
 }
 
-const tilesNow = () => tilesOf(useStudio.getState().document?.layout ?? {});
+const tilesNow = () => useStudio.getState().document?.layout.tiles ?? null;
 
 // Undo, and other pages, change the plots of the document too.
 function useStoredTiles(): void {
-  const tiles = useStudio((state) => state.document?.layout["tiles"]);
+  const tiles = useStudio((state) => state.document?.layout.tiles);
   useEffect(followTiles, [tiles]);
 }
 

@@ -1,15 +1,10 @@
 // What the author of a document decides about its frame: the view in which it opens, and the plots.
 
 import { request } from "../socket";
-import { emptyPage, isView, showView, usePage, type View } from "../state/page";
+import { emptyPage, showView, usePage } from "../state/page";
 import { changePerson, STANDARD, usePerson } from "../state/person";
 import { restoreTiles } from "../state/tiles";
 import { useStudio } from "../store";
-
-// The view that the document states; null: none.
-export function viewOfAuthor(layout: Record<string, unknown>): View | null {
-  return isView(layout["view"]) ? layout["view"] : null;
-}
 
 // Show views, tools and plots as the document was opened first.
 export function restoreFrame(): void {
@@ -18,7 +13,7 @@ export function restoreFrame(): void {
   const { [document?.file ?? ""]: _, ...views } = usePerson.getState().views;
   changePerson({ ...STANDARD, views });
   usePage.setState({ tabs, opened });
-  showView(viewOfAuthor(document?.layout ?? {}) ?? "build");
+  showView(document?.layout.view ?? "build");
   restoreTiles();
 }
 

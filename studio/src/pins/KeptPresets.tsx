@@ -9,7 +9,8 @@ import { DotsMenu } from "../widgets/DotsMenu";
 import { choiceText, type PresetGroup, presetGroups, removeGroup } from "./presetGroups";
 
 export function KeptPresets() {
-  const groups = useStudio((state) => presetGroups(state.document?.layout));
+  const presets = useStudio((state) => state.document?.layout.presets);
+  const groups = presetGroups(presets ?? []);
   if (groups.length === 0) {
     return null;
   }

@@ -7,10 +7,11 @@ import { useLateFocus } from "../widgets/lateFocus";
 import { numberText, typedNumber } from "../widgets/number";
 import { ProblemLine } from "../widgets/ProblemLine";
 import type { SliderRange } from "../inspector/numbers/sliderRange";
-import { changedPin, type Pin } from "./pin";
+import type { PinView } from "../protocol";
+import { changedPin } from "./pin";
 import { keepPins } from "./pinning";
 
-type PinEditingProps = { what: "range" | "label"; pin: Pin; range: SliderRange; onDone: () => void };
+type PinEditingProps = { what: "range" | "label"; pin: PinView; range: SliderRange; onDone: () => void };
 
 export function PinEditing({ what, pin, range, onDone }: PinEditingProps) {
   const field = useLateFocus();
@@ -23,7 +24,7 @@ export function PinEditing({ what, pin, range, onDone }: PinEditingProps) {
     event.preventDefault();
     const [low, high] = [typedNumber(lower), typedNumber(upper)];
     if (what === "label") {
-      keepPins((pins) => changedPin(pins, pin, { label: label.trim() }));
+      keepPins((pins) => changedPin(pins, pin, { label: label.trim() || undefined }));
     } else if (low === null || high === null || low >= high) {
       setWrong("A range needs two numbers, the smaller one first");
       return;

@@ -9,16 +9,16 @@ import { NumberControl } from "../inspector/numbers/NumberControl";
 import { Prose } from "../widgets/Prose";
 import { SwitchControl } from "../inspector/numbers/SwitchControl";
 import { Tex } from "../widgets/Tex";
-import type { LinkView } from "../protocol";
+import type { LinkView, PinView } from "../protocol";
 import { useStudio } from "../store";
 import { PinEditing } from "./PinEditing";
 import { PinMenu } from "./PinMenu";
-import { changedPin, endsOf, withoutPin, type Pin } from "./pin";
+import { changedPin, endsOf, withoutPin } from "./pin";
 import { keepPins } from "./pinning";
 import { usePin } from "./usePin";
 
 type PinRowProps = {
-  pin: Pin;
+  pin: PinView;
   place: { index: number; count: number };
   mark: "" | "before" | "after";
   onDrag: () => void;
@@ -134,7 +134,7 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
 }
 
 // The end of a path is the most specific part: the beginning is cut first.
-function PinName({ pin, path }: { pin: Pin; path: string }) {
+function PinName({ pin, path }: { pin: PinView; path: string }) {
   if (pin.label !== undefined) {
     return <span className="one-line pin-label">{pin.label}</span>;
   }

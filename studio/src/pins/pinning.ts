@@ -3,7 +3,8 @@
 import { openTool } from "../state/tool";
 import { request } from "../socket";
 import { useStudio } from "../store";
-import { type Pin, pinsOf, withPin } from "./pin";
+import type { PinView } from "../protocol";
+import { withPin } from "./pin";
 
 // Pin a parameter as the last one, and show the sliders.
 export function pin(element: string, parameter: string): void {
@@ -12,10 +13,10 @@ export function pin(element: string, parameter: string): void {
 }
 
 // Keep them in the document, as one step of undo.
-export function keepPins(change: (pins: Pin[]) => Pin[]): void {
-  const pins = pinsOf(useStudio.getState().document?.layout);
+export function keepPins(change: (pins: PinView[]) => PinView[]): void {
+  const pins = useStudio.getState().document?.layout.pins ?? [];
   const next = change(pins);
   if (next !== pins) {
-    void request({ type: "arrange", layout: { pins: next.length > 0 ? next : null }, undoable: true });
+    void request({ type: "arrange", layout: { pins: next }, undoable: true });
   }
 }

@@ -15,14 +15,14 @@ import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
 import { KeptPresets } from "./KeptPresets";
 import { PinRow } from "./PinRow";
-import { isAt, pinsOf, withPin } from "./pin";
+import { isAt, usePins, withPin } from "./pin";
 import { dropParameter } from "./pinDrag";
 import { keepPins } from "./pinning";
 
 export const tool: DockTool = { title: "Sliders", tab: 2, firstIn: ["run", "robot"], component: Pins };
 
 function Pins() {
-  const pins = useStudio((state) => pinsOf(state.document?.layout));
+  const pins = usePins();
   const open = useStudio((state) => state.document !== null);
   const record = useStudio((state) => state.document?.record != null);
   const isEmpty = useStudio((state) => state.elements.size === 0);
@@ -76,7 +76,7 @@ function Pins() {
 // Document parameters that have no slider yet.
 function DocumentParameterMenu() {
   const document = useStudio((state) => state.document);
-  const pins = pinsOf(document?.layout);
+  const pins = usePins();
   const rest = (document?.parameters ?? []).filter(({ name }) => !pins.some((pin) => isAt(pin, "", name)));
   if (rest.length === 0) {
     return null;

@@ -4,10 +4,9 @@ import { chosen } from "../inspector/numbers/sliderRange";
 import { type ControlLook, useDocumentParameterLook, useLook } from "../inspector/parameters/controlLook";
 import { driver } from "../inspector/parameters/leaf";
 import { type Setting, useSetting } from "../inspector/parameters/setting";
-import type { DocumentParameterView, ElementView } from "../protocol";
+import type { DocumentParameterView, ElementView, PinView } from "../protocol";
 import { useStudio } from "../store";
 import { valueAt } from "../values";
-import type { Pin } from "./pin";
 
 type PinnedNumber = {
   element: ElementView | undefined;
@@ -20,7 +19,7 @@ type PinnedNumber = {
   rangeKey: string;
 };
 
-export function usePin({ element: id, parameter, lower, upper }: Pin): PinnedNumber {
+export function usePin({ element: id, parameter, lower, upper }: PinView): PinnedNumber {
   const element = useStudio((state) => state.elements.get(id));
   const shared = useStudio((state) =>
     id === ""

@@ -1,20 +1,5 @@
 import { expect, it } from "vitest";
-import { readParams, readSettings } from "./settings";
-
-it("invalid parameters of a panel are replaced by empty ones", () => {
-  expect(readParams({ element: 3, kind: 7, port: null, settings: [1] })).toEqual({
-    element: "",
-    kind: null,
-    port: "",
-    settings: {},
-  });
-  expect(readParams({ element: "a", kind: "heat", port: "output", settings: { range: [0, 1] } })).toEqual({
-    element: "a",
-    kind: "heat",
-    port: "output",
-    settings: { range: [0, 1] },
-  });
-});
+import { readSettings } from "./settings";
 
 it("invalid settings are replaced by the defaults", () => {
   const usual = readSettings({});

@@ -43,17 +43,6 @@ export type PlotParams = {
 
 export const WINDOWS = [500, 2000, 10_000, null];
 
-export function readParams(params: Record<string, unknown>): PlotParams {
-  const { element, kind, port, settings } = params;
-  return {
-    element: typeof element === "string" ? element : "",
-    // The panel shows a kind that it does not know, or whose package is missing, as the first that fits.
-    kind: typeof kind === "string" ? kind : null,
-    port: typeof port === "string" ? port : "",
-    settings: isRecord(settings) ? settings : {},
-  };
-}
-
 export function readSettings(given: Record<string, unknown>): PlotSettings {
   return {
     shown: isTexts(given["shown"]) ? given["shown"] : null,

@@ -3,6 +3,7 @@
 
 import { create } from "zustand";
 import type { PlotParams } from "../plots/settings";
+import { same } from "../inspector/parameters/part";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { type View, VIEWS } from "./page";
@@ -134,12 +135,10 @@ function saveTiles(): void {
       followTiles();
     }
   };
-  // an old arrangement of panels is replaced
-  const old = document.layout["panels"] === undefined ? {} : { panels: null };
   const tiles = plain(useTiles.getState().views);
   // what is undone is a document, not a record
   const undoable = document.record == null;
-  request({ type: "arrange", layout: { tiles, ...old }, undoable }).then(answered, answered);
+  request({ type: "arrange", layout: { tiles }, undoable }).then(answered, answered);
 }
 
 function plain(views: TileLists): PlotLists {
@@ -150,7 +149,7 @@ function plain(views: TileLists): PlotLists {
 
 function isSame(wanted: PlotLists): boolean {
   const shown = plain(useTiles.getState().views);
-  return VIEWS.every((view) => JSON.stringify(shown[view]) === JSON.stringify(wanted[view]));
+  return VIEWS.every((view) => same(shown[view], wanted[view]));
 }
 
 // A plot that is shown already keeps its tile, and with it the past that it draws.

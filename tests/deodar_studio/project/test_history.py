@@ -12,7 +12,7 @@ import deodar as dd
 from deodar.errors import DocumentError, ModelError, ParameterError
 from deodar.model import edit
 from deodar.model.document import Document
-from deodar_studio.messages.to_page import Difference
+from deodar_studio.messages.to_page import KeyedDifference
 from deodar_studio.project.change_queue import ChangeQueue
 from deodar_studio.project.conversions import Conversions
 from deodar_studio.project.history import DocumentHistory
@@ -83,7 +83,7 @@ def test_a_page_that_lags_receives_the_changes_that_it_lacks() -> None:
         assert lacking is not None
         single, edited = lacking
         assert single.version == 1
-        assert single.difference.inside["elements"].inside["0"].inside["values"] == Difference(
+        assert single.difference.inside["elements"].inside["0"].inside["values"] == KeyedDifference(
             changed={"tau": 30.0}
         )
         assert single.difference.changed == {"unsaved": True, "undo": 1, "redo": 0}

@@ -3,13 +3,13 @@
 import { isEditable } from "../../build/editable";
 import { NumberControl } from "../../inspector/numbers/NumberControl";
 import { words } from "../../inspector/parameters/part";
-import type { Pin } from "../../pins/pin";
+import type { PinView } from "../../protocol";
 import { usePin } from "../../pins/usePin";
 import { useStudio } from "../../store";
 import { Tex } from "../../widgets/Tex";
 import { useHover } from "../hover";
 
-export function BoxPins({ pins }: { pins: Pin[] }) {
+export function BoxPins({ pins }: { pins: PinView[] }) {
   const editable = useStudio(isEditable);
   return pins.length === 0 ? null : (
     <div
@@ -27,7 +27,7 @@ export function BoxPins({ pins }: { pins: Pin[] }) {
   );
 }
 
-function BoxPin({ pin }: { pin: Pin }) {
+function BoxPin({ pin }: { pin: PinView }) {
   const { path, setting, look, rangeKey } = usePin(pin);
   const { label = words(pin.parameter.split(".").at(-1) ?? "") } = pin;
   return (

@@ -1,7 +1,7 @@
 // The box of an element: its size, its content and the positions of its ports.
 
 import type { ElementView } from "../../protocol";
-import type { Point, Size } from "../layout/rects";
+import type { Size } from "../layout/rects";
 
 export const BOX = { width: 156, title: 40, port: 24, pad: 8, pin: 24 };
 // Samples along each axis of a map.
@@ -62,25 +62,4 @@ export function boxSize(element: ElementView, pins = 0): Size {
 // The height of the n-th of `count` ports of one side.
 export function portHeight(height: number, n: number, of: number): number {
   return Math.round((height * (n + 1)) / (of + 1));
-}
-
-// The places of boxes that the layout of a document holds; anything else in it is passed over.
-export function readBoxes(layout: Record<string, unknown>): Map<string, Point> {
-  const boxes = new Map<string, Point>();
-  const given = layout["boxes"];
-  if (typeof given === "object" && given !== null) {
-    for (const [id, box] of Object.entries(given as Record<string, unknown>)) {
-      const { x, y } = (box ?? {}) as Partial<Record<"x" | "y", unknown>>;
-      if (typeof x === "number" && typeof y === "number" && Number.isFinite(x) && Number.isFinite(y)) {
-        boxes.set(id, { x, y });
-      }
-    }
-  }
-  return boxes;
-}
-
-// The groups that the layout of a document holds folded.
-export function readFolded(layout: Record<string, unknown>): string[] {
-  const given = layout["folded"];
-  return Array.isArray(given) ? given.filter((key): key is string => typeof key === "string") : [];
 }

@@ -4,25 +4,18 @@ import type { Moves } from "../../build/placing";
 import type { Answer } from "../../protocol";
 import { request } from "../../socket";
 import { useStudio } from "../../store";
-import { readBoxes } from "../boxes/boxes";
-import { readComments } from "../boxes/comments";
-import { everyElement } from "../contract";
 import { foldedNow, useOpening } from "./folding";
 import type { Point } from "./rects";
 
 // Fold a group, or open it. The document keeps it, without a step of undo.
 export function fold(key: string, closed: boolean): void {
-  const others = now().filter((other) => other !== key);
+  const others = foldedNow().filter((other) => other !== key);
   keep(closed ? [...others, key] : others);
 }
 
 // Open several groups at once.
 export function unfold(keys: string[]): void {
-  keep(now().filter((key) => !keys.includes(key)));
-}
-
-function now(): string[] {
-  return foldedNow(layoutNow());
+  keep(foldedNow().filter((key) => !keys.includes(key)));
 }
 
 // At once on this page, also on one without a server, where no document keeps it.
@@ -39,37 +32,38 @@ export function toGrid(): Promise<Answer> {
 // Shows every element of a large architecture, or contracts them again. What a person has placed has its box;
 // so that `contracted` elements lose theirs, their positions are forgotten.
 export function showEvery(shown: boolean, contracted: ReadonlySet<string>): Promise<Answer> {
-  const stored = readBoxes(layoutNow());
-  const boxes = [...stored].filter(([id]) => shown || !contracted.has(id));
+  const boxes = Object.entries(layoutNow().boxes).filter(([id]) => shown || !contracted.has(id));
   return request({
     type: "arrange",
-    layout: { ...everyElement(shown), boxes: boxes.length === 0 ? null : Object.fromEntries(boxes) },
+    layout: {
+      every_element: shown || null,
+      boxes: boxes.length === 0 ? null : Object.fromEntries(boxes),
+    },
   });
 }
 
 // Sets the positions of boxes, as one step of undo.
 export function place(boxes: Map<string, Point>): Promise<Answer> {
-  return request({ type: "place", positions: movedTo(boxes, readBoxes(layoutNow())) });
+  return request({ type: "place", positions: movedTo(boxes, layoutNow().boxes) });
 }
 
 // Positions of boxes and comments, as messages have them.
 export function movesOf({ boxes, comments }: Moves): Record<"positions" | "comments", Positions> {
   const layout = layoutNow();
-  const known = new Map(readComments(layout).map((comment) => [comment.id, comment]));
-  return { positions: movedTo(boxes, readBoxes(layout)), comments: movedTo(comments, known) };
+  return { positions: movedTo(boxes, layout.boxes), comments: movedTo(comments, layout.comments) };
 }
-
-const layoutNow = () => useStudio.getState().document?.layout ?? {};
 
 type Positions = Record<string, [number, number]>;
 
 // Positions that the document has already are not sent: another page may change them meanwhile.
-function movedTo(places: Map<string, Point>, stored: ReadonlyMap<string, Point>): Positions {
+function movedTo(places: Map<string, Point>, stored: Readonly<Record<string, Point>>): Positions {
   const moved = Object.entries(positionsOf(places)).filter(
-    ([id, [x, y]]) => stored.get(id)?.x !== x || stored.get(id)?.y !== y,
+    ([id, [x, y]]) => stored[id]?.x !== x || stored[id]?.y !== y,
   );
   return Object.fromEntries(moved);
 }
+
+const layoutNow = () => useStudio.getState().document?.layout ?? { boxes: {}, comments: {} };
 
 // Positions of boxes in whole pixels, as a message has them.
 export function positionsOf(boxes: Map<string, Point>): Positions {

@@ -1,11 +1,13 @@
 import { expect, test } from "vitest";
+import type { LayoutView } from "../../protocol";
+import { useStudio } from "../../store";
 import { fakeConnections, fakeDocument, fakeElement } from "../fakes";
 import { firstFolded, foldedNow, useOpening, withFolded } from "./folding";
 import { PANEL } from "./layout";
 import { scene } from "../scene";
 
 // Four groups of `count` elements in a chain, each with a group of its own inside.
-function chained(count: number, layout: Record<string, unknown> = {}) {
+function chained(count: number, layout: Partial<LayoutView> = {}) {
   const names = ["a", "b", "c", "d"].flatMap((group) =>
     Array.from({ length: count }, (_, i) => `${group}.${i % 3 === 0 ? "in." : ""}u${i}`),
   );
@@ -27,8 +29,10 @@ test("a layout that the document stores wins", () => {
   expect(firstFolded(chained(9, { folded: ["b"] }), new Map(), PANEL)).toEqual(["b"]);
   expect(firstFolded(chained(9, { boxes: { x: { x: 1, y: 1 } } }), new Map(), PANEL)).toEqual([]);
   useOpening.setState({ folded: ["a"] });
-  expect(foldedNow({})).toEqual(["a"]);
-  expect(foldedNow({ folded: [] })).toEqual([]);
+  useStudio.setState({ document: chained(9) });
+  expect(foldedNow()).toEqual(["a"]);
+  useStudio.setState({ document: chained(9, { folded: [] }) });
+  expect(foldedNow()).toEqual([]);
 });
 
 test("groups that were folded at the start are boxes of the scene", () => {

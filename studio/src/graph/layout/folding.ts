@@ -2,7 +2,7 @@
 // those that were folded when it was opened, so that names can be read.
 
 import { create } from "zustand";
-import { BOX, LIVE, readBoxes, readFolded } from "../boxes/boxes";
+import { BOX, LIVE } from "../boxes/boxes";
 import { chains } from "../wires/chains";
 import { MARGIN } from "./fit";
 import { PANEL } from "./layout";
@@ -10,9 +10,8 @@ import type { Point, Size } from "./rects";
 import { scene } from "../scene";
 import type { Structure } from "../contract";
 import type { Kind } from "../../protocol";
+import { useStudio } from "../../store";
 import { tree, type Branch } from "./tree";
-
-type StoredLayout = Record<string, unknown>;
 
 // The zoom factor at which about eleven letters of a name fit into a box.
 const READABLE = 0.42;
@@ -24,22 +23,21 @@ export type Opening = { folded: string[]; panel: Size };
 
 export const useOpening = create<Opening>(() => ({ folded: [], panel: PANEL }));
 
-export function foldedNow(layout: StoredLayout): string[] {
-  return Array.isArray(layout["folded"]) ? readFolded(layout) : useOpening.getState().folded;
+export function foldedNow(): string[] {
+  return useStudio.getState().document?.layout.folded ?? useOpening.getState().folded;
 }
 
 // The structure with the groups that are folded in it.
 export function withFolded(structure: Structure, folded: string[]): Structure {
-  return Array.isArray(structure.layout["folded"])
-    ? structure
-    : { ...structure, layout: { ...structure.layout, folded } };
+  const { layout } = structure;
+  return layout.folded !== null ? structure : { ...structure, layout: { ...layout, folded } };
 }
 
 // Groups fold from inside out, one depth after another, until names are readable on a canvas of this size.
 export function firstFolded(structure: Structure, kinds: Map<string, Kind>, panel: Size): string[] {
-  const { layout } = structure;
-  if (Array.isArray(layout["folded"]) || readBoxes(layout).size > 0) {
-    return readFolded(layout);
+  const { folded: stored, boxes } = structure.layout;
+  if (stored !== null || Object.keys(boxes).length > 0) {
+    return stored ?? [];
   }
   const depths = byDepth(tree(structure.elements, structure.groups, [], new Set()).root, 0, []);
   let best: { folded: string[]; zoom: number } | null = null;

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { fakeConnections, fakeDocument, fakeElement } from "../fakes";
+import { fakeConnections, fakeDocument, fakeElement, fakeLayout } from "../fakes";
 import { selector } from "./structure";
 
 test("changed values leave the structure the same object", () => {
@@ -14,7 +14,7 @@ test("every other change makes a new structure", () => {
   const select = selector();
   const document = fakeDocument([fakeElement("u")]);
   const first = select({ document });
-  expect(select({ document: { ...document, layout: { folded: [] } } })).not.toBe(first);
+  expect(select({ document: { ...document, layout: fakeLayout({ folded: [] }) } })).not.toBe(first);
   const second = select({ document });
   expect(select({ document: { ...document, elements: [fakeElement("w")] } })).not.toBe(second);
   expect(select({ document: null })).toBeNull();

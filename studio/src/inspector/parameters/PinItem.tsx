@@ -3,13 +3,12 @@
 import { Menu } from "@mantine/core";
 import { IconPin, IconPinnedOff } from "@tabler/icons-react";
 
-import { isAt, pinsOf, withoutPin } from "../../pins/pin";
+import { isAt, usePins, withoutPin } from "../../pins/pin";
 import { keepPins, pin } from "../../pins/pinning";
-import { useStudio } from "../../store";
 
 // `element` is empty for a document parameter.
 export function PinItem({ element, path }: { element: string; path: string }) {
-  const isPinned = useStudio((state) => pinsOf(state.document?.layout).some((at) => isAt(at, element, path)));
+  const isPinned = usePins().some((at) => isAt(at, element, path));
   const Icon = isPinned ? IconPinnedOff : IconPin;
   return (
     <Menu.Item
