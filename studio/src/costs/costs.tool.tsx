@@ -2,6 +2,7 @@
 
 import "./costs.css";
 
+import { Group } from "@mantine/core";
 import { IconStopwatch } from "@tabler/icons-react";
 
 import { ProblemTexts } from "../problems/ProblemText";
@@ -21,7 +22,7 @@ function CostsPanel() {
   const again = rows.length > 0;
   return (
     <div className="costs">
-      <div className="across wrapped small">
+      <Group gap={6} className="small">
         <PanelButton
           label={again ? "Measure costs again" : "Measure costs"}
           icon={IconStopwatch}
@@ -34,10 +35,10 @@ function CostsPanel() {
             {microsecondsText(sumOf(costs))} µs
           </span>
         )}
-      </div>
+      </Group>
       <ProblemTexts problems={costs?.problems} />
       {again ? (
-        <table className="table wrapped cost-table" aria-label="Time that each element takes of a step">
+        <table className="table cost-table" aria-label="Time that each element takes of a step">
           <thead>
             <tr>
               <th scope="col">Element</th>
@@ -67,7 +68,7 @@ function Line({ row }: { row: CostRow }) {
   const { element } = row;
   return (
     <tr title={row.about}>
-      <th scope="row">
+      <th scope="row" className="wrapped">
         {element === null ? (
           <span className="dim">{row.path}</span>
         ) : (
@@ -76,7 +77,7 @@ function Line({ row }: { row: CostRow }) {
           </button>
         )}
       </th>
-      <td className="dim">{row.kind}</td>
+      <td className="dim wrapped">{row.kind}</td>
       <td>{row.time}</td>
       <td>
         {row.share}

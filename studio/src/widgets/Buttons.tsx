@@ -14,7 +14,13 @@ type PanelButtonProps = Of<ButtonProps> & { icon?: Icon; label: ReactNode };
 
 export function PanelButton({ icon: Icon, label, ...rest }: PanelButtonProps) {
   return (
-    <Button size="compact-sm" variant="default" leftSection={Icon && <Icon size={15} />} {...rest}>
+    <Button
+      flex="none"
+      size="compact-sm"
+      variant="default"
+      leftSection={Icon && <Icon size={15} />}
+      {...rest}
+    >
       {label}
     </Button>
   );
