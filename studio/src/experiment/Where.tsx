@@ -1,6 +1,7 @@
 // Where the next run computes its trials: processes of this machine, or the workers of a cluster.
 
 import { Checkbox, TextInput } from "@mantine/core";
+import type { ChangeEvent } from "react";
 
 import { useStudio } from "../store";
 import { Segments } from "../widgets/Segments";
@@ -12,9 +13,7 @@ export function Where() {
   const usual = useStudio((state) => state.welcome?.usual_workers) ?? 1;
   return (
     <details className="experiment-more experiment-where">
-      <summary>
-        Where: <span>{placeText(place, usual)}</span>
-      </summary>
+      <summary>Where: {placeText(place, usual)}</summary>
       <Segments
         fullWidth
         label="Where the trials run"
@@ -47,7 +46,7 @@ function Processes() {
 }
 
 function ClusterForm() {
-  const { address, patience, trust, mixed } = useRunPlace();
+  const { address, patience } = useRunPlace();
   const free = useStudio((state) => state.welcome?.clusters) ?? false;
   return (
     <>
@@ -71,22 +70,17 @@ function ClusterForm() {
         set={(value) => useRunPlace.setState({ patience: value })}
         clear={() => useRunPlace.setState({ patience: PATIENCE })}
       />
-      <Checkbox
-        label="Trust the network"
-        description={TRUST}
-        size="xs"
-        checked={trust}
-        onChange={(event) => useRunPlace.setState({ trust: event.currentTarget.checked })}
-      />
-      <Checkbox
-        label="Mixed machines"
-        description="Processors may differ, and so may the last digits: each row names its machine."
-        size="xs"
-        checked={mixed}
-        onChange={(event) => useRunPlace.setState({ mixed: event.currentTarget.checked })}
-      />
+      <Allowed of="trust" label="Trust the network" description={TRUST} />
+      <Allowed of="mixed" label="Mixed machines" description={MIXED} />
     </>
   );
+}
+
+function Allowed({ of, ...said }: { of: "trust" | "mixed"; label: string; description: string }) {
+  const checked = useRunPlace((place) => place[of]);
+  const change = (event: ChangeEvent<HTMLInputElement>) =>
+    useRunPlace.setState({ [of]: event.currentTarget.checked });
+  return <Checkbox {...said} size="xs" checked={checked} onChange={change} />;
 }
 
 const ADDRESSES =
@@ -95,3 +89,4 @@ const ONLY_LOCAL =
   "Only local:N processes: this studio can be reached from other machines, or without a token.";
 const TRUST =
   "Without encryption, anyone in it who can connect to a scheduler or a worker can run programs there.";
+const MIXED = "Processors may differ, and so may the last digits: each row names its machine.";

@@ -32,20 +32,8 @@ const READING_MS = 6000;
 const MOST_UNIT = 5;
 
 export function NumberBox(props: NumberBoxProps) {
-  const {
-    label,
-    labelled = false,
-    description,
-    value,
-    unit = "",
-    placeholder,
-    rejected,
-    disabled,
-    onCommit,
-    onStep,
-    onComplain,
-    onLeave,
-  } = props;
+  const { label, labelled = false, description, value, unit = "", placeholder, rejected, disabled } = props;
+  const { onCommit, onStep, onComplain, onLeave } = props;
   const later = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
   useEffect(() => () => clearTimeout(later.current), []);
   const onForget = () => {

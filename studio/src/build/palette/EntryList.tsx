@@ -29,19 +29,9 @@ type Props = {
   onCancel?: () => void;
 };
 
-export function EntryList({
-  label,
-  placeholder,
-  entries,
-  empty,
-  hint,
-  autoFocus = false,
-  brief = false,
-  draggable = false,
-  onChoose,
-  onLook,
-  onCancel,
-}: Props) {
+export function EntryList(props: Props) {
+  const { label, placeholder, entries, empty, hint, autoFocus, brief, draggable = false } = props;
+  const { onChoose, onLook, onCancel } = props;
   const [text, setText] = useState("");
   const [wished, setWished] = useState<string | null>(null);
   const { found, best } = useMemo(() => search(text, entries), [text, entries]);
