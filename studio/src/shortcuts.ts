@@ -35,13 +35,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
     repeats: true,
     past: true,
   },
-  {
-    keys: ["ArrowRight"],
-    does: "Next frame",
-    run: () => seekFrames(1),
-    repeats: true,
-    past: true,
-  },
+  { keys: ["ArrowRight"], does: "Next frame", run: () => seekFrames(1), repeats: true, past: true },
   { keys: ["Home"], does: "First frame", run: seekFirst, past: true },
   { keys: ["End"], does: "Last frame", run: seekLast, past: true },
   {
@@ -106,13 +100,10 @@ export function useShortcuts(): void {
     const onFocus = (event: FocusEvent) => {
       focusSeen = event.target instanceof Element && event.target.matches(":focus-visible");
     };
-    const onPress = (event: KeyboardEvent) => onKey(event, focusSeen);
-    addEventListener("focusin", onFocus);
-    addEventListener("keydown", onPress);
-    return () => {
-      removeEventListener("focusin", onFocus);
-      removeEventListener("keydown", onPress);
-    };
+    const listening = new AbortController();
+    addEventListener("focusin", onFocus, listening);
+    addEventListener("keydown", (event) => onKey(event, focusSeen), listening);
+    return () => listening.abort();
   }, []);
 }
 

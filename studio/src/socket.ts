@@ -47,11 +47,7 @@ class Socket {
       this.socket = null;
       if (useStudio.getState().connection !== "refused") useStudio.getState().connect("lost");
       for (const [request, reply] of this.waiting) {
-        reply({
-          answer: { type: "answer", request, problems: [{ what: "The connection to the studio was lost." }] },
-          folder: null,
-          fits: null,
-        });
+        reply(unanswered(request, "The connection to the studio was lost."));
       }
       this.waiting.clear();
       setTimeout(() => void this.again(), AGAIN_MS[Math.min(this.failed++, AGAIN_MS.length - 1)]);
@@ -75,11 +71,7 @@ class Socket {
   async ask(message: ToServer): Promise<Reply> {
     const request = ++this.lastRequest;
     if (this.socket?.readyState !== WebSocket.OPEN) {
-      return {
-        answer: { type: "answer", request, problems: [{ what: "The page is not connected to the studio." }] },
-        folder: null,
-        fits: null,
-      };
+      return unanswered(request, "The page is not connected to the studio.");
     }
     return new Promise((resolve) => {
       this.waiting.set(request, resolve);
@@ -128,17 +120,19 @@ class Socket {
         break;
       }
       case "opened":
+        store.take(message);
         if (message.session !== store.session) {
-          store.take(message);
           this.streams.renew(true);
-        } else {
-          store.take(message);
         }
         break;
       default:
         store.take(message);
     }
   }
+}
+
+function unanswered(request: number, what: string): Reply {
+  return { answer: { type: "answer", request, problems: [{ what }] }, folder: null, fits: null };
 }
 
 export const socket = new Socket();

@@ -34,14 +34,8 @@ export type IconButtonProps = Of<ActionIconProps> & {
   position?: "right";
 };
 
-export function IconButton({
-  icon: Icon,
-  label,
-  tip = label,
-  position,
-  size = 28,
-  ...rest
-}: IconButtonProps) {
+export function IconButton(props: IconButtonProps) {
+  const { icon: Icon, label, tip = label, position, size = 28, ...rest } = props;
   return (
     <Tooltip label={tip} position={position}>
       <ActionIcon aria-label={label} size={size} {...rest}>
