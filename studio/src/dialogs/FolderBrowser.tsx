@@ -88,7 +88,7 @@ export function FolderBrowser(props: Props) {
           >
             <Icon size={17} stroke={1.6} aria-label={label} aria-hidden={label === undefined} />
             <span className="one-line">{name}</span>
-            <span className={`dim numbers ${classes.facts}`} aria-hidden>
+            <span className={`dim ${classes.facts}`} aria-hidden>
               {factsText(folder?.facts[name])}
             </span>
           </button>

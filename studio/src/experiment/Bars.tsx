@@ -1,6 +1,6 @@
 // The distribution of a column in each combination of levels: a histogram of numbers, bars of texts.
 
-import { numberText } from "../widgets/number";
+import { short } from "../draw/text";
 import { bins, type Column, conditionsOf, median, rangeOf, shares, type TrialRow } from "./trialRows";
 
 // Of a drawing, which is stretched to the width that it has.
@@ -35,8 +35,8 @@ export function Bars({ rows, column }: { rows: TrialRow[]; column: Column }) {
         <figcaption className="experiment-bar dim">
           <span className="one-line">{Object.keys(rows[0]?.levels ?? {}).join(", ")}</span>
           <span className="experiment-ends">
-            <span>{shortText(range[0])}</span>
-            <span>{shortText(range[1])}</span>
+            <span>{short(range[0])}</span>
+            <span>{short(range[1])}</span>
           </span>
           <span>median, trials</span>
         </figcaption>
@@ -45,9 +45,6 @@ export function Bars({ rows, column }: { rows: TrialRow[]; column: Column }) {
   );
 }
 
-// Four digits are enough beside a drawing.
-const shortText = (value: number) => numberText(Number(value.toPrecision(4)));
-
 type NumbersProps = { label: string; values: number[]; range: [number, number]; of: number };
 
 function Numbers({ label, values, range, of }: NumbersProps) {
@@ -55,7 +52,7 @@ function Numbers({ label, values, range, of }: NumbersProps) {
   const most = Math.max(1, ...counts);
   const middle = median(values);
   const share = middle === null ? 0 : (middle - range[0]) / (range[1] - range[0]);
-  const said = middle === null ? "no value" : shortText(middle);
+  const said = middle === null ? "no value" : short(middle);
   return (
     <>
       <svg
