@@ -16,7 +16,7 @@ export function hasWords(text: string, typed: string): boolean {
     .every((word) => text.toLowerCase().includes(word));
 }
 
-// Items by a key of theirs, in the order in which the keys first occur.
+// Items by a key, in the order in which the keys first occur.
 export function grouped<T>(items: readonly T[], keyOf: (item: T) => string): [string, T[]][] {
   const groups = new Map<string, T[]>();
   for (const item of items) {

@@ -47,7 +47,7 @@ export function middleOf({ around, toFlow }: Stage): Point {
   return toFlow({ x: left + width / 2, y: top + height / 2 });
 }
 
-// An element, group or comment as it is drawn; of an element without a box, what stands for it.
+// An element, group or comment as it is drawn; of an element without a box, its mark on another one.
 export function drawnNode(node: string): Element | null {
   const id = CSS.escape(node);
   const selector = `.react-flow__node[data-id="${id}"], [data-element="${id}"]`;

@@ -11,10 +11,9 @@ import { type Asked, type Asking, useDialogs } from "./questions";
 import { SaveAsDialog } from "./SaveAsDialog";
 import { ShortcutsDialog } from "./ShortcutsDialog";
 
-type Name = Asked["name"];
-type Shown<P> = { title: string; size: number; Content: ComponentType<P> };
+type DialogKind<P> = { title: string; size: number; Content: ComponentType<P> };
 
-const DIALOGS: { [K in Name]: Shown<Asking<K>> } = {
+const DIALOGS: { [K in Asked["name"]]: DialogKind<Asking<K>> } = {
   unsaved: { title: "Keep the unsaved edits?", size: 440, Content: UnsavedDialog },
   replace: { title: "Overwrite the file?", size: 440, Content: ReplaceDialog },
   choose: { title: "Open a file", size: 560, Content: ChooseDialog },
@@ -40,7 +39,7 @@ export function Dialogs() {
       cancel();
     }
   }, [offline, asked, cancel]);
-  const { title = "", size, Content } = asked === null ? {} : (DIALOGS[asked.name] as Shown<Asked>);
+  const { title = "", size, Content } = asked === null ? {} : (DIALOGS[asked.name] as DialogKind<Asked>);
   return (
     <Modal
       opened={asked !== null}

@@ -7,8 +7,13 @@ import { takenText } from "../files/presets";
 import classes from "./dialogs.module.css";
 import type { Asking } from "./questions";
 
-type Choice = { children: string; onClick: () => void; color?: string };
-type Props = { children: ReactNode; cancel?: () => void; other?: Choice | false; first: Choice };
+type MessageButton = { children: string; onClick: () => void; color?: string };
+type Props = {
+  children: ReactNode;
+  cancel?: () => void;
+  other?: MessageButton | false;
+  first: MessageButton;
+};
 
 // `first` has the focus.
 function Message({ children, cancel, other, first }: Props) {

@@ -114,7 +114,7 @@ const STEPS: Partial<Record<string, number>> = { ArrowDown: 1, ArrowUp: -1, Page
 
 const optionId = (list: string, entry: ListEntry): string => `${list}-${entry.id.replace(/[^\w-]/g, "_")}`;
 
-type LineProps = {
+type EntryLineProps = {
   id: string;
   entry: ListEntry;
   active: boolean;
@@ -124,7 +124,7 @@ type LineProps = {
 };
 
 // The sketch of a kind or the picture of a template, its title, and why it cannot be chosen, if so.
-function EntryLine({ id, entry, active, draggable, onLook, onChoose }: LineProps) {
+function EntryLine({ id, entry, active, draggable, onLook, onChoose }: EntryLineProps) {
   const { title, note, why, kind, template } = entry;
   const carried = draggable ? carriedBy(entry) : null;
   return (
