@@ -17,6 +17,7 @@ import type { DockTool } from "../state/tool";
 import { type Studio, useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { unitText } from "../transport/format";
+import { paced } from "../transport/throttled";
 import { choosing, useOptions } from "../widgets/useOptions";
 import { useVisible } from "../widgets/useVisible";
 import { COLUMNS, STRIP_COLORS, STRIP_RANGE, STRIP_TIME, stripOf } from "./strip";
@@ -113,7 +114,8 @@ function StripAndValue({ element, setAbove }: StripProps) {
       value.current.textContent = strip === null ? "" : grouped(strip.newest, 1);
     }
   }, [setAbove]);
-  const later = usePaced(draw);
+  const { later, end } = useMemo(() => paced(draw, PACE_MS), [draw]);
+  useEffect(() => end, [end]);
   const levels = useLevels(element, PORT, later);
   const wishes: Wish[] = [{ type: "trace", element, port: PORT, reduce: "max", at: [] }];
   const { lost } = useStreams(wishes, true, ([now]) => {
@@ -145,26 +147,3 @@ function shownTime({ clock }: Studio): number {
 }
 
 const PACE_MS = 100;
-
-// Runs at most once in this time.
-function usePaced(draw: () => void): () => void {
-  const timer = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
-  const last = useRef(-Infinity);
-  useEffect(
-    () => () => {
-      clearTimeout(timer.current);
-      timer.current = undefined;
-    },
-    [],
-  );
-  return useCallback(() => {
-    timer.current ??= setTimeout(
-      () => {
-        timer.current = undefined;
-        last.current = performance.now();
-        draw();
-      },
-      Math.max(0, last.current + PACE_MS - performance.now()),
-    );
-  }, [draw]);
-}

@@ -9,7 +9,7 @@ export function tick(value: number, step: number): string {
 }
 
 // The digits behind the point that a step needs: 2 for 0.25.
-function decimals(step: number): number {
+export function decimals(step: number): number {
   for (let digits = 0; digits < 6; digits++) {
     const shifted = Math.abs(step) * 10 ** digits;
     if (Math.abs(shifted - Math.round(shifted)) < 1e-6 * shifted) {

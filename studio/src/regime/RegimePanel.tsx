@@ -24,6 +24,8 @@ export function RegimePanel() {
     return <p className="regime dim">A document with a field or a node can be measured.</p>;
   }
   const measured = regime !== null && regime.element === chosen ? regime : null;
+  const isMeasuring = measured?.measuring === true;
+  const Icon = isMeasuring ? IconPlayerStop : IconStopwatch;
   const words = measured?.words ?? [];
   const field = elements.get(chosen);
   return (
@@ -35,28 +37,19 @@ export function RegimePanel() {
           onChange={(event) => setAsked(event.currentTarget.value)}
           data={fields.map((field) => ({ value: field.id, label: field.path }))}
         />
-        {measured?.measuring === true ? (
-          <Button
-            size="compact-sm"
-            variant="default"
-            leftSection={<IconPlayerStop size={15} />}
-            onClick={() => void request({ type: "stop_regime" })}
-          >
-            Stop
-          </Button>
-        ) : (
-          <Button
-            size="compact-sm"
-            variant="default"
-            leftSection={<IconStopwatch size={15} />}
-            onClick={() => void request({ type: "measure_regime", element: chosen })}
-          >
-            {words.length > 0 ? "Measure regime again" : "Measure regime"}
-          </Button>
-        )}
+        <Button
+          size="compact-sm"
+          variant="default"
+          leftSection={<Icon size={15} />}
+          onClick={() =>
+            void request(isMeasuring ? { type: "stop_regime" } : { type: "measure_regime", element: chosen })
+          }
+        >
+          {isMeasuring ? "Stop" : words.length > 0 ? "Measure regime again" : "Measure regime"}
+        </Button>
       </div>
       <div role="status">
-        {measured?.measuring === true && (
+        {isMeasuring && (
           <p className="dim">The field is measured in a process of its own, which takes some seconds.</p>
         )}
         {words.length > 0 && <p className="regime-words">{words.join("; ")}</p>}
@@ -81,7 +74,7 @@ export function RegimePanel() {
           </tbody>
         </table>
       ) : (
-        measured?.measuring !== true && (
+        !isMeasuring && (
           <p className="dim">
             What the field does alone, without noise and without its inputs: at which strength of an input a
             peak appears and vanishes, whether it outlives its input, and whether one of two inputs wins. The

@@ -8,6 +8,21 @@ import type { RecordView } from "../protocol";
 import { chooseCopy, useReplay } from "./replay";
 import classes from "./RecordBar.module.css";
 
+const ACTIONS = [
+  {
+    name: "Compare",
+    tip: "Show another record of this document beside this one, and find the first difference",
+    Icon: IconArrowsDiff,
+    run: compare,
+  },
+  {
+    name: "Run its model",
+    tip: "Open a copy of the document of this record, which runs and can be changed",
+    Icon: IconPlayerPlay,
+    run: () => leave({ type: "open_record_model" }),
+  },
+];
+
 export function RecordBar({ record }: { record: RecordView }) {
   const copy = useReplay((state) => state.copy);
   return (
@@ -29,30 +44,20 @@ export function RecordBar({ record }: { record: RecordView }) {
           />
         </label>
       ))}
-      <Tooltip label="Show another record of this document beside this one, and find the first difference">
-        <Button
-          size="compact-sm"
-          variant="default"
-          leftSection={<IconArrowsDiff size={15} />}
-          className={classes.action}
-          aria-label="Compare"
-          onClick={() => void compare()}
-        >
-          Compare
-        </Button>
-      </Tooltip>
-      <Tooltip label="Open a copy of the document of this record, which runs and can be changed">
-        <Button
-          size="compact-sm"
-          variant="default"
-          leftSection={<IconPlayerPlay size={15} />}
-          className={classes.action}
-          aria-label="Run its model"
-          onClick={() => void leave({ type: "open_record_model" })}
-        >
-          Run its model
-        </Button>
-      </Tooltip>
+      {ACTIONS.map(({ name, tip, Icon, run }) => (
+        <Tooltip key={name} label={tip}>
+          <Button
+            size="compact-sm"
+            variant="default"
+            leftSection={<Icon size={15} />}
+            className={classes.action}
+            aria-label={name}
+            onClick={() => void run()}
+          >
+            {name}
+          </Button>
+        </Tooltip>
+      ))}
     </div>
   );
 }

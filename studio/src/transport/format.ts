@@ -1,7 +1,7 @@
 // How times and speeds are written. All of one length as far as possible, so that read-outs keep still while
 // they count.
 
-import { grouped, SECONDS } from "../draw/text";
+import { decimals, grouped, SECONDS } from "../draw/text";
 import type { CompilingView } from "../protocol";
 
 const SYMBOLS: Record<string, string> = { us: "µs" };
@@ -10,12 +10,12 @@ const SYMBOLS: Record<string, string> = { us: "µs" };
 export function timeText(time: number, unit: string, dt: number): string {
   const seconds = SECONDS[unit];
   if (seconds === undefined) {
-    return grouped(time, decimals(dt));
+    return grouped(time, Math.min(3, decimals(dt)));
   }
   if (unit === "s" || (seconds < 1 && Math.abs(time) * seconds >= 1)) {
     return `${grouped(time * seconds, 3)} s`;
   }
-  return `${grouped(time, decimals(dt))} ${unitText(unit)}`;
+  return `${grouped(time, Math.min(3, decimals(dt)))} ${unitText(unit)}`;
 }
 
 // A unit of time beside a number; empty for custom units.
@@ -46,14 +46,4 @@ export function compilingText({ elapsed, expected }: CompilingView): string {
 
 export function countText(count: number): string {
   return grouped(count, 0);
-}
-
-// As many decimals as the time step has, at most 3.
-function decimals(dt: number): number {
-  for (let digits = 0; digits < 3; digits++) {
-    if (Math.abs(dt * 10 ** digits - Math.round(dt * 10 ** digits)) < 1e-9) {
-      return digits;
-    }
-  }
-  return 3;
 }

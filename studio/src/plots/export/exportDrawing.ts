@@ -125,7 +125,7 @@ class Sheet {
     const canvas = document.createElement("canvas");
     canvas.width = Math.round(width * factor);
     canvas.height = Math.round(height * factor);
-    const ctx = format === "svg" ? asCanvasContext(new SvgContext()) : canvas.getContext("2d");
+    const ctx = format === "svg" ? asCanvas(new SvgContext()) : canvas.getContext("2d");
     if (ctx === null) {
       throw new Error("The browser gives no canvas to draw on.");
     }
@@ -149,9 +149,7 @@ class Sheet {
 }
 
 // It has the methods of a canvas context that drawings call.
-function asCanvasContext(context: SvgContext): CanvasRenderingContext2D {
-  return context as unknown as CanvasRenderingContext2D;
-}
+const asCanvas = (context: unknown) => context as CanvasRenderingContext2D;
 
 type PlacedEntry = Readonly<{ entry: LegendLine; x: number; line: number }>;
 

@@ -39,47 +39,35 @@ export function attachInjection(drawing: Pushed, given: () => Injection | null):
   };
 
   const listening = new AbortController();
-  const { signal } = listening;
+  const on = <K extends keyof HTMLElementEventMap>(
+    target: HTMLElement | Window,
+    type: K,
+    act: (event: HTMLElementEventMap[K]) => void,
+  ) => target.addEventListener(type, act as EventListener, { signal: listening.signal });
   over.style.touchAction = "none"; // the browser would move the page under the finger
-  over.addEventListener("contextmenu", (event) => ask() !== null && event.preventDefault(), { signal });
-  over.addEventListener(
-    "pointerdown",
-    (event) => {
-      const finger = event.pointerType === "touch" && event.isPrimary;
-      if ((event.button === 2 || finger) && ask() !== null) {
-        event.preventDefault();
-        boost = event.shiftKey;
-        push(placeOf(event));
-      }
-    },
-    { signal },
-  );
-  over.addEventListener("pointermove", (event) => pusher.pushing && push(placeOf(event)), { signal });
+  on(over, "contextmenu", (event) => ask() !== null && event.preventDefault());
+  on(over, "pointerdown", (event) => {
+    const finger = event.pointerType === "touch" && event.isPrimary;
+    if ((event.button === 2 || finger) && ask() !== null) {
+      event.preventDefault();
+      boost = event.shiftKey;
+      push(placeOf(event));
+    }
+  });
+  on(over, "pointermove", (event) => pusher.pushing && push(placeOf(event)));
   for (const end of ["pointerup", "pointercancel", "pointerleave"] as const) {
-    over.addEventListener(end, stop, { signal });
+    on(over, end, stop);
   }
-  window.addEventListener("blur", stop, { signal });
-  window.addEventListener("keydown", (event) => event.key === "Escape" && stop(), { signal });
-  host.addEventListener(
-    "keydown",
-    (event) => {
-      if (
-        event.code === "KeyI" &&
-        !event.repeat &&
-        !event.ctrlKey &&
-        !event.metaKey &&
-        !event.altKey &&
-        ask() !== null
-      ) {
-        boost = event.shiftKey;
-        push(drawing.pointed());
-      }
-    },
-    { signal },
-  );
-  host.addEventListener("keyup", (event) => event.code === "KeyI" && stop(), { signal });
-  host.addEventListener("blur", stop, { signal });
-
+  on(window, "blur", stop);
+  on(window, "keydown", (event) => event.key === "Escape" && stop());
+  on(host, "keydown", ({ code, repeat, ctrlKey, metaKey, altKey, shiftKey }) => {
+    if (code === "KeyI" && !(repeat || ctrlKey || metaKey || altKey) && ask() !== null) {
+      boost = shiftKey;
+      push(drawing.pointed());
+    }
+  });
+  on(host, "keyup", (event) => event.code === "KeyI" && stop());
+  on(host, "blur", stop);
   return () => {
     listening.abort();
     stop();

@@ -22,7 +22,6 @@ import {
 export const plot: PlotDeclaration = {
   title: "Time course",
   rank: () => 10,
-  tab: (name) => `${name} over time`,
   figure: Number.POSITIVE_INFINITY,
   settings: () => ["window", "range", "traces"],
   label: (shown) => `${labels(shown).join(", ")} over time`,

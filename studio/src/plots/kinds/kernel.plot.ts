@@ -12,7 +12,6 @@ const MOST = 600;
 export const plot: PlotDeclaration = {
   title: "Interaction kernel",
   rank: (axes, { kernel }) => (kernel && axes.length > 0 ? 70 : null),
-  tab: (name) => `Kernel of ${name}`,
   settings: () => ["range"],
   label: ({ element }) => `Interaction kernel of ${element.path}`,
   file: ({ element }) => `${element.path} kernel`,

@@ -41,8 +41,6 @@ type Declared = {
   title: string;
   // Its place among the plots of an array over these axes, the smallest first; null if it cannot show it.
   rank: (axes: AxisView[], further: Further) => number | null;
-  // The title of its tab, from the name of the element; by default the name alone.
-  tab?: (name: string) => string;
   // The most axes of an array in the figure that `deodar plot` draws of it; without it there is none.
   figure?: number;
 };

@@ -32,7 +32,6 @@ const CONTROLS: readonly (readonly ControlName[])[] = [["window", "range"], ["ra
 export const plot: PlotDeclaration = {
   title: "Small multiples",
   rank: (axes, { several }) => (several && !isPicture(axes) ? 90 : null),
-  tab: (name) => `Multiples of ${name}`,
   settings: (shown) => CONTROLS[axesOf(shown).length] ?? ["drawn", "scale", "range"],
   sides: ["To the right", "Upwards"],
   ports: (axes) => !isPicture(axes),

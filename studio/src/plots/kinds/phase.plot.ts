@@ -12,7 +12,6 @@ import { trajectory } from "./trajectory";
 export const plot: PlotDeclaration = {
   title: "Phase plot",
   rank: (axes) => (isPicture(axes) ? null : 40),
-  tab: (name) => `Phase of ${name}`,
   settings: () => ["window", "trajectory"],
   label: (shown) => {
     const [across, up] = names(shown);

@@ -14,7 +14,7 @@ import {
   runsDown,
   weightsOf,
 } from "../../model/ports";
-import { hasFigure, PLOTS, plotKinds, tabOf, titleOf } from "./plots";
+import { hasFigure, PLOTS, plotKinds, titleOf } from "./plots";
 
 const axis = (key: string, samples = 11, more: Partial<AxisView> = {}): AxisView => ({
   key,
@@ -148,12 +148,6 @@ describe("kinds of plots", () => {
     expect(titleOf("heat", [polar])).toBe("Heat map");
     expect(titleOf("polar", [polar])).toBe("Polar plot");
     expect(PLOTS.has("heat") && !PLOTS.has("polar")).toBe(true);
-    expect([tabOf("course", "u"), tabOf("kernel", "u"), tabOf("heat", "u"), tabOf(null, "u")]).toEqual([
-      "u over time",
-      "Kernel of u",
-      "u",
-      "u",
-    ]);
   });
 
   it("have no axes if the document states none", () => {

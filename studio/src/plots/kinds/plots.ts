@@ -37,8 +37,3 @@ export function hasFigure(kind: PlotKind, axes: number): boolean {
 export function titleOf(kind: PlotKind, packaged: PlotView[]): string {
   return (PLOTS.get(kind) ?? packaged.find((plot) => plot.name === kind))?.title ?? kind;
 }
-
-// The title of the tab of a plot of an element.
-export function tabOf(kind: PlotKind | null, name: string): string {
-  return PLOTS.get(kind ?? "")?.tab?.(name) ?? name;
-}

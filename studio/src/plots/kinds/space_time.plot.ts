@@ -12,7 +12,6 @@ const MOST = 128;
 export const plot: PlotDeclaration = {
   title: "Space-time plot",
   rank: (axes) => (axes.length > 0 && !isPicture(axes) ? 30 : null),
-  tab: (name) => `${name} over time`,
   figure: 1,
   settings: () => ["drawn", "window", "down", "scale", "range"],
   sides: ["Axis over time"],

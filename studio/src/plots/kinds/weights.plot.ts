@@ -11,7 +11,6 @@ const MOST = 256;
 export const plot: PlotDeclaration = {
   title: "Weights",
   rank: (_, { weights }) => (weights ? 80 : null),
-  tab: (name) => `Weights of ${name}`,
   settings: () => ["drawn", "scale", "range"],
   sides: ["To the right", "Upwards"],
   label: (shown) => {
