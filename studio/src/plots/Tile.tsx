@@ -1,6 +1,6 @@
 // A plot of the page: the streams that its kind asks for, and the drawings of what the kind makes of them.
 
-import { CloseButton, useComputedColorScheme } from "@mantine/core";
+import { CloseButton, UnstyledButton, useComputedColorScheme } from "@mantine/core";
 import { useEffect, useMemo, useRef } from "react";
 import type { Axis } from "../draw/axis";
 import type { Content } from "../draw/content";
@@ -156,14 +156,13 @@ function ShownTile(props: TileProps & { shown: Shown }) {
         <div className="plot-multiples" role="group" aria-label={plot.label(shown)}>
           {cells.map((other) => (
             <div key={other.id} className="plot-cell">
-              <button
-                type="button"
+              <UnstyledButton
                 className="plot-cell-name one-line"
                 title={`Plot ${other.path}`}
                 onClick={() => openPlot({ element: other.id, port })}
               >
                 {other.path}
-              </button>
+              </UnstyledButton>
               <div className="plot-cell-body">
                 <DrawingPlace label={`${port} of ${other.path}`} injection={null} keep={keep(other.id)} />
               </div>
@@ -185,10 +184,10 @@ function LegendChip({ entry, shade, set }: LegendChipProps) {
   );
   if (press !== undefined) {
     return (
-      <button type="button" className="plot-chip" aria-pressed={on} onClick={() => set(press)}>
+      <UnstyledButton className="plot-chip" aria-pressed={on} onClick={() => set(press)}>
         {swatch}
         {label}
-      </button>
+      </UnstyledButton>
     );
   }
   return (

@@ -2,7 +2,7 @@
 
 import "./regime.css";
 
-import { Button, NativeSelect } from "@mantine/core";
+import { Button, NativeSelect, VisuallyHidden } from "@mantine/core";
 import { IconPlayerStop, IconStopwatch } from "@tabler/icons-react";
 import { useState } from "react";
 
@@ -63,7 +63,7 @@ export function RegimePanel() {
       {measured?.curve != null && <CurvePicture curve={measured.curve} words={words.join("; ")} />}
       {words.length > 0 ? (
         <table className="regime-table">
-          <caption>Measurements</caption>
+          <VisuallyHidden component="caption">Measurements</VisuallyHidden>
           <tbody>
             {measured?.rows.map((row, i) => (
               <tr key={i}>

@@ -1,6 +1,15 @@
 // Snapshots of the run to return to, and presets: values of all parameters. Both are files below the root.
 
-import { ActionIcon, Button, CloseButton, Group, Stack, TextInput, VisuallyHidden } from "@mantine/core";
+import {
+  ActionIcon,
+  Button,
+  CloseButton,
+  Group,
+  Stack,
+  TextInput,
+  UnstyledButton,
+  VisuallyHidden,
+} from "@mantine/core";
 import { IconBookmark } from "@tabler/icons-react";
 import { type FormEvent, type ReactNode, useState } from "react";
 
@@ -131,13 +140,13 @@ type SavedProps = { sort: Sort; name: string; about: string; does: string; run: 
 function Row({ sort, name, about, does, run }: SavedProps) {
   return (
     <div className={classes.row}>
-      <button type="button" className={classes.choice} title={`${does} ${name}`} onClick={run}>
+      <UnstyledButton className={classes.choice} title={`${does} ${name}`} onClick={run}>
         <span className="one-line">
           <VisuallyHidden>{does} </VisuallyHidden>
           {name}
         </span>
         <span className={"fine numbers one-line"}>{about}</span>
-      </button>
+      </UnstyledButton>
       <CloseButton
         size="sm"
         aria-label={`Delete the ${sort} ${name}`}

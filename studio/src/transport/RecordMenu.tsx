@@ -1,7 +1,7 @@
 // The choice of what the next record holds: ports to tick, the plotted ones at first, and how often they are
 // sampled.
 
-import { ActionIcon, Button, Checkbox, ScrollArea, TextInput } from "@mantine/core";
+import { ActionIcon, Button, Checkbox, ScrollArea, Stack, Text, TextInput } from "@mantine/core";
 import { IconChevronDown } from "@tabler/icons-react";
 import { useState } from "react";
 
@@ -12,7 +12,6 @@ import { ButtonPopover } from "../widgets/ButtonPopover";
 import { NumberField } from "../widgets/NumberField";
 import { countText, unitText } from "./format";
 import { choiceFor, findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
-import classes from "./RecordMenu.module.css";
 
 // More ports than MANY have a search; at most MOST rows are listed.
 const MANY = 8;
@@ -58,7 +57,7 @@ function Choice() {
   const choose = (next: RecordedPort[] | null) => useRecordChoice.setState({ session, ports: next, every });
   const sample = (next: number | null) => useRecordChoice.setState({ session, ports, every: next });
   return (
-    <div className={classes.choice}>
+    <Stack gap={8}>
       {findPorts(elements, [], "").length > MANY && (
         <TextInput
           placeholder="Find a port"
@@ -69,7 +68,7 @@ function Choice() {
         />
       )}
       <ScrollArea.Autosize mah={240} type="auto">
-        <div className={classes.ports} role="group" aria-label="Ports to record">
+        <Stack gap={5} pr={10} role="group" aria-label="Ports to record">
           {found.slice(0, MOST).map((port) => {
             const element = paths.get(port.element);
             const name = element === undefined ? "" : portName(element, port.port);
@@ -83,18 +82,21 @@ function Choice() {
               />
             );
           })}
-        </div>
-        {found.length > MOST && (
-          <p className={`${classes.hint} fine`}>{found.length - MOST} more: type to find them</p>
-        )}
-        {found.length === 0 && <p className={`${classes.hint} fine`}>No port has this name.</p>}
+        </Stack>
+        {found.length > MOST && <Text className="fine">{found.length - MOST} more: type to find them</Text>}
+        {found.length === 0 && <Text className="fine">No port has this name.</Text>}
       </ScrollArea.Autosize>
-      <p className={`${classes.hint} fine`}>
+      <Text className="fine">
         {count === 0
           ? "None is ticked: the activation of every field is recorded."
           : `${countText(count)} ${count === 1 ? "port" : "ports"}`}
-      </p>
-      <Button size="compact-xs" variant="default" onClick={() => choose(null)}>
+      </Text>
+      <Button
+        size="compact-xs"
+        variant="default"
+        style={{ alignSelf: "flex-start" }}
+        onClick={() => choose(null)}
+      >
         Tick what is plotted
       </Button>
       <NumberField
@@ -107,6 +109,6 @@ function Choice() {
         set={(value) => sample(value === 0 ? null : value)}
         clear={() => sample(null)}
       />
-    </div>
+    </Stack>
   );
 }

@@ -18,26 +18,17 @@ export function axisText(axes: AxisView[]): string {
 }
 
 export function unitText(unit: string, timeUnit: string, axes: AxisView[]): string {
-  const read = (word: string): string => {
-    switch (word) {
-      case "time":
-        return timeText(timeUnit);
-      case "axis":
-        return axisText(axes);
-      case "activation":
-      case "1":
-        return "";
-      default:
-        return word;
-    }
+  const words: Record<string, string> = {
+    time: timeText(timeUnit),
+    axis: axisText(axes),
+    activation: "",
+    "1": "",
   };
+  const read = (word: string) => words[word] ?? word;
   const [above = "", ...below] = unit.split("/");
   const numerator = product(above, read);
   const denominator = below.map((part) => product(part, read)).filter((part) => part !== "");
-  if (denominator.length === 0) {
-    return numerator;
-  }
-  return `${numerator || "1"}/${denominator.join("/")}`;
+  return denominator.length === 0 ? numerator : [numerator || "1", ...denominator].join("/");
 }
 
 function product(text: string, read: (word: string) => string): string {

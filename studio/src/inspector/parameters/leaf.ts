@@ -33,20 +33,20 @@ export function formAt(kinds: Kinds, kind: string, values: unknown, path: string
   const value = values[head];
   const below = (part: unknown, steps: string[]) =>
     isValues(part) ? formAt(kinds, String(part["kind"]), part, steps.join(".")) : undefined;
+  const [next, ...further] = rest;
+  if (next === undefined) {
+    return form;
+  }
   switch (form.form) {
     case "part":
-      return rest.length === 0 ? form : below(value, rest);
+      return below(value, rest);
     case "parts":
-      return rest.length === 0
-        ? form
-        : below(Array.isArray(value) ? (value as unknown[])[Number(rest[0])] : undefined, rest.slice(1));
+      return below(Array.isArray(value) ? (value as unknown[])[Number(next)] : undefined, further);
     case "per_axis":
     case "numbers":
-      return rest.length === 0 || (rest.length === 1 && isHolder(value) && (rest[0] ?? "") in value)
-        ? form
-        : undefined;
+      return further.length === 0 && isHolder(value) && next in value ? form : undefined;
     default:
-      return rest.length === 0 ? form : undefined;
+      return undefined;
   }
 }
 

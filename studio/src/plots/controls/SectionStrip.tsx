@@ -1,6 +1,6 @@
 // The axes that a plot does not draw: a slider for the position on each, or the maximum over it.
 
-import { Slider } from "@mantine/core";
+import { Slider, UnstyledButton } from "@mantine/core";
 import { useOffline } from "../../connection/NeedsServer";
 import type { AxisView } from "../../protocol";
 import { stepOf } from "../../draw/axis";
@@ -27,15 +27,14 @@ export function SectionStrip({ rest, at, set }: Strip) {
         return (
           <div key={axis.name} className="plot-cut">
             <span className="plot-cut-name">{axis.name}</span>
-            <button
-              type="button"
+            <UnstyledButton
               className="plot-chip"
               aria-label={`max over ${axis.name}`}
               aria-pressed={position === undefined}
               onClick={() => set({ at: moved(at, axis.name, position === undefined ? shown : null) })}
             >
               max
-            </button>
+            </UnstyledButton>
             <Slider
               className="plot-cut-slider"
               data-off={position === undefined || undefined}
