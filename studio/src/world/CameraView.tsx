@@ -5,6 +5,7 @@ import { useMemo, useRef } from "react";
 
 import { isPicture, portAxes } from "../model/ports";
 import { paintPicture } from "../draw/paint";
+import { planeIn } from "../plots/kinds/parts";
 import { useStreams } from "../plots/useStreams";
 import type { ElementView } from "../protocol";
 import { request } from "../socket";
@@ -56,15 +57,9 @@ export function CameraView({ camera }: { camera: ElementView }) {
     [camera.id],
   );
   const { lost, seen } = useStreams(wishes, true, ([live]) => {
-    const [nx, ny] = live?.form?.shape ?? [];
-    if (
-      canvas.current !== null &&
-      live?.frame != null &&
-      live.form?.channels === true &&
-      nx !== undefined &&
-      ny !== undefined
-    ) {
-      paintPicture(canvas.current, live.frame.values, nx, ny);
+    const plane = live?.form?.channels === true ? planeIn(live) : null;
+    if (canvas.current !== null && plane !== null) {
+      paintPicture(canvas.current, plane.map.values, plane.map.nx, plane.map.ny);
     }
   });
   return (

@@ -1,15 +1,7 @@
 // What several kinds of plots have in common.
 
 import { type Axis, commonScale, edges } from "../../draw/axis";
-import type {
-  ColorMap,
-  Content,
-  LevelLine,
-  CurveLine,
-  MapColors,
-  PlotMark,
-  PlotSide,
-} from "../../draw/content";
+import type { Content, LevelLine, CurveLine, MapColors, PlotMark, PlotSide } from "../../draw/content";
 import type { Paint, Shade } from "../../draw/ink";
 import { extent, type Range, union } from "../../draw/scale";
 import { firstAt } from "../../draw/series";
@@ -104,6 +96,17 @@ export function momentMarks({ moment }: Shown): PlotMark[] {
   return moment === null ? [] : [{ type: "moment", time: moment }];
 }
 
+type Plane = { x: AxisView; y: AxisView; map: { values: Float32Array; nx: number; ny: number } };
+
+// The newest values over the first two axes, and how many they are along each; null: some are not known yet.
+export function planeIn(live: Live | undefined): Plane | null {
+  const [[x, y], [nx, ny]] = [live?.form?.axes ?? [], live?.form?.shape ?? []];
+  const values = live?.frame?.values;
+  return x === undefined || y === undefined || nx === undefined || ny === undefined || values === undefined
+    ? null
+    : { x, y, map: { values, nx, ny } };
+}
+
 // An array over two axes as colours, upright as in the document.
 export function planeContent(
   document: DocumentView | null,
@@ -111,17 +114,16 @@ export function planeContent(
   label: string,
   colors: (values: Float32Array) => MapColors,
 ): Content | null {
-  const [[x, y], [nx, ny]] = [live?.form?.axes ?? [], live?.form?.shape ?? []];
-  const values = live?.frame?.values;
-  if (x === undefined || y === undefined || nx === undefined || ny === undefined || values === undefined) {
+  const plane = planeIn(live);
+  if (plane === null) {
     return null;
   }
-  const map: ColorMap = { type: "map", label, values, nx, ny, colors: colors(values) };
+  const { x, y, map } = plane;
   return {
     x: { along: x, range: edges(x) },
     y: { along: y, range: edges(y), down: document !== null && runsDown(document, y) },
     equal: commonScale(x, y) !== null,
-    marks: [map],
+    marks: [{ type: "map", label, ...map, colors: colors(map.values) }],
   };
 }
 

@@ -3,6 +3,7 @@
 import { commonScale, edges } from "../../draw/axis";
 import { isPicture } from "../../model/ports";
 import type { PlotDeclaration } from "./kind";
+import { planeIn } from "./parts";
 
 const MOST = 256;
 
@@ -16,16 +17,14 @@ export const plot: PlotDeclaration = {
   file: ({ element, port }) => `${element.path} ${port}`,
   wishes: ({ element, port }) => [{ type: "watch", element: element.id, port, most: MOST }],
   content: ({ port }, [live]) => {
-    const [[x, y], [nx, ny]] = [live?.form?.axes ?? [], live?.form?.shape ?? []];
-    const values = live?.form?.channels === true ? live.frame?.values : undefined;
-    if (x === undefined || y === undefined || nx === undefined || ny === undefined || values === undefined) {
-      return null;
-    }
-    return {
-      x: { along: x, range: edges(x) },
-      y: { along: y, range: edges(y), down: true },
-      equal: commonScale(x, y) !== null,
-      marks: [{ type: "picture", label: port, values, nx, ny }],
-    };
+    const plane = live?.form?.channels === true ? planeIn(live) : null;
+    return (
+      plane && {
+        x: { along: plane.x, range: edges(plane.x) },
+        y: { along: plane.y, range: edges(plane.y), down: true },
+        equal: commonScale(plane.x, plane.y) !== null,
+        marks: [{ type: "picture", label: port, ...plane.map }],
+      }
+    );
   },
 };

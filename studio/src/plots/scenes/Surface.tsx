@@ -5,6 +5,7 @@ import { axisLabel, edges } from "../../draw/axis";
 import { readContent } from "../../draw/cursorText";
 import { tableOf } from "../../draw/table";
 import type { Live } from "../../streams";
+import { planeIn } from "../kinds/parts";
 import type { PlotProps } from "../PlotFrame";
 import { allAxes } from "../section";
 import type { SceneFrame } from "./sceneFrame";
@@ -17,15 +18,14 @@ export function Surface(props: PlotProps) {
   const { element, port, settings } = props;
   const { drawn, at } = settings;
   const show = ([live]: Live[], { stage, colors }: ShownScene): SceneFrame | null => {
-    const { form, frame } = live ?? {};
-    const [nx, ny] = form?.shape ?? [];
-    const [x, y] = form?.axes ?? [];
-    if (frame == null || nx === undefined || ny === undefined || x === undefined || y === undefined) {
+    const plane = planeIn(live);
+    if (plane === null) {
       return null;
     }
-    const shown = colors(frame.values);
+    const { x, y, map } = plane;
+    const shown = colors(map.values);
     const size = surfaceSize(x, y);
-    stage.showSurface(frame.values, nx, ny, size, shown);
+    stage.showSurface(map.values, map.nx, map.ny, size, shown);
     const side = (axis: typeof x) => ({ label: axisLabel(axis), range: edges(axis), along: axis });
     return { size, axes: [side(x), side(y), { label: port, range: shown.range }], bar: null };
   };
