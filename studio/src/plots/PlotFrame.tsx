@@ -76,7 +76,7 @@ export function PlotFrame(props: PlotFrameProps) {
   return (
     <section className="plot" aria-label={`${titleOf(kind, packaged)} of ${element.path}`}>
       <header className="plot-head">
-        <div className="plot-what">
+        <div className="flow plot-what">
           <span className="plot-path one-line" title={element.path}>
             {element.path}
           </span>

@@ -30,7 +30,7 @@ export function RegimePanel() {
   const field = elements.get(chosen);
   return (
     <div className="regime">
-      <div className="regime-head">
+      <div className="flow regime-head">
         <NativeSelect
           aria-label="Field or node"
           value={chosen}

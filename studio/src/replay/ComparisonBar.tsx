@@ -36,9 +36,9 @@ export function ComparisonBar() {
 function Found({ comparison }: { comparison: Comparison }) {
   const { progress, compared, differences, notes, problems } = comparison;
   return (
-    <div className={classes.found} role="status" aria-label="Differences">
+    <div className={`flow ${classes.found}`} role="status" aria-label="Differences">
       {progress < 1 && (
-        <div className={classes.progress}>
+        <div className={`flow ${classes.progress}`}>
           <Progress value={100 * progress} w={120} aria-label="Share that was compared" />
           <span className="numbers">{Math.floor(100 * progress)} %</span>
         </div>

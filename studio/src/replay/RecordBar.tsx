@@ -26,13 +26,13 @@ const ACTIONS = [
 export function RecordBar({ record }: { record: RecordView }) {
   const copy = useReplay((state) => state.copy);
   return (
-    <div className={classes.bar} role="toolbar" aria-label="Record">
-      <span className={`${classes.mark} dim`} title={record.path}>
+    <div className={`flow ${classes.bar}`} role="toolbar" aria-label="Record">
+      <span className={`flow ${classes.mark} dim`} title={record.path}>
         <IconMovie size={16} stroke={1.6} aria-hidden="true" />
         Record{record.growing ? ", growing" : record.complete ? "" : ", incomplete"}
       </span>
       {record.copies.map(({ name, values }) => (
-        <label key={name} className={classes.choice}>
+        <label key={name} className={`flow ${classes.choice}`}>
           <span className="one-line" title={name}>
             {name}
           </span>

@@ -139,7 +139,7 @@ type SavedProps = { sort: Sort; name: string; about: string; does: string; run: 
 
 function Row({ sort, name, about, does, run }: SavedProps) {
   return (
-    <div className={classes.row}>
+    <div className={`flow ${classes.row}`}>
       <UnstyledButton className={classes.choice} title={`${does} ${name}`} onClick={run}>
         <span className="one-line">
           <VisuallyHidden>{does} </VisuallyHidden>

@@ -81,12 +81,12 @@ export function Timeline() {
   };
   return (
     <div
-      className={classes.timeline}
+      className={`flow ${classes.timeline}`}
       role="toolbar"
       aria-label="Replay"
       data-past={(past && !record) || undefined}
     >
-      <div className={classes.buttons}>
+      <div className={`flow ${classes.buttons}`}>
         <TipButton tip="First frame (Home)" disabled={off} onClick={seekFirst} className={classes.wide}>
           <IconPlayerSkipBack size={ICON} />
         </TipButton>

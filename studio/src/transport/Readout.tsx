@@ -46,7 +46,7 @@ export function Readout() {
   const compiling = clock?.compiling ?? null;
   const late = clock === null ? "" : lateText(clock);
   return (
-    <div className={`${classes.readout} numbers`} data-offline={offline || undefined}>
+    <div className={`flow ${classes.readout} numbers`} data-offline={offline || undefined}>
       <Tooltip label={dt}>
         <div className={classes.time} role="timer" aria-label="Simulated time">
           <div className={classes.number}>{time}</div>

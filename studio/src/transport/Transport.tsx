@@ -36,8 +36,8 @@ function RunTransport() {
   const withSeed = seed === null ? "" : `, with seed ${seed}`;
   const resetTip = `Reset: state, time and noise back to the start${withSeed}. Parameters stay. (Shift+R)`;
   return (
-    <div className={classes.transport} role="toolbar" aria-label="Run">
-      <div className={classes.buttons}>
+    <div className={`flow ${classes.transport}`} role="toolbar" aria-label="Run">
+      <div className={`flow ${classes.buttons}`}>
         <TipButton tip={resetTip} aria-label="Reset" size={28} onClick={() => void reset()}>
           <IconPlayerSkipBackFilled size={16} />
         </TipButton>
@@ -56,7 +56,7 @@ function RunTransport() {
         <RecordButton />
       </div>
       <Readout />
-      <div className={classes.buttons}>
+      <div className={`flow ${classes.buttons}`}>
         <SpeedMenu />
         <RunMenu />
         <WorldButton />

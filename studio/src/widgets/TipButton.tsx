@@ -4,11 +4,11 @@ import { ActionIcon, type ActionIconProps, Tooltip } from "@mantine/core";
 import type { ComponentPropsWithRef } from "react";
 
 type TipButtonProps = ActionIconProps &
-  Omit<ComponentPropsWithRef<"button">, keyof ActionIconProps> & { tip: string; tipless?: boolean };
+  Omit<ComponentPropsWithRef<"button">, keyof ActionIconProps> & { tip: string };
 
-export function TipButton({ tip, tipless = false, ...button }: TipButtonProps) {
+export function TipButton({ tip, ...button }: TipButtonProps) {
   return (
-    <Tooltip label={tip} disabled={tipless}>
+    <Tooltip label={tip}>
       <ActionIcon size={24} aria-label={tip.replace(/ \(.*/, "")} {...button} />
     </Tooltip>
   );

@@ -69,7 +69,7 @@ export function BlockPalette({ scene, chosen, choose, select, tell, ground, chil
   };
   const swatches = [...SWATCHES, { name: "own", color: colourOf(own) }];
   return (
-    <div className="world-palette" role="group" aria-label="Blocks in front of the robot">
+    <div className="flow world-palette" role="group" aria-label="Blocks in front of the robot">
       {swatches.map((swatch) => {
         const there = present.has(blockName(swatch));
         return (

@@ -20,7 +20,7 @@ export function LinkState() {
     return null;
   }
   return (
-    <div className="world-link">
+    <div className="flow world-link">
       <span className="one-line numbers">{linkText(link)}</span>
     </div>
   );

@@ -95,7 +95,7 @@ export function World() {
       : `${looked.name}: ${placeText(carried.held?.at ?? looked, scene.border, scene.unit)}`;
   return (
     <section className="world" aria-label={solid ? "World in three dimensions" : "World from above"}>
-      <header className="world-head">
+      <header className="flow world-head">
         {hasSolids && (
           <SegmentedControl aria-label="View of the world" data={VIEWS} value={view} onChange={setView} />
         )}

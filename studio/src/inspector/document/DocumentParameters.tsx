@@ -81,7 +81,7 @@ function Driven({ link }: { link: LinkView }) {
   const select = useStudio((state) => state.select);
   const path = `${element?.path ?? link.element}.${link.parameter}`;
   return (
-    <li>
+    <li className="flow">
       <UnstyledButton className="link-path fine one-line" title={path} onClick={() => select([link.element])}>
         {path}
       </UnstyledButton>

@@ -1,12 +1,12 @@
 // An array: its shape and range, read only, and a button that plots it where it has two axes or more.
 
-import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconChartGridDots } from "@tabler/icons-react";
 
 import { openPlot } from "../../panels/openPlot";
 import { weightsOf } from "../../model/ports";
 import { useStudio } from "../../store";
 import { numberText } from "../../widgets/number";
+import { TipButton } from "../../widgets/TipButton";
 import { ParameterRow } from "../parameters/ParameterRow";
 import { usePlace } from "../place";
 import type { FormProps } from "./props";
@@ -27,15 +27,9 @@ export function ArrayForm({ form, path, value }: FormProps) {
         {arrayText(value)}
       </span>
       {plotted && (
-        <Tooltip label={`Plot ${path}`}>
-          <ActionIcon
-            size="sm"
-            aria-label={`Plot ${path}`}
-            onClick={() => openPlot({ element, kind: "weights" })}
-          >
-            <IconChartGridDots size={15} />
-          </ActionIcon>
-        </Tooltip>
+        <TipButton tip={`Plot ${path}`} size="sm" onClick={() => openPlot({ element, kind: "weights" })}>
+          <IconChartGridDots size={15} />
+        </TipButton>
       )}
     </ParameterRow>
   );

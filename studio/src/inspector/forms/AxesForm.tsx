@@ -85,7 +85,7 @@ export function AxisLines({ axes }: { axes: AxisView[] }) {
         <li key={axis.key}>
           <Popover position="left-start" width={230} trapFocus>
             <Popover.Target>
-              <UnstyledButton className="axis-line" title={`Edit the axis ${axis.name}`}>
+              <UnstyledButton className="flow axis-line" title={`Edit the axis ${axis.name}`}>
                 <b className="one-line" title={axis.name}>
                   {calledAxis(axis)}
                 </b>

@@ -128,9 +128,9 @@ function PartItem({ form, path, parts, index, folded, onFold, commit }: PartItem
   const others = form.of.filter((name) => name !== kind?.name);
   return (
     <section className="part-item" aria-label={path}>
-      <div className="part-line">
+      <div className="flow part-line">
         <UnstyledButton
-          className="part-fold"
+          className="flow part-fold"
           aria-expanded={!folded}
           aria-label={`${title}, ${path}`}
           onClick={onFold}

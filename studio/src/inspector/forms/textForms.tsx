@@ -45,7 +45,7 @@ export function TextsForm(props: FormProps) {
       {...props}
       setting={setting}
       lines={texts.map((text, i) => (
-        <div className="list-line" key={i}>
+        <div className="flow list-line" key={i}>
           <TextControl
             form={form}
             label={`${path} ${i + 1}`}
@@ -72,7 +72,7 @@ export function PairsForm(props: FormProps) {
       {...props}
       setting={setting}
       lines={pairs.map(([from, to], i) => (
-        <div className="list-line" key={from}>
+        <div className="flow list-line" key={from}>
           <TextBox
             label={`${path} name ${i + 1}`}
             value={from}

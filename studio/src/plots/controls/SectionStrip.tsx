@@ -25,7 +25,7 @@ export function SectionStrip({ rest, at, set }: Strip) {
         const shown = sampleAt(axis, position ?? middle(axis));
         const [min, max] = ends(axis);
         return (
-          <div key={axis.name} className="plot-cut">
+          <div key={axis.name} className="flow plot-cut">
             <span className="plot-cut-name">{axis.name}</span>
             <UnstyledButton
               className="plot-chip"
