@@ -39,18 +39,8 @@ type RowProps = {
 };
 
 export function ParameterRow(props: RowProps) {
-  const {
-    form,
-    path,
-    value,
-    driver,
-    label,
-    leaf = false,
-    inline = false,
-    unit = "",
-    extra,
-    children,
-  } = props;
+  const { form, path, value, driver, label, extra, children } = props;
+  const { leaf = false, inline = false, unit = "" } = props;
   const { element, send } = usePlace();
   const [opened, setOpened] = useState(false);
   const [naming, setNaming] = useState(false);

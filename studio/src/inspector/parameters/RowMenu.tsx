@@ -10,7 +10,7 @@ import { useStudio } from "../../store";
 import { DotsMenu } from "../../widgets/DotsMenu";
 import { PinItem } from "./PinItem";
 
-export type RowMenuProps = {
+type RowMenuProps = {
   element: string;
   path: string;
   driver?: DocumentParameterView;
@@ -26,21 +26,12 @@ export type RowMenuProps = {
 };
 
 export function RowMenu(props: RowMenuProps) {
-  const { path, opened, onOpened } = props;
-  return (
-    <DotsMenu label={`More for ${path}`} opened={opened} onOpened={onOpened}>
-      <RowMenuItems {...props} />
-    </DotsMenu>
-  );
-}
-
-function RowMenuItems(props: RowMenuProps) {
   const { element, path, driver, byDefault, atDefault, onReset, pinnable, linkable, onName } = props;
-  const documentParameters = useStudio((state) => state.document?.parameters);
+  const documentParameters = useStudio((state) => state.document?.parameters) ?? [];
   const link = (name: string) => void request({ type: "link", name, element, parameter: path });
   const unlink = () => void request({ type: "unlink", element, parameter: path });
   return (
-    <>
+    <DotsMenu label={`More for ${path}`} opened={props.opened} onOpened={props.onOpened}>
       {onReset !== undefined && (
         <Menu.Item
           leftSection={<IconArrowBackUp size={14} />}
@@ -60,7 +51,7 @@ function RowMenuItems(props: RowMenuProps) {
       {linkable && driver === undefined && (
         <>
           <Menu.Label>Link to</Menu.Label>
-          {(documentParameters ?? []).map(({ name }) => (
+          {documentParameters.map(({ name }) => (
             <Menu.Item key={name} leftSection={<IconLink size={14} />} onClick={() => link(name)}>
               <span className="one-line" title={name}>
                 {name}
@@ -72,6 +63,6 @@ function RowMenuItems(props: RowMenuProps) {
           </Menu.Item>
         </>
       )}
-    </>
+    </DotsMenu>
   );
 }
