@@ -37,7 +37,7 @@ PLACES: Mapping[str, tuple[type[Data], Callable[[Any], object]]] = {
     "pins": (PinView, lambda pin: (pin.element, pin.parameter)),
     "presets": (KeptPresetView, lambda preset: preset.name),
 }
-"""The struct of the entries of lists, and what tells two of them apart."""
+"""The struct of the entries of lists, and the key of an entry."""
 
 
 def layout(doc: Document) -> LayoutView:

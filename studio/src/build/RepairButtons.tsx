@@ -5,7 +5,7 @@ import { Group } from "@mantine/core";
 import { useState } from "react";
 
 import { ask } from "../dialogs/questions";
-import { newGesture } from "../gesture";
+import { newGesture } from "../held";
 import { onCanvas } from "../panels/showGoal";
 import type { ListedProblem } from "../protocol";
 import { request } from "../socket";

@@ -20,7 +20,7 @@ const document = (layout: object) =>
 const opened = (layout: object) => firstTiles(document(layout), new Map());
 const named = (layout: object) => opened(layout).build?.map(({ element, port }) => [element, port]);
 
-test("the plots of a layout are listed in their order, and others than those of the document are skipped", () => {
+test("the plots of a layout are listed in their order, those of other documents are skipped", () => {
   const plots = [
     { element: "2", port: "output" },
     { element: "9", port: "output" },

@@ -3,7 +3,9 @@
 import type { Axis } from "../draw/axis";
 import type { DocumentView, ElementView } from "../protocol";
 import { portAxes } from "../model/ports";
-import type { Spot } from "./injection/pusher";
+
+// An input to inject, in units of the axes of the element; null: everywhere.
+export type Spot = { center: number[] | null; sigma: number[] | null; amplitude: number };
 
 export type Injection = {
   element: ElementView;

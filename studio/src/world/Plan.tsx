@@ -20,7 +20,7 @@ type PlanProps = {
 };
 
 export function Plan({ scene, hands, ground }: PlanProps) {
-  const { hovered, selected, carried, carrier, select, hover, put, press } = hands;
+  const { hovered, selected, carried, carrier, refused, refuse, select, hover, put, press } = hands;
   const shade = useComputedColorScheme();
   const canvas = useRef<HTMLCanvasElement>(null);
   const frame = useRef<PlanFrame | null>(null);
@@ -46,17 +46,16 @@ export function Plan({ scene, hands, ground }: PlanProps) {
       ctx.setTransform(fine, 0, 0, fine, 0, 0);
       ctx.clearRect(0, 0, width, height);
       frame.current = frameOf(border, width, height);
-      const { held, refused } = carried;
       draw(
         ctx,
         frame.current,
         live.now,
-        { hovered, selected, held: held === null ? null : { ...held, refused: refused !== "" } },
+        { hovered, selected, held: carried === null ? null : { ...carried, refused: refused !== "" } },
         pageInk(),
       );
     };
     return onWorld(element, paint);
-  }, [hovered, selected, carried, shade]);
+  }, [hovered, selected, carried, refused, shade]);
 
   useEffect(() => {
     ground.current = {
@@ -87,7 +86,7 @@ export function Plan({ scene, hands, ground }: PlanProps) {
     const object =
       frame.current === null || event.button !== 0 ? null : under(scene, frame.current, at(event));
     select(object?.name ?? null);
-    carrier.forgive();
+    refuse("");
     if (object !== null && !object.fixed && frame.current !== null) {
       const place = toWorld(frame.current, at(event));
       grip.current = { x: object.x - place.x, y: object.y - place.y };
@@ -103,14 +102,14 @@ export function Plan({ scene, hands, ground }: PlanProps) {
       return;
     }
     const place = toWorld(frame.current, at(event));
-    carrier.carry(
-      selected,
-      inside(frame.current, { x: place.x + grip.current.x, y: place.y + grip.current.y }),
-    );
+    carrier.move({
+      name: selected,
+      at: inside(frame.current, { x: place.x + grip.current.x, y: place.y + grip.current.y }),
+    });
   };
   const up = () => {
     grip.current = null;
-    carrier.drop();
+    carrier.release();
   };
   const doubled = (event: { nativeEvent: MouseEvent }) => {
     if (frame.current !== null && under(scene, frame.current, at(event)) === null) {

@@ -76,11 +76,11 @@ export function World() {
     );
   }
 
-  const { hovered, selected, carried, carrier } = hands;
+  const { hovered, selected, carried, refused, refuse } = hands;
   const all = objects(scene);
   const find = (name: string | null) => all.find((object) => object.name === name);
   const looked =
-    find(carried.held?.name ?? hovered ?? selected) ?? live.now.bodies.find(({ name }) => name === hovered);
+    find(carried?.name ?? hovered ?? selected) ?? live.now.bodies.find(({ name }) => name === hovered);
   const told =
     looked === undefined
       ? note !== ""
@@ -92,7 +92,7 @@ export function World() {
             : canPlace
               ? HELP
               : MOVING_HELP
-      : `${looked.name}: ${placeText(carried.held?.at ?? looked, scene.border, scene.unit)}`;
+      : `${looked.name}: ${placeText(carried?.at ?? looked, scene.border, scene.unit)}`;
   return (
     <section className="world" aria-label={solid ? "World in three dimensions" : "World from above"}>
       <header className="flow world-head">
@@ -110,11 +110,11 @@ export function World() {
           onChange={(event) => hands.select(event.currentTarget.value || null)}
         />
         <span
-          className={`world-told dim one-line numbers${carried.refused === "" ? "" : " world-refused"}`}
+          className={`world-told dim one-line numbers${refused === "" ? "" : " world-refused"}`}
           role="status"
-          title={carried.refused === "" ? told : carried.refused}
+          title={refused === "" ? told : refused}
         >
-          {carried.refused === "" ? told : carried.refused}
+          {refused === "" ? told : refused}
         </span>
       </header>
       <LinkState />
@@ -124,7 +124,7 @@ export function World() {
           chosen={hands.colour}
           choose={hands.choose}
           select={hands.select}
-          tell={(reason) => carrier.refuse(reason)}
+          tell={refuse}
           ground={() => ground.current}
         >
           {camera === null && hasCamera && <AddCamera />}

@@ -13,8 +13,8 @@ const REFUSED = "#b3261e";
 // Of several bodies; colours that most people can tell apart (Okabe and Ito).
 const BODIES = ["#0050a0", "#b85c00", "#00734f", "#9b3a78"];
 
-export type Held = { name: string; at: PlanPoint; refused: boolean };
-export type Picked = { hovered: string | null; selected: string | null; held: Held | null };
+export type CarriedObject = { name: string; at: PlanPoint; refused: boolean };
+export type Picked = { hovered: string | null; selected: string | null; held: CarriedObject | null };
 
 export function draw(
   ctx: CanvasRenderingContext2D,

@@ -1,12 +1,12 @@
 // What the user has in hand in the world, in each of its views: the chosen object, the one under the pointer,
 // and the one that is carried.
 
-import { type KeyboardEvent, useRef, useState } from "react";
+import { type KeyboardEvent, useState } from "react";
 
 import type { SceneView } from "../protocol";
+import { Held } from "../held";
 import { request, socket } from "../socket";
 import { blockSide } from "./blocks";
-import { Carrier } from "./carrier";
 import { live } from "./live";
 import { freeName, objects, type PlanPoint, within } from "./planFrame";
 
@@ -19,12 +19,17 @@ const ARROWS: Record<string, PlanPoint> = {
   ArrowDown: { x: 0, y: -1 },
 };
 
+type ObjectInHand = { name: string; at: PlanPoint };
+
 export type Hands = {
   hovered: string | null;
   selected: string | null;
-  // The carried object, and why its last place was refused.
-  carried: { held: Carrier["held"]; refused: string };
-  carrier: Carrier;
+  // The carried object, and what carries it.
+  carried: ObjectInHand | null;
+  carrier: Held<ObjectInHand>;
+  // Why the last place or push was refused; empty: it was not.
+  refused: string;
+  refuse: (reason: string) => void;
   colour: number[] | null;
   hover: (name: string | null) => void;
   select: (name: string | null) => void;
@@ -39,13 +44,16 @@ export function useHands(scene: SceneView | null): Hands {
   const [hovered, hover] = useState<string | null>(null);
   const [selected, select] = useState<string | null>(null);
   const [colour, choose] = useState<number[] | null>(null);
-  const [carried, setCarried] = useState<Hands["carried"]>({ held: null, refused: "" });
-  const hand = useRef<Carrier | null>(null);
-  hand.current ??= new Carrier(
-    async (message) => (await socket.ask(message)).answer,
-    () => hand.current !== null && setCarried({ held: hand.current.held, refused: hand.current.refused }),
+  const [carried, setCarried] = useState<ObjectInHand | null>(null);
+  const [refused, refuse] = useState("");
+  const [carrier] = useState(
+    () =>
+      new Held<ObjectInHand>(async ({ name, at }) => {
+        const { answer } = await socket.ask({ type: "move_object", name, x: at.x, y: at.y });
+        const [problem] = answer.problems ?? [];
+        refuse([problem?.where, problem?.what].filter((part) => part).join(": "));
+      }, setCarried),
   );
-  const carrier = hand.current;
   const put = (at: PlanPoint) => {
     if (scene !== null && live.now.canPlace) {
       const size = blockSide(scene, live.now.bodies[0]);
@@ -68,11 +76,9 @@ export function useHands(scene: SceneView | null): Hands {
     if (arrow !== undefined) {
       const [x0, y0, x1, y1] = scene.border as [number, number, number, number];
       const step = STEP * Math.max(x1 - x0, y1 - y0);
-      carrier.carry(
-        object.name,
-        within(scene.border, { x: object.x + step * arrow.x, y: object.y + step * arrow.y }),
-      );
-      carrier.drop();
+      const place = { x: object.x + step * arrow.x, y: object.y + step * arrow.y };
+      carrier.move({ name: object.name, at: within(scene.border, place) });
+      carrier.release();
     } else if (event.key === "Delete" || event.key === "Backspace") {
       void request({ type: "remove_object", name: object.name });
     } else {
@@ -82,5 +88,5 @@ export function useHands(scene: SceneView | null): Hands {
     event.stopPropagation(); // keys of the page do other things
     return true;
   };
-  return { hovered, selected, carried, carrier, colour, hover, select, choose, put, press };
+  return { hovered, selected, carried, carrier, refused, refuse, colour, hover, select, choose, put, press };
 }

@@ -3,7 +3,7 @@
 
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 
-import { Gesture } from "../../gesture";
+import { Held } from "../../held";
 import type { Answer, ParameterForm, ListedProblem } from "../../protocol";
 import { socket } from "../../socket";
 import { noteChange } from "./CostMark";
@@ -53,35 +53,30 @@ export function useSetting<T>(
     },
     [element, parameter, place],
   );
-  const gesture = useMemo(() => new Gesture<T>(send, () => setOwn(null)), [send]);
-  useEffect(() => () => gesture.end(), [gesture]);
+  const held = useMemo(() => new Held<T>(send, (value) => setOwn(value === null ? null : { value })), [send]);
+  useEffect(() => () => held.release(), [held]);
 
   const late = cost === "recompile";
   const move = useCallback(
     (value: T) => {
-      latest.current = { value };
-      setOwn({ value });
-      if (!late) {
-        gesture.move(value);
+      if (late) {
+        latest.current = { value };
+        setOwn({ value });
+      } else {
+        held.move(value);
       }
     },
-    [gesture, late],
+    [held, late],
   );
   const end = useCallback(() => {
     const last = latest.current;
     latest.current = null;
-    if (late && last !== null) {
-      gesture.move(last.value);
+    if (last !== null) {
+      held.move(last.value);
     }
-    gesture.end();
-  }, [gesture, late]);
-  const nudge = useCallback(
-    (value: T) => {
-      setOwn({ value });
-      gesture.nudge(value);
-    },
-    [gesture],
-  );
+    held.release();
+  }, [held]);
+  const nudge = useCallback((value: T) => held.nudge(value), [held]);
   const commit = useCallback(
     async (value: T) => ((await send(value, 0)).problems ?? []).length === 0,
     [send],

@@ -1,11 +1,12 @@
 // Injection into a field with the right button of the mouse, a finger or the key i. An outline shows the
 // Gaussian.
 
+import { Held } from "../../held";
+import type { PushInput, Release } from "../../protocol";
 import { socket } from "../../socket";
 import { useStudio } from "../../store";
 import { portColor, shade } from "../colors/colors";
 import { paintGhost, type ValuePlane } from "./ghost";
-import { Pusher } from "./pusher";
 import { type Injection, spot } from "../spot";
 
 // A drawing into which a hand injects; `pointed` is the position under the pointer.
@@ -16,7 +17,7 @@ type Pushed = ValuePlane & Readonly<{ host: HTMLElement; pointed: () => [number,
 export function attachInjection(drawing: Pushed, given: () => Injection | null): () => void {
   const { host, over } = drawing;
   const ask = () => (useStudio.getState().connection === "open" ? given() : null);
-  const pusher = new Pusher((message) => socket.post(message));
+  const pusher = new Held<PushInput | Release>((message) => socket.ask(message));
   const ghost = document.createElement("canvas");
   ghost.className = "plot-ghost";
   over.append(ghost);
@@ -25,12 +26,19 @@ export function attachInjection(drawing: Pushed, given: () => Injection | null):
   const push = (place: number[]) => {
     const injection = ask();
     if (injection !== null) {
-      pusher.push(injection.element.id, spot(injection, boost ? null : place));
+      pusher.move({
+        type: "push",
+        element: injection.element.id,
+        ...spot(injection, boost ? null : place),
+      });
       paintGhost(ghost, drawing, injection, boost ? null : place, portColor("input", [], shade()));
     }
   };
   const stop = () => {
-    pusher.release();
+    if (pusher.isDown) {
+      pusher.move({ type: "release" });
+      pusher.release();
+    }
     ghost.toggleAttribute("data-on", false);
   };
   const placeOf = (event: PointerEvent) => {
@@ -54,7 +62,7 @@ export function attachInjection(drawing: Pushed, given: () => Injection | null):
       push(placeOf(event));
     }
   });
-  on(over, "pointermove", (event) => pusher.pushing && push(placeOf(event)));
+  on(over, "pointermove", (event) => pusher.isDown && push(placeOf(event)));
   for (const end of ["pointerup", "pointercancel", "pointerleave"] as const) {
     on(over, end, stop);
   }

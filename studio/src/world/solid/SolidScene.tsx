@@ -4,6 +4,7 @@
 import { Switch } from "@mantine/core";
 import { type KeyboardEvent, useEffect, useRef, useState } from "react";
 
+import { Held } from "../../held";
 import type { SceneView } from "../../protocol";
 import { socket } from "../../socket";
 import type { Ground } from "../ground";
@@ -13,7 +14,7 @@ import type { Hands } from "../useHands";
 import { onPictures, useWebGL } from "../../plots/scenes/useWebGL";
 import { useLatest } from "../../plots/useLatest";
 import type { Point3 } from "../../plots/scenes/sceneView";
-import { force, Puller } from "./pull";
+import { force } from "./pull";
 import type { SolidStage } from "./solidStage";
 
 const NO_WEBGL =
@@ -103,16 +104,16 @@ function show(
   const { redraw, end } = onPictures(host, draw);
   const made = new Stage(canvas, redraw);
   shown.current = made;
-  const puller = new Puller(
-    async (message) => (await socket.ask(message)).answer,
-    () => now().hands.carrier.refuse(puller.refused),
-  );
+  const puller = new Held<{ body: string; force: Point3 }>(async ({ body, force }) => {
+    const { answer } = await socket.ask({ type: "push_body", body, force: [...force] });
+    now().hands.refuse(answer.problems?.[0]?.what ?? "");
+  });
   let held: Gripped | null = null;
 
   const pull = () => {
     if (held !== null && "body" in held) {
       const grip = made.now(held.index, held.own);
-      puller.pull(held.body, force(grip, held.pointer));
+      puller.move({ body: held.body, force: force(grip, held.pointer) });
       made.point([grip, held.pointer]);
     }
   };
@@ -137,11 +138,12 @@ function show(
   const release = () => {
     made.controls.enabled = true;
     if (held !== null && "body" in held) {
-      puller.release(held.body);
+      puller.move({ body: held.body, force: [0, 0, 0] });
+      puller.release();
       made.point(null);
       redraw();
     } else if (held !== null) {
-      now().hands.carrier.drop();
+      now().hands.carrier.release();
     }
     held = null;
   };
@@ -150,7 +152,7 @@ function show(
     const { scene, hands } = now();
     const [x, y] = onCanvas(event);
     const hit = event.button === 0 ? made.hit(x, y) : null;
-    hands.carrier.forgive();
+    hands.refuse("");
     const object = scene.boxes.find(({ name, fixed }) => name === hit?.solid.thing && !fixed);
     hands.select(object?.name ?? null);
     if (hit === null || (object === undefined && !hit.solid.pushable)) {
@@ -183,7 +185,7 @@ function show(
       const at = made.level(x, y, held.height);
       if (at !== null) {
         const place = { x: at.x + held.grip.x, y: at.y + held.grip.y };
-        hands.carrier.carry(held.object, within(scene.border, place));
+        hands.carrier.move({ name: held.object, at: within(scene.border, place) });
       }
     }
   };
