@@ -16,7 +16,6 @@ import { LostBanner, Splash } from "./connection/Splash";
 import { usePage } from "./state/page";
 import { ComparisonBar } from "./replay/ComparisonBar";
 import { RecordNotes } from "./replay/RecordNotes";
-import { forgetMoment } from "./replay/replay";
 import { useShortcuts } from "./shortcuts";
 import { useStudio } from "./store";
 import { TourCard } from "./tour/TourCard";
@@ -29,7 +28,6 @@ export function App() {
   useRobotStop();
   useShortcuts();
   useAskBeforeLeaving();
-  useFreshStart();
   return (
     <div className={classes.app}>
       <LostBanner />
@@ -95,13 +93,4 @@ function useAskBeforeLeaving(): void {
     addEventListener("beforeunload", leaving);
     return () => removeEventListener("beforeunload", leaving);
   }, [unsaved]);
-}
-
-// Another document: the look into the gallery is over.
-function useFreshStart(): void {
-  const session = useStudio((state) => state.session);
-  useEffect(() => {
-    usePage.setState({ gallery: false });
-    return forgetMoment;
-  }, [session]);
 }

@@ -1,15 +1,14 @@
 // Comments on the canvas: they are part of the layout, and no part of the model.
 
-import { create } from "zustand";
-
 import type { Point } from "../graph/layout/rects";
 import type { Answer } from "../protocol";
 import { request } from "../socket";
+import { pageStore } from "../state/pageStore";
 import { isEditable } from "./editable";
 import { getPointer, getStage, middleOf } from "./stage";
 
 // The comment that was added just now, whose text is edited at once.
-export const useNewComment = create<{ comment: string }>(() => ({ comment: "" }));
+export const useNewComment = pageStore<{ comment: string }>(() => ({ comment: "" }));
 
 type Change = { text?: string; at?: [number, number]; size?: [number, number] };
 

@@ -1,11 +1,10 @@
 // The name that is edited in its place.
 
-import { create } from "zustand";
-
 import type { Rect } from "../graph/layout/rects";
 import { keyOf } from "../graph/layout/tree";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { pageStore } from "../state/pageStore";
 import { isEditable } from "./editable";
 import { pickGroup, usePicked } from "./picked";
 import { pathOf } from "./placing";
@@ -13,7 +12,7 @@ import { drawnNode } from "./stage";
 
 export type Renaming = { element: string; group: string[]; name: string; at: Rect };
 
-export const useRenaming = create<{ renaming: Renaming | null }>(() => ({ renaming: null }));
+export const useRenaming = pageStore<{ renaming: Renaming | null }>(() => ({ renaming: null }));
 
 const LEAST_WIDTH = 150;
 

@@ -1,9 +1,8 @@
 // The moment that the page shows: asking for another one, a frame at a time, and playing.
 
-import { create } from "zustand";
-
 import type { TimelineView } from "../protocol";
 import { request, socket } from "../socket";
+import { pageStore } from "../state/pageStore";
 import { useStudio } from "../store";
 import { type Playing, played } from "./playback";
 
@@ -17,7 +16,7 @@ type Replay = {
   copy: Record<string, number>;
 };
 
-export const useReplay = create<Replay>(() => ({ playing: null, speed: 1, held: null, copy: {} }));
+export const useReplay = pageStore<Replay>(() => ({ playing: null, speed: 1, held: null, copy: {} }));
 
 const timeline = (): TimelineView | null => useStudio.getState().clock?.timeline ?? null;
 
@@ -107,11 +106,6 @@ export function setReplaySpeed(speed: number): void {
 export function chooseCopy(dimension: string, index: number): void {
   useReplay.setState(({ copy }) => ({ copy: { ...copy, [dimension]: index } }));
   socket.post({ type: "choose_copy", dimension, index });
-}
-
-// Of another document neither a moment nor a trial is known.
-export function forgetMoment(): void {
-  useReplay.setState({ playing: null, held: null, copy: {} });
 }
 
 // After a new connection, whose page the server does not know yet.

@@ -11,6 +11,7 @@ import { useOffline } from "../connection/NeedsServer";
 import { keyOf } from "../graph/layout/tree";
 import type { ImportReportView } from "../protocol";
 import { request } from "../socket";
+import { useSame } from "../state/useSame";
 import { useStudio } from "../store";
 import { IconButton, PanelButton } from "../widgets/Buttons";
 import { Segments } from "../widgets/Segments";
@@ -114,17 +115,9 @@ function Walk({ report }: { report: ImportReportView }) {
 
 // The same as long as no element and no group is added, removed or renamed, whatever values change.
 function usePresent(): Present {
-  const elements = useStudio((state) => state.elements);
+  const paths = useSame((state) => [...state.elements.values()].map(({ id, path }) => [id, path] as const));
   const groups = useStudio((state) => state.document?.groups);
-  const paths = JSON.stringify([...elements.values()].map(({ id, path }) => [id, path]));
-  const keys = JSON.stringify((groups ?? []).map(keyOf));
-  return useMemo(
-    () => ({
-      elements: new Map(JSON.parse(paths) as [string, string][]),
-      groups: new Set(JSON.parse(keys) as string[]),
-    }),
-    [paths, keys],
-  );
+  return useMemo(() => ({ elements: new Map(paths), groups: new Set(groups?.map(keyOf)) }), [paths, groups]);
 }
 
 // From the search to the lines.

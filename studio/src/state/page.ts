@@ -1,7 +1,7 @@
 // What the page holds in memory while one document is open: a new session gets a new, empty object, so that
 // nothing has to be reset by hand.
 
-import { create } from "zustand";
+import { pageStore } from "./pageStore";
 
 export const VIEWS = ["build", "run", "experiment", "robot"] as const;
 
@@ -32,7 +32,7 @@ export const emptyPage = (session: number, view: View = "build"): PageState => (
   gallery: false,
 });
 
-export const usePage = create<PageState>(() => emptyPage(0));
+export const usePage = pageStore<PageState>(() => emptyPage(0));
 
 export const isView = (value: unknown): value is View => VIEWS.includes(value as View);
 

@@ -10,17 +10,15 @@ import { useStudio } from "../store";
 import { TipButton } from "../widgets/TipButton";
 import { RecordMenu } from "./RecordMenu";
 import { unitText } from "./format";
-import { choiceFor, useRecordChoice } from "./recordChoice";
+import { useRecordChoice } from "./recordChoice";
 import classes from "./Transport.module.css";
 
 export function RecordButton() {
   const recording = useStudio((state) => state.clock?.recording ?? null);
   const open = recording !== null && recording.ended === "";
   useEnding(recording?.path ?? "", recording?.ended ?? "");
-  const session = useStudio((state) => state.session);
   const unit = useStudio((state) => unitText(state.document?.time_unit ?? ""));
-  useRecordChoice();
-  const { ports, every } = choiceFor(session);
+  const { ports, every } = useRecordChoice();
   const what = ports === null ? "what is plotted" : "the ports chosen";
   const when = every === null ? "at every step" : `every ${every}${unit === "" ? "" : ` ${unit}`}`;
   const label = open ? `Stop recording into ${recording.path}` : `Record ${what}, ${when}, into a new folder`;

@@ -11,7 +11,7 @@ import { useStudio } from "../store";
 import { ButtonPopover } from "../widgets/ButtonPopover";
 import { NumberField } from "../widgets/NumberField";
 import { countText, unitText } from "./format";
-import { choiceFor, findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
+import { findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
 
 // More ports than MANY have a search; at most MOST rows are listed.
 const MANY = 8;
@@ -41,11 +41,9 @@ export function RecordMenu({ disabled }: { disabled: boolean }) {
 }
 
 function Choice() {
-  const session = useStudio((state) => state.session);
   const document = useStudio((state) => state.document);
   const unit = unitText(document?.time_unit ?? "");
-  useRecordChoice();
-  const { ports, every } = choiceFor(session);
+  const { ports, every } = useRecordChoice();
   const [search, setSearch] = useState("");
   const elements = document?.elements ?? [];
   const ticked = ports ?? plottedPorts();
@@ -54,8 +52,8 @@ function Choice() {
   const found = findPorts(elements, first, search);
   const paths = new Map(elements.map((element) => [element.id, element]));
   const count = ticked.filter(({ element }) => paths.has(element)).length;
-  const choose = (next: RecordedPort[] | null) => useRecordChoice.setState({ session, ports: next, every });
-  const sample = (next: number | null) => useRecordChoice.setState({ session, ports, every: next });
+  const choose = (next: RecordedPort[] | null) => useRecordChoice.setState({ ports: next, every });
+  const sample = (next: number | null) => useRecordChoice.setState({ ports, every: next });
   return (
     <Stack gap={8}>
       {findPorts(elements, [], "").length > MANY && (

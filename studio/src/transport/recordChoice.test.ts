@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { ElementView } from "../protocol";
-import { choiceFor, findPorts, toggled, useRecordChoice } from "./recordChoice";
+import { findPorts, toggled } from "./recordChoice";
 
 const field = { id: "a", path: "scene.u", outputs: ["activation", "output"], inputs: ["input"] } as unknown;
 const stimulus = { id: "b", path: "left", outputs: ["output"], inputs: [] as string[] } as unknown;
@@ -23,10 +23,4 @@ it("a port is ticked and cleared again", () => {
   expect(once).toEqual([{ element: "a", port: "input" }]);
   expect(toggled(once, { element: "a", port: "output" })).toHaveLength(2);
   expect(toggled(once, { element: "a", port: "input" })).toEqual([]);
-});
-
-it("a choice belongs to one document", () => {
-  useRecordChoice.setState({ session: 3, ports: [], every: 10 });
-  expect(choiceFor(3)).toEqual({ session: 3, ports: [], every: 10 });
-  expect(choiceFor(4)).toEqual({ session: 4, ports: null, every: null });
 });

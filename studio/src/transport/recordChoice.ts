@@ -1,25 +1,17 @@
 // What the next record holds: the ports, and how often they are sampled.
 
-import { create } from "zustand";
 import { portsOf } from "../model/ports";
 import type { ElementView, RecordedPort } from "../protocol";
+import { pageStore } from "../state/pageStore";
 
 type RecordChoice = {
-  // The document that the choice is for (`session` of the store); another one starts without a choice.
-  session: number;
   // Null: the plotted ones.
   ports: RecordedPort[] | null;
   // Document time between two samples; null: every step.
   every: number | null;
 };
 
-export const useRecordChoice = create<RecordChoice>(() => ({ session: 0, ports: null, every: null }));
-
-// The choice for a document.
-export function choiceFor(session: number): RecordChoice {
-  const choice = useRecordChoice.getState();
-  return choice.session === session ? choice : { session, ports: null, every: null };
-}
+export const useRecordChoice = pageStore<RecordChoice>(() => ({ ports: null, every: null }));
 
 // The ports whose name contains a text, in the order of the document; those that are ticked come first.
 export function findPorts(elements: ElementView[], ticked: RecordedPort[], search: string): RecordedPort[] {

@@ -1,17 +1,16 @@
 // What the buttons and the keys do with the run.
 
-import { create } from "zustand";
-
 import type { Answer } from "../protocol";
 import { isPast, isRecord, replay, seekFirst, seekFrames, stop } from "../replay/replay";
 import { request } from "../socket";
+import { pageStore } from "../state/pageStore";
 import { useStudio } from "../store";
 
 // What the page keeps for the next press: how many steps, and a seed that waits for the next reset (null: the
 // one in use stays).
 type Next = { steps: number; seed: number | null };
 
-export const useNext = create<Next>(() => ({ steps: 1, seed: null }));
+export const useNext = pageStore<Next>(() => ({ steps: 1, seed: null }));
 
 export const MOST_SEED = 2 ** 32 - 1;
 

@@ -2,22 +2,19 @@
 
 import { type ReactNode, useMemo } from "react";
 
+import { useSame } from "../../state/useSame";
 import { useStudio } from "../../store";
 import { axesOf } from "../parameters/leaf";
-import { type Place, PlaceContext, useAxes } from "../place";
+import { type Place, PlaceContext } from "../place";
+
+const NONE = { axes: [], own: false };
 
 export function ElementPlace({ id, children }: { id: string; children: ReactNode }) {
-  const element = useStudio((state) => state.elements.get(id));
-  const kind = useStudio((state) => state.kinds.get(element?.kind ?? ""));
-  const { axes, timeUnit } = useAxes();
-  const found = element === undefined ? "" : JSON.stringify(axesOf(element, kind, axes));
-  const place = useMemo(
-    (): Place => ({
-      element: id,
-      timeUnit,
-      ...(JSON.parse(found || '{"axes": [], "own": false}') as Pick<Place, "axes" | "own">),
-    }),
-    [id, timeUnit, found],
-  );
+  const axes = useSame(({ elements, kinds, document }) => {
+    const element = elements.get(id);
+    return element === undefined ? NONE : axesOf(element, kinds.get(element.kind), document?.axes ?? []);
+  });
+  const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
+  const place = useMemo((): Place => ({ element: id, timeUnit, ...axes }), [id, timeUnit, axes]);
   return <PlaceContext.Provider value={place}>{children}</PlaceContext.Provider>;
 }

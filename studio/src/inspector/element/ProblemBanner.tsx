@@ -4,19 +4,12 @@ import { IconAlertOctagon, IconAlertTriangle } from "@tabler/icons-react";
 
 import { RepairButtons } from "../../build/RepairButtons";
 import { isWarning } from "../../problems/severity";
-import type { ListedProblem } from "../../protocol";
-import { useStudio } from "../../store";
+import { useSame } from "../../state/useSame";
 
 export function ProblemBanner({ element }: { element: string }) {
-  // As text, because the clock brings new objects with the same content many times a second.
-  const found = useStudio((state) =>
-    JSON.stringify(
-      [...(state.clock?.failure ?? []), ...(state.document?.problems ?? [])].filter(
-        (p) => (p.element ?? "") === element,
-      ),
-    ),
+  const problems = useSame(({ clock, document }) =>
+    [...(clock?.failure ?? []), ...(document?.problems ?? [])].filter((p) => (p.element ?? "") === element),
   );
-  const problems = JSON.parse(found) as ListedProblem[];
   if (problems.length === 0) {
     return null;
   }

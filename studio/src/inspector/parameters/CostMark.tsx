@@ -2,9 +2,9 @@
 
 import { Loader, Tooltip } from "@mantine/core";
 import { IconRefresh, IconSettingsAutomation } from "@tabler/icons-react";
-import { create } from "zustand";
 
 import type { ParameterForm } from "../../protocol";
+import { pageStore } from "../../state/pageStore";
 import { useStudio } from "../../store";
 
 const COSTS = {
@@ -40,7 +40,7 @@ export function CostMark({
 
 type LastChange = { element: string; parameter: string };
 
-const useLastChange = create<LastChange>(() => ({ element: "", parameter: "" }));
+const useLastChange = pageStore<LastChange>(() => ({ element: "", parameter: "" }));
 
 export function noteChange(element: string, parameter: string): void {
   useLastChange.setState({ element, parameter });

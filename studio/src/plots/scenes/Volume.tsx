@@ -10,7 +10,7 @@ import { axisHeader, plane, type Table } from "../../draw/table";
 import { reading } from "../../draw/text";
 import { portAxes } from "../../model/ports";
 import type { AxisView } from "../../protocol";
-import { useStudio } from "../../store";
+import { useSame } from "../../state/useSame";
 import type { Live, Wish } from "../../streams";
 import { shade } from "../colors/colors";
 import type { PlotProps } from "../PlotFrame";
@@ -26,8 +26,8 @@ const CUTS = [0, 1, 2] as const;
 export function Volume(props: PlotProps) {
   const { element, port, settings } = props;
   const { at } = settings;
-  const document = useStudio((state) => state.document);
-  const axes = inOrder((document && portAxes(document, element, port)) || [], settings.drawn);
+  const stored = useSame(({ document }) => (document && portAxes(document, element, port)) || []);
+  const axes = useMemo(() => inOrder(stored, settings.drawn), [stored, settings.drawn]);
   const drawn = axes.slice(0, 3);
   const canvases = useMemo(() => CUTS.map(() => globalThis.document.createElement("canvas")), []);
   // Each slice has the other two axes.
