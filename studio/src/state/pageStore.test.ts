@@ -21,7 +21,7 @@ it("an edit and a document that is sent again keep what the page holds; another 
   expect([one.getState(), other.getState()]).toEqual([{ at: 0, text: "" }, { open: false }]);
 });
 
-it("a seed that waits for a reset, and a choice of what to record, are not those of the next document", () => {
+it("a seed that waits for a reset and a choice of ports to record are not those of the next document", () => {
   open(3, 1);
   useNext.setState({ seed: 7, steps: 10 });
   useRecordChoice.setState({ ports: [], every: 10 });
