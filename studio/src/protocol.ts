@@ -1335,10 +1335,11 @@ export type ReportLineView = {
   group: string[];
 };
 
-// A requirement of a tuned field: its text, its margin (0 or above: it is met, 1: in the middle of its
-// tolerance), its value if it has one, and whether that is exact.
+// A requirement of a tuned field: its text, a sentence on what was found, its margin (0 or above: it is met,
+// 1: in the middle of its tolerance), its value if it has one, and whether that is exact.
 export type RequirementView = {
   text: string;
+  sentence: string;
   margin: number | null;
   value: number | null;
   exact: boolean;
@@ -1848,13 +1849,15 @@ export type TrialRows = {
 // Find values of parameters at which a field meets requirements: `tuning` follows.
 //
 // `parameters` are names of parameters of the field, such as `kernel.0.sigma`. A requirement is a name, or an
-// object such as `{"detects": {"at": 3, "within": 0.2}}`, as in the files of `deodar tune`.
+// object such as `{"detects": {"at": 3, "within": 0.2}}`, as in the files of `deodar tune`. Another `seed`
+// searches elsewhere.
 export type TuneField = {
   type: "tune_field";
   request?: number;
   element: string;
   parameters: string[];
   requirements: unknown[];
+  seed?: number;
 };
 
 // A parameter of a tuned field, by path.

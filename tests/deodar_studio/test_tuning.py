@@ -5,8 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 import deodar as dd
 from deodar.analysis.regimes import regimes
+from deodar_studio.field_analysis.field_tuning import sentence
 from tests.deodar_studio.page import Page, play, studio
 
 WANTED = [{"detects": {"at": 4, "within": 0.5}}, "selects"]
@@ -34,6 +37,9 @@ def test_a_field_is_tuned_and_its_values_are_one_change(root: Path) -> None:
         assert p.clock["running"] and not end["problems"] and not end["applied"]
         assert [r["text"] for r in end["requirements"]] == ["detects(at=4, within=0.5)", "selects()"]
         assert all(r["margin"] >= 0 for r in end["requirements"]) and end["tolerated"] > 0
+        first, second = (r["sentence"] for r in end["requirements"])
+        assert first.startswith("The detection threshold is ") and first.endswith("; you asked for 4 ± 0.5.")
+        assert second == "As you asked, two equal inputs end in one peak."
         assert [v["path"] for v in end["values"]] == [f"u.{name}" for name in NAMES]
 
         before = p.document["undo"]
@@ -82,3 +88,18 @@ def test_a_tuning_is_stopped_and_what_it_refuses_is_said(root: Path) -> None:
 
     with studio(root) as address:
         play(address, scene)
+
+
+@pytest.mark.parametrize(
+    ("requirement", "measured", "met", "expected"),
+    [
+        (dd.detects(3, 0.2), 3.4, False, "The detection threshold is 3.4; you asked for 3 ± 0.2."),
+        (dd.detects(3, 0.2), None, False, "The detection threshold is not 3 ± 0.2, as you asked."),
+        (dd.detects(3, 0.2), None, True, "The detection threshold is 3 ± 0.2, as you asked."),
+        (dd.peak_width(10, 1), 9.96, True, "The width of the peak is 9.96; you asked for 10 ± 1."),
+        (dd.forgets(), None, False, "You asked that a peak vanishes after its input; that is not so."),
+        (dd.multi_peak(), None, True, "As you asked, two equal inputs each have a peak."),
+    ],
+)
+def test_a_requirement_is_reported_in_words(requirement, measured, met, expected) -> None:
+    assert sentence(requirement, measured, met) == expected

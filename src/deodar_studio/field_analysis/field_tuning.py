@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 
+from deodar.analysis.tuning.requirement import QuantityKind, Requirement
 from deodar.batch.packed_model import PackedModel
 from deodar.errors import DeodarError, DocumentError
 from deodar.model import edit, find
@@ -33,6 +34,24 @@ NOTHING = Tuning(
 )
 
 
+QUANTITIES: Mapping[QuantityKind, str] = {
+    "detection": "detection threshold",
+    "reverse detection": "reverse detection threshold",
+    "forgetting": "forgetting threshold",
+    "width": "width of the peak",
+    "amplitude": "amplitude of the peak",
+}
+"""Quantities in words."""
+
+BEHAVIOURS = {
+    "remembers": "a peak stays after its input",
+    "forgets": "a peak vanishes after its input",
+    "selects": "two equal inputs end in one peak",
+    "multi_peak": "two equal inputs each have a peak",
+}
+"""What a field does, in words, by the name of the requirement."""
+
+
 class FieldTuning(FieldTask[Tuning]):
     """Tunes one field at a time; `changed` is called from any thread when the message has changed."""
 
@@ -40,7 +59,7 @@ class FieldTuning(FieldTask[Tuning]):
         super().__init__(NOTHING, "tuning", False, changed)
 
     def start(
-        self, session: int, model: Model, element: str, parameters: Sequence[str], requirements: Sequence[Any]
+        self, session: int, model: Model, element: str, parameters: Sequence[str], wanted: Mapping[str, Any]
     ) -> None:
         """Tune a field, in a thread.
 
@@ -49,18 +68,14 @@ class FieldTuning(FieldTask[Tuning]):
             model: the model.
             element: id of the field.
             parameters: names of its parameters.
-            requirements: each as in a file of requirements.
+            wanted: requirements, each as in a file, and options of the file.
 
         Raises:
             WorkerError: a part of the model cannot be sent to another process.
         """
         path, packed = model.document.by_id()[element].path, PackedModel.of(model, None)
-        wanted = {
-            "parameters": {f"{path}.{name}": None for name in parameters},
-            "requirements": list(requirements),
-            "field": path,
-        }
-        self.ask(session, element, tuned, packed, wanted)
+        asked = {**wanted, "parameters": {f"{path}.{name}": None for name in parameters}, "field": path}
+        self.ask(session, element, tuned, packed, asked)
 
     def shown(self, doc: Document | None) -> Tuning:
         """Return the message; what was tuned is applied if the document has its values."""
@@ -119,13 +134,32 @@ def tuned(
         "requirements": [
             RequirementView(
                 text=text,
+                sentence=sentence(requirement, found.reached.get(text), margin >= 0),
                 margin=margin if math.isfinite(margin) else None,
                 value=found.reached.get(text),
                 exact=text in found.exact,
             )
-            for text, margin in found.margins.items()
+            for requirement in found.requirements
+            for text, margin in [(str(requirement), found.margins[str(requirement)])]
         ],
         "values": [TunedValue(path=p, before=found.before[p], value=v) for p, v in found.values.items()],
         "tolerated": found.tolerated,
         "reasons": list(found.reasons),
     }
+
+
+def sentence(requirement: Requirement, measured: float | None, met: bool) -> str:
+    """Return in words what a field does, and what was asked for."""
+    quantity = requirement.exact(0.0)
+    if quantity is not None:
+        name, stated = (
+            QUANTITIES[quantity.kind],
+            f"{quantity.target:g} \N{PLUS-MINUS SIGN} {quantity.within:g}",
+        )
+        if measured is not None:
+            return f"The {name} is {measured:.3g}; you asked for {stated}."
+        return (
+            f"The {name} is {stated}, as you asked." if met else f"The {name} is not {stated}, as you asked."
+        )
+    words = BEHAVIOURS.get(type(requirement).__name__, str(requirement))
+    return f"As you asked, {words}." if met else f"You asked that {words}; that is not so."

@@ -669,11 +669,12 @@ class Regime(Message, frozen=True, tag="regime"):
 
 
 class RequirementView(Data, frozen=True):
-    """A requirement of a tuned field: its text, its margin (0 or above: it is met, 1: in the middle of its
-    tolerance), its value if it has one, and whether that is exact.
+    """A requirement of a tuned field: its text, a sentence on what was found, its margin (0 or above: it is
+    met, 1: in the middle of its tolerance), its value if it has one, and whether that is exact.
     """
 
     text: str
+    sentence: str
     margin: float | None
     value: float | None
     exact: bool

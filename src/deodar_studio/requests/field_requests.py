@@ -11,7 +11,7 @@ from deodar_studio.messages.message import Id
 from deodar_studio.messages.to_page import Answer
 from deodar_studio.pages.hub import Hub
 from deodar_studio.pages.page import Page
-from deodar_studio.requests.request import Text, answer, asks, changes
+from deodar_studio.requests.request import Count, Text, answer, asks, changes
 
 
 def _model(hub: Hub, element: str) -> Model:
@@ -36,15 +36,23 @@ async def stop_regime(hub: Hub, page: Page) -> None:
 
 @asks()
 async def tune_field(
-    hub: Hub, page: Page, *, element: Id, parameters: Sequence[Text], requirements: Sequence[Any]
+    hub: Hub,
+    page: Page,
+    *,
+    element: Id,
+    parameters: Sequence[Text],
+    requirements: Sequence[Any],
+    seed: Count = 0,
 ) -> None:
     """Find values of parameters at which a field meets requirements: `tuning` follows.
 
     `parameters` are names of parameters of the field, such as `kernel.0.sigma`. A requirement is a name, or
-    an object such as `{"detects": {"at": 3, "within": 0.2}}`, as in the files of `deodar tune`.
+    an object such as `{"detects": {"at": 3, "within": 0.2}}`, as in the files of `deodar tune`. Another
+    `seed` searches elsewhere.
     """
     model = _model(hub, element)
-    hub.field_tuning.start(hub.project.session, model, element, parameters, requirements)
+    wanted = {"requirements": list(requirements), "seed": seed}
+    hub.field_tuning.start(hub.project.session, model, element, parameters, wanted)
 
 
 @asks()

@@ -1,6 +1,6 @@
 // Tune a field to a regime: what it is to do, the parameters that may change, and what was found.
 
-import { Button, Checkbox, NativeSelect } from "@mantine/core";
+import { Button, Checkbox, Group, NativeSelect } from "@mantine/core";
 import { IconCheck, IconPlayerStop, IconTarget } from "@tabler/icons-react";
 import { useState } from "react";
 
@@ -15,9 +15,14 @@ export function TuneSection({ field }: { field: ElementView }) {
   const tuning = useStudio((state) => state.tuning);
   const [goals, setGoals] = useState(FIRST_GOALS);
   const [chosen, setChosen] = useState<Record<string, boolean>>({});
+  const [tries, setTries] = useState(0);
   const known = tunable(field.values);
   const parameters = known.filter(({ name, usual }) => chosen[name] ?? usual).map(({ name }) => name);
   const wanted = requirements(goals);
+  const tune = (seed: number) => {
+    setTries(seed);
+    void request({ type: "tune_field", element: field.id, parameters, requirements: wanted, seed });
+  };
   const own = tuning !== null && tuning.element === field.id ? tuning : null;
   return (
     <section className="tune" aria-label="Tune to a regime">
@@ -82,9 +87,7 @@ export function TuneSection({ field }: { field: ElementView }) {
             variant="default"
             leftSection={<IconTarget size={15} />}
             disabled={wanted.length === 0 || parameters.length === 0}
-            onClick={() =>
-              void request({ type: "tune_field", element: field.id, parameters, requirements: wanted })
-            }
+            onClick={() => tune(0)}
           >
             Tune
           </Button>
@@ -99,7 +102,7 @@ export function TuneSection({ field }: { field: ElementView }) {
       {(own?.problems ?? []).map((problem, i) => (
         <ProblemText key={i} problem={problem} />
       ))}
-      {own !== null && own.values.length > 0 && <Found tuning={own} />}
+      {own !== null && own.values.length > 0 && <Found tuning={own} again={() => tune(tries + 1)} />}
     </section>
   );
 }
@@ -140,7 +143,7 @@ function ToleratedGoal({
 
 const short = (value: number) => Number(value.toPrecision(5)).toString();
 
-function Found({ tuning }: { tuning: Tuning }) {
+function Found({ tuning, again }: { tuning: Tuning; again: () => void }) {
   const share = (100 * tuning.tolerated).toFixed(1);
   const met = tuning.requirements.every((one) => one.margin !== null && one.margin >= 0);
   return (
@@ -155,20 +158,13 @@ function Found({ tuning }: { tuning: Tuning }) {
           {reason}
         </p>
       ))}
-      <table className="regime-table">
-        <caption>Requirements</caption>
-        <tbody>
-          {tuning.requirements.map((one) => (
-            <tr key={one.text}>
-              <th scope="row">{one.text}</th>
-              <td>
-                {one.margin !== null && one.margin >= 0 ? "met" : "not met"}
-                {one.value === null ? "" : `, at ${short(one.value)}${one.exact ? " exactly" : ""}`}
-              </td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <ul className="tune-sentences" aria-label="Requirements">
+        {tuning.requirements.map((one) => (
+          <li key={one.text} className={one.margin !== null && one.margin >= 0 ? "" : "regime-stale"}>
+            {one.sentence}
+          </li>
+        ))}
+      </ul>
       <table className="regime-table numbers">
         <caption>Values found</caption>
         <tbody>
@@ -182,14 +178,19 @@ function Found({ tuning }: { tuning: Tuning }) {
           ))}
         </tbody>
       </table>
-      <Button
-        size="compact-sm"
-        leftSection={<IconCheck size={15} />}
-        disabled={tuning.applied}
-        onClick={() => void request({ type: "apply_tuning" })}
-      >
-        {tuning.applied ? "The field has these values" : "Apply these values"}
-      </Button>
+      <Group gap="xs" justify="flex-start">
+        <Button size="compact-sm" variant="default" onClick={again}>
+          Try again
+        </Button>
+        <Button
+          size="compact-sm"
+          leftSection={<IconCheck size={15} />}
+          disabled={tuning.applied}
+          onClick={() => void request({ type: "apply_tuning" })}
+        >
+          {tuning.applied ? "The field has these values" : "Keep"}
+        </Button>
+      </Group>
     </div>
   );
 }

@@ -47,7 +47,7 @@ export function StopButton() {
         Stop
       </Button>
       {motors.length > 0 && (
-        <Popover position="top-start" width={330} shadow="md" trapFocus returnFocus>
+        <Popover position="top-start" width={390} shadow="md" trapFocus returnFocus>
           <Popover.Target>
             <button type="button" className="robot-motors numbers" title={motors.map(motorText).join("\n")}>
               {named.map((motor) => (
