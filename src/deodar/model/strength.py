@@ -152,8 +152,12 @@ def _stating(doc: Document, ports: dict[str, Json]) -> Document:
     """Return a document whose layout has other ports that connections state without their `Gain`."""
     if ports == _stated(doc):
         return doc
-    rest = {key: value for key, value in doc.layout.items() if key != STATED}
-    return edit.arrange(doc, {**rest, STATED: ports} if ports else rest)
+    layout = _without_ports(doc)
+    return edit.arrange(doc, {**layout, STATED: ports} if ports else layout)
+
+
+def _without_ports(doc: Document) -> dict[str, Json]:
+    return {key: part for key, part in doc.layout.items() if key != STATED}
 
 
 def _stated_by(doc: Document, wire: Connection) -> list[str]:
@@ -192,8 +196,7 @@ def _plain(doc: Document, ident: str) -> Connection | None:
     unnamed = edit.is_unnamed(gain.names[-1], gain.element) and gain.group == source.group
     alone = gain.every == 1 and not out.reads and (gain.id, FACTOR) not in doc.links()
     used = any(gain.id == i for use in doc.uses for _, i in use.elements)
-    layout = {key: value for key, value in doc.layout.items() if key != STATED}
-    if not unnamed or not alone or used or gain.id in codec.line(layout):
+    if not unnamed or not alone or used or gain.id in codec.line(_without_ports(doc)):
         return None
     stated = _stated(doc).get(gain.id)
     # a plain connection states the port that has values beyond the range too

@@ -49,8 +49,11 @@ def with_usual_pins(doc: Document) -> Document:
     pins = [_pin(leaf, drivers) for leaf in leaves]
     usual = [pin for k, pin in enumerate(pins) if pin not in pins[:k]][:MOST]
     stored = doc.layout.get(PINS)
-    before = cast("list[Any]", stored) if isinstance(stored, list) else []
-    return edit.arrange(doc, {**doc.layout, PINS: [*before, *(p for p in usual if p not in before)]})
+    first = cast("list[Any]", stored) if isinstance(stored, list) else []
+    pinned = [
+        {key: pin.get(key) for key in ("element", "parameter")} for pin in first if isinstance(pin, dict)
+    ]
+    return edit.arrange(doc, {**doc.layout, PINS: [*first, *(pin for pin in usual if pin not in pinned)]})
 
 
 def _pin(leaf: Leaf, drivers: dict[Leaf, str]) -> dict[str, str]:

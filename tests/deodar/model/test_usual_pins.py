@@ -50,8 +50,8 @@ def test_roles_take_turns_in_the_order_of_the_elements() -> None:
 def test_what_is_pinned_stays_first_and_is_pinned_once() -> None:
     model = competing()
     first = [
-        {"element": model["far"].id, "parameter": "amplitude", "label": "distance"},
-        {"element": model["near"].id, "parameter": "amplitude"},
+        {"element": model["far"].id, "parameter": "amplitude"},
+        {"element": model["near"].id, "parameter": "amplitude", "label": "distance"},
     ]
     doc = with_usual_pins(edit.arrange(model.document, {PINS: first, "folded": []}))
     assert pinned(doc)[:2] == ["far.amplitude", "near.amplitude"] and len(pinned(doc)) == MOST + 1
