@@ -278,3 +278,25 @@ for (const kind of ["kernels", "weights"] as const) {
     expect(await text()).toBe(before);
   });
 }
+
+test("connections that a folded group draws as one say that each has a strength of its own", async () => {
+  const { page } = studio;
+  const [{ source, target } = { source: "", target: "" }] = observer.document?.connections ?? [];
+  const { made = [] } = await observer.ask({
+    type: "add_element",
+    kind: "Field",
+    name: "other",
+    at: [420, 200],
+  });
+  await observer.ask({ type: "connect", source, target: made[0] ?? "" });
+  await observer.ask({ type: "group", elements: [target, made[0] ?? ""], name: "maps" });
+  await observer.ask({ type: "arrange", layout: { folded: ["maps"] } });
+  await page.locator(".graph-count").waitFor();
+  await showEverything(page);
+  await pick();
+  const card = page.locator(".graph-wire-card");
+  await card
+    .getByText("2 connections, each with a strength of its own: open the group to change it.")
+    .waitFor();
+  await shot(page, "strength-several");
+});
