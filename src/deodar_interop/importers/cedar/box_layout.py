@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from deodar.codec import Json
 from deodar.element import Coupling
 from deodar.elements.stimuli import Boost
-from deodar.model.document import Entry
+from deodar.model.document import Connection, Entry
 from deodar_interop.importers.cedar.file import CedarGroup, StepPath, items, members, text
 from deodar_interop.importers.cedar.values import StepValues, number
 
@@ -17,22 +18,30 @@ BOX = (180.0, 124.0)
 """Width and height that a box takes in the studio; most of cedar's are icons of 40 x 40."""
 
 SPREAD = (1.0, 4.0)
-"""Smallest and largest factor of distances: as few boxes as possible overlap, and none is far away. Couplings
-are part of a connection in the studio, and have no box.
-"""
+"""Smallest and largest factor of distances: as few boxes as possible overlap, and none is far away."""
 
 MOST_BOXES = 1000
 """Number of boxes up to which all pairs are compared."""
 
 
-def layout(root: CedarGroup, by: Mapping[StepPath, Entry]) -> dict[str, Json]:
+def layout(
+    root: CedarGroup, by: Mapping[StepPath, Entry], connections: Sequence[Connection]
+) -> dict[str, Json]:
     """Return the layout of a document: boxes at cedar's places, notes as comments, and a switch for each
     boost.
+
+    Places are scaled apart until boxes do not overlap. A coupling with one connection into it and one out of
+    it is drawn on the connection, without a box.
     """
     places: dict[str, tuple[float, float]] = {}
     notes: list[tuple[str, float, float]] = []
     _places(root, 0.0, 0.0, by, places, notes)
-    boxed = {entry.id for entry in by.values() if not isinstance(entry.element, Coupling)}
+    into, out_of = Counter(c.target for c in connections), Counter(c.source for c in connections)
+    boxed = {
+        entry.id
+        for entry in by.values()
+        if not isinstance(entry.element, Coupling) or (into[entry.id], out_of[entry.id]) != (1, 1)
+    }
     factor = _spread([place for ident, place in places.items() if ident in boxed])
     out: dict[str, Json] = {}
     if places:

@@ -59,7 +59,7 @@ def translated(content: bytes, name: str, beside: Beside = nothing) -> tuple[Ste
         time_unit="ms",
         dt=translation.dt,
         notes=report.text(),
-        layout=layout(translation.architecture.root, by),
+        layout=layout(translation.architecture.root, by, doc.connections),
     )
     return translation, Imported(Model(document=doc), report)
 

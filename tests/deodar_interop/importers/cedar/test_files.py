@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 from pathlib import Path
@@ -243,6 +244,24 @@ def test_boxes_notes_and_switches_are_kept():
     assert boxes[by["first input"]]["x"] < boxes[by["association"]]["x"] + 500
     pin = doc.layout["pins"][0]
     assert (pin["element"], pin["lower"], pin["upper"], pin["switch"]) == (by["new Boost"], 0.0, 4.0, True)
+
+
+@pytest.mark.parametrize(
+    "file", ["first_architecture_step_1.json", "elementaryBehavior.json", "fieldTemplates.json"]
+)
+def test_boxes_are_scaled_apart_until_none_overlaps(file: str):
+    doc = read(DATA / file).model.document
+    ends = [(c.source, c.target) for c in doc.connections]
+    on_wires = {
+        e.id
+        for e in doc.entries
+        if isinstance(e.element, dd.Coupling)
+        and [sum(pair[side] == e.id for pair in ends) for side in (0, 1)] == [1, 1]
+    }
+    boxes = [box for ident, box in doc.layout["boxes"].items() if ident not in on_wires]
+    pairs = list(itertools.combinations(boxes, 2))
+    assert len(pairs) > 10
+    assert not [p for p in pairs if abs(p[0]["x"] - p[1]["x"]) < 179 and abs(p[0]["y"] - p[1]["y"]) < 123]
 
 
 def test_known_errors_of_cedar_are_named():
