@@ -7,6 +7,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
 import { box, button, file, openTool, panel, reopen, showView } from "./hands";
+import { overlaps } from "./legibility";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -185,6 +186,19 @@ test("the report is removed, and undo brings it back", async () => {
   await page.keyboard.press("Control+z");
   await mark().waitFor();
   await line("colour").waitFor();
+});
+
+test("the report offers new places for the boxes, as one step of undo", async () => {
+  const { page } = studio;
+  const before = JSON.stringify(observer.document?.layout["boxes"]);
+  const steps = observer.document?.undo ?? 0;
+  await report().getByRole("button", { name: "Tidy to grid" }).click();
+  await observer.until(() => JSON.stringify(observer.document?.layout["boxes"]) !== before);
+  expect(observer.document?.undo).toBe(steps + 1);
+  await expect.poll(() => overlaps(page)).toEqual([]);
+  await shot(page, "report-tidy");
+  await page.keyboard.press("Control+z");
+  await observer.until(() => JSON.stringify(observer.document?.layout["boxes"]) === before);
 });
 
 test("a line opens the view of the architecture again where another one is shown", async () => {

@@ -16,6 +16,8 @@ export type Stage = {
   centerGroup: (group: string) => void;
   // Shows the whole architecture, and again when the size of the canvas changes.
   showAll: () => void;
+  // Gives all boxes new places, as one step of undo.
+  tidy: () => void;
 };
 
 let stage: Stage | null = null;

@@ -26,14 +26,15 @@ export function useStage(
   center: (element: string) => void,
   centerGroup: (group: string) => void,
   showAll: (duration: number) => void,
+  tidy: () => void,
 ) {
   const flow = useReactFlow();
   const latest = useRef(scene);
-  const centering = useRef({ center, centerGroup, showAll });
+  const acts = useRef({ center, centerGroup, showAll, tidy });
   useEffect(() => {
     latest.current = scene;
-    centering.current = { center, centerGroup, showAll };
-  }, [scene, center, centerGroup, showAll]);
+    acts.current = { center, centerGroup, showAll, tidy };
+  }, [scene, center, centerGroup, showAll, tidy]);
   useEffect(listen, []);
 
   useEffect(() => {
@@ -63,9 +64,10 @@ export function useStage(
       toScreen: (at) => flow.flowToScreenPosition(at),
       scene: () => latest.current,
       reveal,
-      center: (element) => centering.current.center(element),
-      centerGroup: (group) => centering.current.centerGroup(group),
-      showAll: () => centering.current.showAll(glide(GLIDE_MS)),
+      center: (element) => acts.current.center(element),
+      centerGroup: (group) => acts.current.centerGroup(group),
+      showAll: () => acts.current.showAll(glide(GLIDE_MS)),
+      tidy: () => acts.current.tidy(),
     });
     return () => setStage(null);
   }, [around, flow]);

@@ -35,6 +35,7 @@ import { useStudio } from "../store";
 import { contractionIn } from "./contract";
 import { place, showEvery, toGrid, unfold } from "./layout/arrange";
 import { Box } from "./boxes/Box";
+import { CellFrames } from "./boxes/CellFrames";
 import { ElementCard } from "./boxes/ElementCard";
 import { CommentBox } from "./boxes/CommentBox";
 import { Controls, GLIDE_MS } from "./Controls";
@@ -103,6 +104,18 @@ function Canvas({ structure }: { structure: Structure }) {
     () => views.subscribe(({ transform }, before) => transform !== before.transform && layer.change()),
     [views, layer],
   );
+  const contraction = useMemo(() => contractionIn(structure, kinds), [structure, kinds]);
+  const arranged = useCallback(
+    async (answer: Promise<Answer>) => {
+      const { problems = [] } = await answer;
+      if (problems.length === 0) {
+        requestAnimationFrame(() => showAll(glide(GLIDE_MS)));
+      }
+    },
+    [showAll],
+  );
+  const every = contraction === null ? null : structure.layout.every_element;
+  const tidy = () => void arranged(every === false ? toGrid() : place(tidied(structure, kinds)));
   const stage = useStage(
     around,
     now,
@@ -117,6 +130,7 @@ function Canvas({ structure }: { structure: Structure }) {
       centerGroup(group);
     },
     showAll,
+    tidy,
   );
   const wiring = useWires(useMemo(() => withCourses(now), [now]));
   // The first element of an empty document stays where it was put.
@@ -135,18 +149,6 @@ function Canvas({ structure }: { structure: Structure }) {
     window.addEventListener("keydown", key);
     return () => window.removeEventListener("keydown", key);
   }, []);
-
-  const contraction = useMemo(() => contractionIn(structure, kinds), [structure, kinds]);
-  const arranged = useCallback(
-    async (answer: Promise<Answer>) => {
-      const { problems = [] } = await answer;
-      if (problems.length === 0) {
-        requestAnimationFrame(() => showAll(glide(GLIDE_MS)));
-      }
-    },
-    [showAll],
-  );
-  const every = contraction === null ? null : structure.layout.every_element;
 
   // While the canvas is moved it is one layer that the browser only shifts: live boxes are painted about once
   // a second.
@@ -250,6 +252,7 @@ function Canvas({ structure }: { structure: Structure }) {
           {nodes.length <= MOST_DOTTED && (
             <Background variant={BackgroundVariant.Dots} gap={22} size={1.4} color="var(--line)" />
           )}
+          <CellFrames frames={now.frames} />
           <canvas ref={shown} className="graph-live-layer" aria-hidden />
           <MiniMap
             style={MAP}
@@ -264,7 +267,7 @@ function Canvas({ structure }: { structure: Structure }) {
         {nodes.length === 0 && <EmptyHint />}
         <Controls
           onShow={() => showAll(glide(GLIDE_MS))}
-          onTidy={() => void arranged(every === false ? toGrid() : place(tidied(structure, kinds)))}
+          onTidy={tidy}
           every={every}
           onEvery={(shown) => void arranged(showEvery(shown, contraction?.couplings ?? new Set()))}
         />

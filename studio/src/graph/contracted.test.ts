@@ -2,6 +2,7 @@ import { expect, test } from "vitest";
 import { CHIP } from "./contracted";
 import { fakeCosivina, fakeKind, fakeLayout, kindsOf } from "./fakes";
 import { nearOf } from "./focus";
+import { partsOf } from "./grid";
 import { PANEL } from "./layout/layout";
 import { scene } from "./scene";
 import { withCourses } from "./wires/courses";
@@ -49,6 +50,27 @@ test("stored positions are kept, and where most boxes have one there is no grid 
   const placed = Object.fromEntries([...SCENE.places.elements].filter(([id]) => id !== "cos"));
   expect(at("wm_s", placed)).toEqual(SCENE.places.elements.get("wm_s"));
   expect(at("cos", placed)).not.toEqual(grid);
+});
+
+test("the columns of one digit have a frame, until a box is moved across it", () => {
+  expect(SCENE.frames.map(({ name }) => name.split(" ").sort().join(" ")).sort()).toEqual([
+    "c1 f1",
+    "c2 f2",
+    "s sa sr",
+  ]);
+  for (const { id, name } of DOCUMENT.elements) {
+    const at = SCENE.places.elements.get(id);
+    const around = SCENE.frames.find((frame) => frame.name.split(" ").includes(partsOf(name).suffix));
+    if (at === undefined || around === undefined) continue;
+    expect([around.x < at.x, at.x + 156 < around.x + around.width, around.y < at.y], name).toEqual([
+      true,
+      true,
+      true,
+    ]);
+  }
+  const { x, y } = SCENE.places.elements.get("wm_f2") ?? { x: NaN, y: NaN };
+  const moved = { ...Object.fromEntries(SCENE.places.elements), wm_f1: { x, y: y + 130 } };
+  expect(scene({ ...DOCUMENT, layout: fakeLayout({ boxes: moved }) }, KINDS, PANEL).frames).toEqual([]);
 });
 
 test("small documents have no links, and their boxes show no other elements", () => {

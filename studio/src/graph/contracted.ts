@@ -2,9 +2,9 @@
 
 import { dimensions } from "./boxes/boxes";
 import type { Contraction } from "./contract";
-import { gridPlaces } from "./grid";
+import { digitOf, gridPlaces, partsOf } from "./grid";
 import { PANEL } from "./layout/layout";
-import type { Point, Size } from "./layout/rects";
+import { meet, type Point, type Rect, type Size } from "./layout/rects";
 import type { ElementView, Kind } from "../protocol";
 import type { SceneNode, Wire } from "./nodes";
 
@@ -46,6 +46,31 @@ export function inGrid(
     fed: (dots.get(id) ?? []).some(isStimulus),
   }));
   return gridPlaces(cells, edges, size, panel);
+}
+
+// A frame around the cells of a grid whose names end in one digit, or in none.
+export type CellFrame = Rect & { name: string };
+
+// What a frame keeps around its boxes, with room for its name above them.
+const PAD = { side: 16, top: 40, bottom: 16 };
+
+// The frames of a grid; none where they would cover each other, because boxes were moved.
+export function cellFrames(boxes: { name: string; rect: Rect }[]): CellFrame[] {
+  const digits = new Map<string, { suffix: string; rect: Rect }[]>();
+  for (const { name, rect } of boxes.toSorted((a, b) => a.rect.x - b.rect.x)) {
+    const { suffix } = partsOf(name);
+    digits.set(digitOf(suffix), [...(digits.get(digitOf(suffix)) ?? []), { suffix, rect }]);
+  }
+  const top = Math.min(...boxes.map(({ rect }) => rect.y)) - PAD.top;
+  const bottom = Math.max(...boxes.map(({ rect }) => rect.y + rect.height)) + PAD.bottom;
+  const frames = [...digits.values()].map((cells) => {
+    const x = Math.min(...cells.map(({ rect }) => rect.x)) - PAD.side;
+    const right = Math.max(...cells.map(({ rect }) => rect.x + rect.width)) + PAD.side;
+    const names = new Set(cells.map(({ suffix }) => suffix).filter((suffix) => suffix !== ""));
+    return { name: [...names].join(" "), x, y: top, width: right - x, height: bottom - top };
+  });
+  const isApart = frames.every((one, i) => frames.slice(i + 1).every((other) => !meet(one, other)));
+  return frames.length > 1 && isApart ? frames : [];
 }
 
 // A box with the elements that it shows inside.

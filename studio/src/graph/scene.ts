@@ -7,7 +7,7 @@ import type { CommentView, ElementView, Kind, PinView } from "../protocol";
 import { boxSize, dimensions, portHeight } from "./boxes/boxes";
 import { contract, type Structure } from "./contract";
 import type { BoxNode, CommentNode, FoldedNode, FrameNode, GroupData, SceneNode, Wire } from "./nodes";
-import { CHIP, contractedWires, inGrid, linksOf, withParts } from "./contracted";
+import { type CellFrame, cellFrames, CHIP, contractedWires, inGrid, linksOf, withParts } from "./contracted";
 import { chains, type Chain } from "./wires/chains";
 import { COUNT, FOLDED, places, type Places } from "./layout/layout";
 import type { Point, Rect, Size } from "./layout/rects";
@@ -24,6 +24,8 @@ export type GraphScene = {
   holders: Map<string, string>;
   // What each box, part and wire of a contracted architecture is joined with; null for others.
   links: Map<string, Set<string>> | null;
+  // Around the cells of its grid.
+  frames: CellFrame[];
 };
 
 // Ids of nodes for groups cannot be those of elements, which are hashes.
@@ -72,8 +74,14 @@ export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Si
       ),
     ),
     links: contraction === null ? null : linksOf(wires, contraction),
+    frames: contraction === null ? [] : cellFrames(boxesIn(nodes)),
   };
 }
+
+const boxesIn = (nodes: SceneNode[]) =>
+  nodes.flatMap(({ type, data, position, width = 0, height = 0 }) =>
+    type === "box" ? [{ name: data.name, rect: { ...position, width, height } }] : [],
+  );
 
 // The width that the pills of these names need on an edge, about.
 export function pillsWidth(names: string[]): number {

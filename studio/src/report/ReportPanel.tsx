@@ -7,8 +7,10 @@ import { TextInput } from "@mantine/core";
 import { IconSearch, IconTrash } from "@tabler/icons-react";
 import { type KeyboardEvent, useMemo, useState } from "react";
 
+import { getStage } from "../build/stage";
 import { useOffline } from "../connection/NeedsServer";
 import { keyOf } from "../graph/layout/tree";
+import { onCanvas } from "../panels/showGoal";
 import type { ImportReportView } from "../protocol";
 import { request } from "../socket";
 import { useSame } from "../state/useSame";
@@ -62,6 +64,12 @@ function Walk({ report }: { report: ImportReportView }) {
             onClick={() => void removeReport()}
           />
         </div>
+        <PanelButton
+          label="Tidy to grid"
+          disabled={offline}
+          title="Compute places for all boxes instead of those of the file; undo brings these back"
+          onClick={() => onCanvas(() => getStage()?.tidy())}
+        />
         <div className="across report-controls">
           {losses > 0 && (
             <Segments

@@ -12,6 +12,7 @@ import { useHover } from "../hover";
 import { LiveBox } from "./LiveBox";
 import { unhover, useFocus } from "../focus";
 import { Mark } from "./Mark";
+import { nameParts } from "./nameParts";
 import { Parts } from "./ContractedParts";
 import type { BoxNode } from "../nodes";
 import { useProblem, useWarning } from "../problem";
@@ -66,8 +67,13 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
     >
       {ports("target", inputs)}
       <div className="graph-box-head">
-        <div className="graph-box-name one-line" title={path}>
-          {name}
+        <div className="graph-box-name" title={path}>
+          {nameParts(name).map(({ text, hyphen }, i) => (
+            <span key={i}>
+              {text}
+              {hyphen ? <span className="graph-hyphen" /> : <wbr />}
+            </span>
+          ))}
         </div>
         <Signs title={title} kind={data.kind} dimensions={data.dimensions} />
         <Mark element={id} />

@@ -3,7 +3,8 @@
 import type { ElementView } from "../../protocol";
 import type { Size } from "../layout/rects";
 
-export const BOX = { width: 156, title: 40, port: 24, pad: 8, pin: 24 };
+// `widest`: the width of a box whose name needs it; `letter`: the width of a letter of a name, about.
+export const BOX = { width: 156, widest: 176, letter: 7.4, title: 40, port: 24, pad: 8, pin: 24 };
 // Samples along each axis of a map.
 const MOST_CELLS = 64;
 // `small` is the width of a live picture in a box that shows its name and little else.
@@ -54,7 +55,7 @@ export function boxSize(element: ElementView, pins = 0): Size {
   const ports = Math.max(element.inputs.length, element.outputs.length);
   const content = live + BOX.pin * pins;
   return {
-    width: BOX.width,
+    width: Math.max(BOX.width, Math.min(BOX.widest, Math.ceil(BOX.letter * element.name.length) + 20)),
     height: Math.max(BOX.title + (content === 0 ? 0 : content + BOX.pad), BOX.port * (ports + 1)),
   };
 }

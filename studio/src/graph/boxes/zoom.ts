@@ -17,7 +17,7 @@ const TEXT = 11.2;
 const STEPS = 8;
 
 // A box with a curve then has room for two lines of its name.
-export const LINES = 0.3;
+export const LINES = 0.27;
 
 export type CanvasLook = { level: DetailLevel; text: number; numbers: boolean; lines: boolean };
 
