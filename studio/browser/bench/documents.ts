@@ -55,13 +55,9 @@ export function curves(count: number): object {
   };
 }
 
-/**
- * A field of 200 x 200 samples, three over one axis and two nodes, all with noise and stimuli; ten plots fill
- * the page.
- */
-export const ten = {
+/** A field of 200 x 200 samples, three over one axis and two nodes, all with noise and stimuli. */
+const mixed = {
   ...GENERAL,
-  name: "ten plots",
   dt: 5,
   elements: {
     map: { ...MAP, id: ident("map") },
@@ -81,22 +77,30 @@ export const ten = {
     ...["u", "v", "r"].flatMap((field) => [wire("left", field), wire("right", field)]),
     wire("n", "m"),
   ],
+};
+
+const MAPS = [
+  plot("map", "heat", "activation"),
+  plot("map", "heat", "output"),
+  plot("map", "course", "activation"),
+];
+const CURVES = ["u", "v", "r"].map((field) => plot(field, "curve", "activation"));
+const COURSES = ["n", "m", "r"].map((element) => plot(element, "course", "activation"));
+
+/** Nine plots that fill the page, as nine tiles. */
+export const nine = {
+  ...mixed,
+  name: "nine plots",
+  layout: { view: "run", panels: panels([MAPS, CURVES, COURSES]) },
+};
+
+/** Ten plots that fill the page. */
+export const ten = {
+  ...mixed,
+  name: "ten plots",
   layout: {
     view: "run",
-    panels: panels([
-      [plot("map", "heat", "activation"), plot("map", "heat", "output"), plot("map", "course", "activation")],
-      [
-        plot("u", "curve", "activation"),
-        plot("v", "curve", "activation"),
-        plot("r", "curve", "activation"),
-        plot("u", "course", "activation"),
-      ],
-      [
-        plot("n", "course", "activation"),
-        plot("m", "course", "activation"),
-        plot("r", "course", "activation"),
-      ],
-    ]),
+    panels: panels([MAPS, [...CURVES, plot("u", "course", "activation")], COURSES]),
   },
 };
 
