@@ -12,6 +12,7 @@ import {
   type Edge,
   type EdgeTypes,
   type NodeTypes,
+  type ReactFlowProps,
 } from "@xyflow/react";
 import "@xyflow/react/dist/base.css";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
@@ -50,6 +51,7 @@ import "./graph.css";
 import { useNear } from "./focus";
 import { useHover } from "./hover";
 import { moved } from "./layout/moved";
+import { MovedView } from "./movedView";
 import { newPainting, PainterContext } from "./boxes/PainterContext";
 import { foldedAround, foldedOutside, groupKey, type GraphScene } from "./scene";
 import type { SceneNode } from "./nodes";
@@ -67,6 +69,8 @@ const NODES: NodeTypes = { box: Box, frame: GroupFrame, folded: Folded, comment:
 const EDGES: EdgeTypes = { wire: WireEdge };
 // Painting dots costs a browser without a graphics card as much as a hundred boxes do.
 const MOST_DOTTED = 60;
+// Up to this number all boxes stay mounted: to add and remove them while the view is moved costs more.
+const MOST_MOUNTED = 1000;
 const MAP = { width: 150, height: 96 };
 const MULTI = ["Shift", "Meta", "Control"];
 
@@ -99,6 +103,16 @@ function Canvas({ structure }: { structure: Structure }) {
   useNear(now, repaint);
   const flow = useReactFlow<SceneNode>();
   const views = useStoreApi();
+  const [view] = useState(
+    () =>
+      new MovedView(
+        ({ x, y, zoom }) => {
+          const picture = around.current?.querySelector<HTMLElement>(".react-flow__viewport");
+          picture?.style.setProperty("transform", `translate(${x}px,${y}px) scale(${zoom})`);
+        },
+        ({ x, y, zoom }) => views.setState({ transform: [x, y, zoom] }),
+      ),
+  );
   // Every change of the view, also one that the page makes itself.
   useEffect(
     () => views.subscribe(({ transform }, before) => transform !== before.transform && layer.change()),
@@ -135,7 +149,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const wiring = useWires(useMemo(() => withCourses(now), [now]));
   // The first element of an empty document stays where it was put.
   const [fits] = useState(now.nodes.length > 0);
-  useZoomLook(around);
+  useZoomLook(around, nodes, view);
   useAnchor(now);
 
   useEffect(() => {
@@ -153,13 +167,81 @@ function Canvas({ structure }: { structure: Structure }) {
   // While the canvas is moved it is one layer that the browser only shifts: live boxes are painted about once
   // a second.
   const move = useCallback(
-    (moving: boolean) => {
+    (moving: boolean, byHand: boolean) => {
+      view.hold(moving && byHand);
       useHover.getState().close();
       painter.hold(moving);
       layer.move(moving ? flow.getViewport() : null);
       around.current?.toggleAttribute("data-moving", moving);
     },
-    [painter, layer, flow],
+    [view, painter, layer, flow],
+  );
+
+  // The same functions throughout: for each new one xyflow asks all boxes and wires.
+  const handlers = useMemo(
+    (): ReactFlowProps<SceneNode, Edge> => ({
+      onNodeDragStart: () => {
+        useHover.getState().close();
+        forgetKeys();
+      },
+      onNodeDragStop: (event, { id }, dragged) => {
+        const nodes = flow.getNodes();
+        if (event.altKey) {
+          copyDragged(nodes);
+          reset();
+          return;
+        }
+        const boxes = moved(nodes, now.tree, now.places);
+        const changed = insertDropped(id, boxes) ?? dropIntoGroup(dragged, boxes);
+        if (changed === null) {
+          settle();
+        } else {
+          forgetKeys();
+          void changed.then((done) => !done && reset());
+        }
+      },
+      onNodeContextMenu: (event, { id, type }) => {
+        event.preventDefault();
+        const element = partBelow(event.target) ?? id;
+        if (type === "box" && !useStudio.getState().selected.includes(element)) {
+          useStudio.getState().select([element]);
+        } else if (type === "frame" || type === "folded") {
+          pickGroup(groupKey(id), false);
+        } else if (type === "comment") {
+          return;
+        }
+        openSelectionCommands({ x: event.clientX, y: event.clientY }, SHORTCUTS);
+      },
+      onNodeClick: (event, { id, type }) => {
+        useHover.getState().close();
+        const several = event.shiftKey || event.ctrlKey || event.metaKey;
+        if (type === "frame" || type === "folded") {
+          pickGroup(groupKey(id), several);
+        } else if (type === "box" && !several) {
+          // xyflow leaves several selected boxes as they are
+          useStudio.getState().select([id]);
+        }
+      },
+      onNodeDoubleClick: (_, { id, type }) => {
+        if (type === "box") {
+          openPlot({ element: id });
+        } else if (type === "frame") {
+          renameSelected();
+        }
+      },
+      onNodeDrag: (event, node, dragged) => {
+        layer.change();
+        markWire(event, dragged);
+        markGroup(event, node, dragged);
+      },
+      onMoveStart: (event) => move(true, event !== null),
+      onMove: (_, view) => layer.move(view),
+      onMoveEnd: () => {
+        view.hold(false);
+        view.atRest(() => move(false, false));
+      },
+    }),
+    [view, flow, now, layer, move, settle, forgetKeys, reset],
   );
 
   return (
@@ -169,7 +251,10 @@ function Canvas({ structure }: { structure: Structure }) {
         data-into={leaving || undefined}
         ref={around}
         {...stage}
-        onPointerDownCapture={touch}
+        onPointerDownCapture={() => {
+          view.flush();
+          touch();
+        }}
         onWheelCapture={touch}
         onKeyDownCapture={touch}
       >
@@ -180,64 +265,11 @@ function Canvas({ structure }: { structure: Structure }) {
           onNodesChange={onNodesChange}
           nodesDraggable={!offline}
           nodesConnectable={!offline}
-          onNodeDragStart={() => {
-            useHover.getState().close();
-            forgetKeys();
-          }}
-          onNodeDragStop={(event, { id }, dragged) => {
-            if (event.altKey) {
-              copyDragged(nodes);
-              reset();
-              return;
-            }
-            const boxes = moved(flow.getNodes(), now.tree, now.places);
-            const changed = insertDropped(id, boxes) ?? dropIntoGroup(dragged, boxes);
-            if (changed === null) {
-              settle();
-            } else {
-              forgetKeys();
-              void changed.then((done) => !done && reset());
-            }
-          }}
-          onNodeContextMenu={(event, { id, type }) => {
-            event.preventDefault();
-            const element = partBelow(event.target) ?? id;
-            if (type === "box" && !useStudio.getState().selected.includes(element)) {
-              useStudio.getState().select([element]);
-            } else if (type === "frame" || type === "folded") {
-              pickGroup(groupKey(id), false);
-            } else if (type === "comment") {
-              return;
-            }
-            openSelectionCommands({ x: event.clientX, y: event.clientY }, SHORTCUTS);
-          }}
-          onNodeClick={(event, { id, type }) => {
-            useHover.getState().close();
-            const several = event.shiftKey || event.ctrlKey || event.metaKey;
-            if (type === "frame" || type === "folded") {
-              pickGroup(groupKey(id), several);
-            } else if (type === "box" && !several) {
-              // xyflow leaves several selected boxes as they are
-              useStudio.getState().select([id]);
-            }
-          }}
-          onNodeDoubleClick={(_, { id, type }) => {
-            if (type === "box") {
-              openPlot({ element: id });
-            } else if (type === "frame") {
-              renameSelected();
-            }
-          }}
+          {...handlers}
           {...wiring}
-          onMoveStart={() => move(true)}
-          onMove={(_, view) => layer.move(view)}
-          onNodeDrag={(event, node, dragged) => {
-            layer.change();
-            markWire(event, dragged);
-            markGroup(event, node, dragged);
-          }}
-          onMoveEnd={() => move(false)}
-          onlyRenderVisibleElements
+          viewport={view.now}
+          onViewportChange={view.change}
+          onlyRenderVisibleElements={nodes.length > MOST_MOUNTED}
           edgesFocusable={false}
           zIndexMode="manual"
           elevateNodesOnSelect={false}

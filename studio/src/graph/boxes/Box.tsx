@@ -20,7 +20,7 @@ import { useDetail } from "./useDetail";
 
 export const Box = memo(function Box({ data, height = BOX.title, isConnectable }: NodeProps<BoxNode>) {
   const { element: id, path, name, title, inputs, outputs } = data;
-  const level = useDetail();
+  const level = useDetail(id);
   const selected = useStudio((state) => state.selected.includes(id));
   const port = useStudio((state) => shownPort(state.elements.get(id), state.document?.record?.ports[id]));
   const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);

@@ -1,19 +1,35 @@
 // Applies the level of detail to the canvas once its zoom rests: to change the size of hundreds of names
 // costs a picture of the browser, and during a movement the browser only scales what it has.
 
-import { useStoreApi } from "@xyflow/react";
-import { type RefObject, useLayoutEffect } from "react";
-import { lookAt, useLook, useMoving } from "./zoom";
+import { useReactFlow, useStoreApi } from "@xyflow/react";
+import { type RefObject, useCallback, useEffect, useLayoutEffect, useRef } from "react";
+import type { MovedView } from "../movedView";
+import type { SceneNode } from "../nodes";
+import { lookAt, useInView, useLook } from "./zoom";
 
 const REST_MS = 160;
-// On a slow machine the steps of one movement are at most this far apart.
-const STEP_MS = 300;
 
-export function useZoomLook(around: RefObject<HTMLElement | null>): void {
+export function useZoomLook(
+  around: RefObject<HTMLElement | null>,
+  nodes: readonly SceneNode[],
+  movedView: MovedView,
+): void {
   const flow = useStoreApi();
+  const { getIntersectingNodes } = useReactFlow();
+  const isMoving = useRef(false);
+  const look = useCallback(() => {
+    const { transform, width, height } = flow.getState();
+    const [x, y, zoom] = transform;
+    const view = { x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom };
+    useInView.setState({ ids: new Set(getIntersectingNodes(view).map(({ id }) => id)) });
+  }, [flow, getIntersectingNodes]);
+  useEffect(() => {
+    if (!isMoving.current) {
+      look();
+    }
+  }, [nodes, look]);
   useLayoutEffect(() => {
     let timer = 0;
-    let last = 0;
     const apply = () => {
       const { level, text, numbers, lines } = lookAt(flow.getState().transform[2]);
       const before = useLook.getState();
@@ -27,22 +43,22 @@ export function useZoomLook(around: RefObject<HTMLElement | null>): void {
     };
     apply();
     const rest = () => {
+      isMoving.current = false;
       apply();
-      useMoving.setState({ moving: false });
+      look();
     };
     const leave = flow.subscribe((state, before) => {
       if (state.transform !== before.transform) {
-        const step = performance.now() - last;
-        last += step;
         window.clearTimeout(timer);
-        timer = window.setTimeout(rest, step < STEP_MS ? Math.max(REST_MS, 2 * step) : REST_MS);
-        useMoving.setState({ moving: true });
+        const isFirst = useInView.getState().ids.size === 0;
+        timer = window.setTimeout(() => movedView.atRest(rest), isFirst ? 0 : REST_MS);
+        isMoving.current = true;
       }
     });
     return () => {
       window.clearTimeout(timer);
       leave();
-      useMoving.setState({ moving: false });
+      useInView.setState({ ids: new Set() });
     };
-  }, [flow, around]);
+  }, [flow, around, look, movedView]);
 }

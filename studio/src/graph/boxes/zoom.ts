@@ -35,5 +35,6 @@ export function lookAt(zoom: number): CanvasLook {
 // The look of the canvas now.
 export const useLook = create<CanvasLook>(() => lookAt(1));
 
-// Whether the view is being moved or zoomed.
-export const useMoving = create<{ moving: boolean }>(() => ({ moving: false }));
+// The boxes that were in view when the canvas rested last. Others show their name alone: ports and live
+// pictures of hundreds of boxes would interrupt a movement that brings them into view.
+export const useInView = create<{ ids: ReadonlySet<string> }>(() => ({ ids: new Set() }));
