@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
+import math
 import queue
 import threading
 import time
@@ -43,6 +44,11 @@ from deodar_studio.live.unwaited import UnwaitedThreads
 T = TypeVar("T")
 FRAME = 0.022
 """Shortest wall time between two shots, in seconds; screens show no more."""
+
+HURRIED = 2
+"""Number of shots after an edit that do not wait for FRAME, so that a hand on a slider sees what it does; the
+first may show too few steps.
+"""
 
 SAMPLES = 4
 """Number of samples of a time course in one exchange; more would slow a fast run without being visible."""
@@ -89,6 +95,7 @@ class Engine:
         self._closed = False
         self._requested = True
         self._stale = True
+        self._hurried = 0
         self._published_at = 0.0
         self._places: frozenset[PortKey] = frozenset()
         self._readers: list[PortReader] = []
@@ -280,6 +287,7 @@ class Engine:
         if cost != "recompile":
             session.edit(document)
             self._target = None
+            self._hurried = HURRIED
             self._forgive()
         else:
             self._target = (model, document)
@@ -396,6 +404,8 @@ class Engine:
         if self.running:
             self.pace.lengthen(session)
         self._steps = max(0, self._steps - n)
+        if self._hurried:
+            self._published_at = -math.inf
         self._stale = True
         return 0.0
 
@@ -496,7 +506,7 @@ class Engine:
         )
         if session is not None and (arrays or not self._places):  # else their reader is being compiled
             self.ring.add(self.published, wall)
-        self._published_at = wall
+        self._published_at, self._hurried = wall, max(0, self._hurried - 1)
         self._changed()
 
     def _fail(self, error: Exception) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -313,6 +314,28 @@ def test_a_trace_up_to_a_time_has_the_earlier_samples() -> None:
         trace.add(at, 2.0 * at)
     np.testing.assert_array_equal(trace.until(3).since(0), [(t, 2.0 * t) for t in range(4)])
     assert trace.count == 10
+
+
+def test_the_first_steps_after_an_edit_are_published_at_once(
+    driven: Driven, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    engine, m, place = driven.engine, driven.model, (driven.u, "activation")
+    driven.do(lambda: engine.show([place], []))
+    driven.until(lambda: place in engine.published.arrays)
+    monkeypatch.setattr(engine_module, "FRAME", math.inf)
+    driven.do(lambda: engine.play(True))
+
+    def adopted() -> int:
+        assert engine.session is not None and engine.adopt(m, m.document) == "live"
+        return engine.session.tick
+
+    for level in (3.0, -20.0):
+        number = engine.published.number
+        m.set("u.resting_level", level)
+        tick = driven.do(adopted)
+        driven.until(lambda number=number: engine.published.number >= number + engine_module.HURRIED)
+        assert engine.published.number == number + engine_module.HURRIED
+        assert engine.published.tick > tick
 
 
 def test_an_edit_that_loses_a_state_is_refused_while_the_model_runs_and_begins_it_again_before(
