@@ -93,7 +93,7 @@ const enter = async (name: string, text: string) => {
   await field(name).press("Enter");
 };
 
-test("the range and the speed of each motor are beside the stop in every view, and are made narrower", async () => {
+test("range and speed of each motor are beside the stop in every view, and are made narrower", async () => {
   const { page } = studio;
   for (const view of ["Run", "Experiment", "Robot", "Build"] as const) {
     await showView(page, view);

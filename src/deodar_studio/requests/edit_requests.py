@@ -136,8 +136,8 @@ async def _take_over(hub: Hub, take: Callable[[Document], tuple[Document, list[L
     lines: list[Line] = []
 
     def change(doc: Document) -> Document:
-        new, found = take(doc)
-        lines.extend(found)
+        new, unfit = take(doc)
+        lines.extend(unfit)
         return new
 
     cost = await hub.project.history.change(change)

@@ -47,7 +47,11 @@ export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Si
   // The cells of a grid are of one size, which sliders in one of them would change for all.
   const pins = (id: string) => (contraction === null ? boxPins(layout, id) : []);
   const sizes = new Map<string, Size>(elements.map((e) => [e.id, boxSize(e, pins(e.id).length)]));
-  const room = (edge: Chain) => (contraction === null ? widthOf(edge, names) : CHIP);
+  // The boxes of a connection without couplings stay apart as they are where it gets a strength.
+  const room = (edge: Chain) => {
+    const width = widthOf(edge, names);
+    return contraction !== null ? CHIP : edge.gain === null || width === 0 ? width : width + STATED;
+  };
   const bonds = chained.edges.map((e) => ({ source: e.source, target: e.target, room: room(e) }));
   const stored = new Map(Object.entries(layout.boxes));
   const grid = contraction === null ? [] : inGrid({ contraction, names, kinds, sizes }, stored, panel);
@@ -83,6 +87,9 @@ const boxesIn = (nodes: SceneNode[]) =>
     type === "box" ? [{ name: data.name, rect: { ...position, width, height } }] : [],
   );
 
+// The width of a stated strength on a connection.
+export const STATED = 40;
+
 // The width that the pills of these names need on an edge, about.
 export function pillsWidth(names: string[]): number {
   return names.reduce(
@@ -91,7 +98,7 @@ export function pillsWidth(names: string[]): number {
   );
 }
 
-// The boxes stay apart as they are where a connection gets a strength.
+// The width of the couplings on a connection, without its strength.
 function widthOf({ couplings, gain }: Chain, names: Map<string, ElementView>): number {
   return pillsWidth(couplings.flatMap((id) => (id === gain ? [] : (names.get(id)?.name ?? ""))));
 }

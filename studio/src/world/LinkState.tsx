@@ -1,6 +1,6 @@
-// The link with a robot in another process: a line in the panel of the world, and its stop with what the motors
-// allow: a button in the foot of the page, and the key Escape everywhere. The run pauses; the server then puts
-// the motors to rest, and they get no more commands.
+// The link with a robot in another process: a line in the panel of the world, and its stop with what the
+// motors allow: a button in the foot of the page, and the key Escape everywhere. The run pauses; the server
+// then puts the motors to rest, and they get no more commands.
 
 import "./world.css";
 

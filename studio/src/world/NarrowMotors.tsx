@@ -11,7 +11,8 @@ type NarrowMotorsProps = {
   set: (limits: MotorLimits) => void | Promise<Reply>;
 };
 
-// What was typed is shown until the server has answered; where no server is asked, as long as the form is there.
+// What was typed is shown until the server has answered; where no server is asked, as long as the form is
+// there.
 export function NarrowMotors({ motors, set }: NarrowMotorsProps) {
   const [drafts, setDrafts] = useState<Record<string, MotorLimits>>({});
   const change = async (limits: MotorLimits) => {

@@ -2,7 +2,7 @@
 
 import type { Rect } from "../layout/rects";
 import { labelPlaces } from "../boxes/labels";
-import { type GraphScene, PORT } from "../scene";
+import { type GraphScene, PORT, STATED } from "../scene";
 import { rectsOf, type SceneNode, type Wire, type WireData } from "../nodes";
 import { type Route, Tracks } from "./tracks";
 import { goesBack, turns, type WireLine } from "./turns";
@@ -23,7 +23,7 @@ export function withCourses({ nodes, wires }: GraphScene): Wire[] {
 }
 
 // A wire of one connection has a strength: 1 is shown below the pointer alone, and takes what others leave.
-const STRENGTH = { stated: 40, plain: 20 };
+const PLAIN = 20;
 
 // The width of what is drawn on a wire.
 export function roomOf(data: WireData | undefined): number {
@@ -31,7 +31,7 @@ export function roomOf(data: WireData | undefined): number {
   if (chain === undefined || others.length > 0) {
     return room;
   }
-  return Math.max(room + (chain.gain !== null && content === null ? STRENGTH.stated : 0), STRENGTH.plain);
+  return Math.max(room + (chain.gain !== null && content === null ? STATED : 0), PLAIN);
 }
 
 // `rooms` are the widths of what is drawn on wires.
