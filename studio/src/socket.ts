@@ -169,7 +169,8 @@ const OF_THE_RUN: readonly ToServer["type"][] = [
 // deodar itself failed: what was asked for has no effect.
 function tellFault({ type }: ToServer, problems: readonly ListedProblem[]): void {
   const { clock, document, notify } = useStudio.getState();
-  const asked = type.charAt(0).toUpperCase() + type.slice(1).replaceAll("_", " ");
+  const words = type.charAt(0).toUpperCase() + type.slice(1).replaceAll("_", " ");
+  const asked = words.replace(/^Run (record )?from$/, "Run from here");
   const stands =
     clock === null || document === null || !OF_THE_RUN.includes(type)
       ? ""
