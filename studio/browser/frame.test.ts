@@ -1,8 +1,8 @@
 /** The frame of the page: tools, plots and other documents never move what a person works on. */
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { TITLES } from "../src/panels/titles";
-import { STANDING, TOOLS } from "../src/panels/tools";
+import { TITLES } from "../src/frame/titles";
+import { STANDING, TOOLS } from "../src/frame/tools";
 import { panels, plot, selection } from "./bench/documents";
 import { box, button, choose, panel, reopen, select, settled, showView } from "./hands";
 import type { Observer } from "./observer";

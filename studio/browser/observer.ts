@@ -2,8 +2,8 @@
  * A second page without a browser at the same server. It uses the studio's protocol, so that a test
  * reads exact numbers.
  */
-import { applied } from "../src/applied";
-import { decode, type Frame } from "../src/frames";
+import { applied } from "../src/server/applied";
+import { decode, type Frame } from "../src/server/frames";
 import type {
   Announced,
   Answer,
@@ -14,8 +14,8 @@ import type {
   ToPage,
   ToServer,
 } from "../src/protocol";
-import { valueAt } from "../src/values";
-import { LiveWorld } from "../src/world/live";
+import { valueAt } from "../src/model/values";
+import { LiveWorld } from "../src/server/live";
 
 /** Time after which a wait fails; it is not a measurement. */
 const MINUTE = 60_000;

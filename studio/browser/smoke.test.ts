@@ -1,8 +1,8 @@
 /** Every view of the studio opens and draws something, in one studio. */
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { TITLES } from "../src/panels/titles";
-import { TOOLS } from "../src/panels/tools";
+import { TITLES } from "../src/frame/titles";
+import { TOOLS } from "../src/frame/tools";
 import { PLOTS } from "../src/plots/kinds/plots";
 import { SHOWN, writeArranged, writeEveryPlot } from "./everyPlot";
 import { choose, openExample, panel, reopen, showView } from "./hands";

@@ -2,13 +2,13 @@
 
 import { useEffect } from "react";
 
-import { Chooser } from "./build/palette/Chooser";
-import { Workspace } from "./panels/Workspace";
+import { Chooser } from "./palette/Chooser";
+import { Workspace } from "./frame/Workspace";
 import { Dialogs } from "./dialogs/Dialogs";
 import { DropArea } from "./files/DropArea";
 import { GalleryPage } from "./gallery/GalleryPage";
 import { Header } from "./header/Header";
-import { NeedsServer } from "./connection/NeedsServer";
+import { NeedsServer } from "./widgets/NeedsServer";
 import { Notices } from "./problems/Notices";
 import { ProblemsPage } from "./problems/ProblemsPage";
 import { RecoveryBar } from "./gallery/RecoveryCard";
@@ -16,8 +16,8 @@ import { LostBanner, Splash } from "./connection/Splash";
 import { usePage } from "./state/page";
 import { ComparisonBar } from "./replay/ComparisonBar";
 import { RecordNotes } from "./replay/RecordNotes";
-import { useShortcuts } from "./shortcuts";
-import { useStudio } from "./store";
+import { useShortcuts } from "./commands/shortcuts";
+import { useStudio } from "./server/store";
 import { TourCard } from "./tour/TourCard";
 import { FailureBar } from "./transport/FailureBar";
 import { Foot } from "./transport/Foot";

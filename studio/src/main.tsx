@@ -7,9 +7,9 @@ import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 
 import { App } from "./App";
-import { FORMS } from "./inspector/forms/forms";
-import { Forms } from "./inspector/forms/props";
-import { socket } from "./socket";
+import { FORMS } from "./forms/forms";
+import { Forms } from "./forms/props";
+import { socket } from "./server/socket";
 import { theme, variables } from "./theme";
 import { TYPEFACE } from "./draw/ink";
 

@@ -1,10 +1,10 @@
 // The strip of an element: its greatest activation over the newest times.
 
 import type { Range } from "../draw/scale";
-import type { History } from "../history";
-import { activationScale } from "../plots/colors/colors";
-import { type Level, thresholdOf } from "../plots/levels";
-import { timeRange } from "../plots/traces";
+import type { History } from "../server/history";
+import { activationScale } from "../model/colors";
+import { type Level, thresholdOf } from "../model/levels";
+import { timeRange } from "../model/traces";
 
 // In units of time of the document, as plots over time show it at first.
 export const STRIP_TIME = 2000;

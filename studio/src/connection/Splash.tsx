@@ -2,9 +2,9 @@
 
 import { IconPlugConnectedX } from "@tabler/icons-react";
 
-import { Logo } from "../gallery/Logo";
-import { useStudio } from "../store";
-import classes from "./connection.module.css";
+import { Logo } from "../widgets/Logo";
+import { useStudio } from "../server/store";
+import classes from "../widgets/connection.module.css";
 
 const REFUSED = "The studio was started again: open the address that it printed";
 const BEFORE = {

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 
-import { fakeElement } from "../graph/fakes";
+import { fakeElement } from "../architecture/fakes";
 import type { Costs } from "../protocol";
 import { costRows, microsecondsText, sumOf } from "./costRows";
 

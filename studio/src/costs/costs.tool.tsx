@@ -5,10 +5,10 @@ import "./costs.css";
 import { Group } from "@mantine/core";
 import { IconStopwatch } from "@tabler/icons-react";
 
-import { ProblemTexts } from "../problems/ProblemText";
-import { request } from "../socket";
+import { ProblemTexts } from "../widgets/ProblemText";
+import { request } from "../server/socket";
 import type { DockTool } from "../state/tool";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { PanelButton } from "../widgets/Buttons";
 import { type CostRow, costRows, microsecondsText, sumOf } from "./costRows";
 

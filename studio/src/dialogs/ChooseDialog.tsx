@@ -3,11 +3,11 @@
 import { Button, FileButton, Group, Text } from "@mantine/core";
 import { useState } from "react";
 
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { FolderBrowser, useFolder } from "./FolderBrowser";
 import { CancelButton } from "./MessageDialogs";
-import type { Asking } from "./questions";
-import { parent } from "../files/paths";
+import type { Asking } from "../state/questions";
+import { parent } from "../model/paths";
 
 const ACCEPTED = {
   files: "application/json,.json,.deodar,.dnf,.m",

@@ -3,11 +3,11 @@
 import { Modal } from "@mantine/core";
 import { type ComponentType, useEffect } from "react";
 
-import { useOffline } from "../connection/NeedsServer";
-import { WorldDialog } from "../world/WorldDialog";
+import { useOffline } from "../widgets/NeedsServer";
+import { WorldDialog } from "./WorldDialog";
 import { ChooseDialog } from "./ChooseDialog";
 import { ReplaceDialog, TakenDialog, UnsavedDialog } from "./MessageDialogs";
-import { type Asked, type Asking, useDialogs } from "./questions";
+import { type Asked, type Asking, useDialogs } from "../state/questions";
 import { SaveAsDialog } from "./SaveAsDialog";
 import { ShortcutsDialog } from "./ShortcutsDialog";
 

@@ -4,12 +4,12 @@ import { IconFileText, IconFolder, IconMovie, IconPhoto } from "@tabler/icons-re
 import { TextInput } from "@mantine/core";
 import { useEffect, useRef, useState } from "react";
 
-import { useStudio } from "../store";
-import { ProblemText } from "../problems/ProblemText";
-import { joined, rootName, steps } from "../files/paths";
+import { useStudio } from "../server/store";
+import { ProblemText } from "../widgets/ProblemText";
+import { joined, rootName, steps } from "../model/paths";
 import type { Folder, ListedProblem } from "../protocol";
-import { socket } from "../socket";
-import { hasWords } from "../values";
+import { socket } from "../server/socket";
+import { hasWords } from "../model/values";
 import classes from "./dialogs.module.css";
 
 type Listing = { folder: Folder | null; problem: ListedProblem | null };

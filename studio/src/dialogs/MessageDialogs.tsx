@@ -5,7 +5,7 @@ import type { ReactNode } from "react";
 
 import { takenText } from "../files/presets";
 import classes from "./dialogs.module.css";
-import type { Asking } from "./questions";
+import type { Asking } from "../state/questions";
 
 type MessageButton = { children: string; onClick: () => void; color?: string };
 type Props = {

@@ -5,8 +5,8 @@ import { type FormEvent, useState } from "react";
 
 import { FolderBrowser, useFolder } from "./FolderBrowser";
 import { CancelButton } from "./MessageDialogs";
-import type { Asking } from "./questions";
-import { joined, lastPart, nameProblem, parent, withEnding } from "../files/paths";
+import type { Asking } from "../state/questions";
+import { joined, lastPart, nameProblem, parent, withEnding } from "../model/paths";
 
 export function SaveAsDialog({ question, answer }: Asking<"save_as">) {
   const [path, setPath] = useState(parent(question.path));

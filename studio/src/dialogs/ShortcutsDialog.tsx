@@ -3,8 +3,8 @@
 import { Kbd } from "@mantine/core";
 import { Fragment } from "react";
 
-import { keysText } from "../keys";
-import { SHORTCUTS } from "../shortcuts";
+import { keysText } from "../model/keys";
+import { SHORTCUTS } from "../commands/shortcuts";
 import classes from "./dialogs.module.css";
 
 type Line = { keys: readonly string[]; does: string };

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { History } from "../history";
+import { History } from "../server/history";
 import { firstAt, sideBySide } from "./series";
 
 function history(...pairs: [number, number][]): History {

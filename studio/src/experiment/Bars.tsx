@@ -1,7 +1,7 @@
 // The distribution of a column in each combination of levels: a histogram of numbers, bars of texts.
 
 import { short } from "../draw/text";
-import { bins, type Column, conditionsOf, median, rangeOf, shares, type TrialRow } from "./trialRows";
+import { bins, type Column, conditionsOf, median, rangeOf, shares, type TrialRow } from "../model/trialRows";
 
 // Of a drawing, which is stretched to the width that it has.
 const HEIGHT = 26;

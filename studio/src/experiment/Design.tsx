@@ -3,12 +3,12 @@
 import { Menu } from "@mantine/core";
 
 import { AddButton } from "../widgets/AddButton";
-import { Fields } from "../inspector/forms/PartFields";
-import { TextBox } from "../inspector/forms/TextBox";
-import { PlaceContext } from "../inspector/place";
-import { ProblemTexts } from "../problems/ProblemText";
+import { Fields } from "../forms/PartFields";
+import { TextBox } from "../widgets/TextBox";
+import { PlaceContext } from "../state/place";
+import { ProblemTexts } from "../widgets/ProblemText";
 import type { ExperimentForms, Kind } from "../protocol";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { MenuList } from "../widgets/MenuList";
 import { edit } from "./actions";
 import { succeeded } from "../files/flows";

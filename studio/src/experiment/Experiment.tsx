@@ -12,13 +12,13 @@ import {
 } from "@tabler/icons-react";
 import { useEffect, useState } from "react";
 
-import { HistoryButtons } from "../header/UndoButtons";
+import { HistoryButtons } from "../widgets/UndoButtons";
 import { PanelButton } from "../widgets/Buttons";
 import { Segments } from "../widgets/Segments";
 import { DotsMenu } from "../widgets/DotsMenu";
-import { ProblemTexts } from "../problems/ProblemText";
+import { ProblemTexts } from "../widgets/ProblemText";
 import type { ExperimentView, ListedProblem, RunView } from "../protocol";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { backToModel, close, create, open, redo, run, save, saveAs, stop, undo } from "./actions";
 import { Design } from "./Design";
 import { isStated, secondsText, standingLines, useRunPlace } from "./runPlace";

@@ -6,12 +6,12 @@ import type { ComponentProps } from "react";
 
 import { AddButton } from "../widgets/AddButton";
 import { Segments } from "../widgets/Segments";
-import { NameBox } from "../inspector/forms/NameBox";
-import { TextBox } from "../inspector/forms/TextBox";
-import { typedValue, valueText } from "../inspector/forms/value";
-import { fresh, without } from "../inspector/parameters/part";
-import { useStudio } from "../store";
-import type { Values } from "../values";
+import { NameBox } from "../widgets/NameBox";
+import { TextBox } from "../widgets/TextBox";
+import { typedValue, valueText } from "../forms/value";
+import { fresh, without } from "../model/part";
+import { useStudio } from "../server/store";
+import type { Values } from "../model/values";
 import { succeeded } from "../files/flows";
 import { edit } from "./actions";
 import {

@@ -4,12 +4,12 @@ import { IconTrash } from "@tabler/icons-react";
 
 import { MenuEntry } from "../widgets/Buttons";
 import { DotsMenu } from "../widgets/DotsMenu";
-import { Fields } from "../inspector/forms/PartFields";
-import { TextBox } from "../inspector/forms/TextBox";
-import { PlaceContext } from "../inspector/place";
+import { Fields } from "../forms/PartFields";
+import { TextBox } from "../widgets/TextBox";
+import { PlaceContext } from "../state/place";
 import { ProblemLine } from "../widgets/ProblemLine";
 import type { Kind } from "../protocol";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { succeeded } from "../files/flows";
 import { edit } from "./actions";
 import { type Group, type Part, remove, rename } from "./draft";

@@ -3,11 +3,11 @@
 import { useMemo, useState } from "react";
 
 import { AddButton } from "../widgets/AddButton";
-import { ChoiceBox } from "../inspector/forms/ChoiceBox";
-import { useStudio } from "../store";
+import { ChoiceBox } from "../widgets/ChoiceBox";
+import { useStudio } from "../server/store";
 import { repeat } from "./actions";
 import { Bars } from "./Bars";
-import { cellText, type Column, columnsOf, type TrialRow } from "./trialRows";
+import { cellText, type Column, columnsOf, type TrialRow } from "../model/trialRows";
 
 // The rows that are shown first, and with each press on the button below them.
 const MORE = 200;

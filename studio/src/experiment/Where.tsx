@@ -3,7 +3,7 @@
 import { Checkbox, TextInput } from "@mantine/core";
 import type { ChangeEvent } from "react";
 
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { Segments } from "../widgets/Segments";
 import { NumberField } from "../widgets/NumberField";
 import { PATIENCE, placeText, useRunPlace } from "./runPlace";

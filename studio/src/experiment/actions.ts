@@ -1,11 +1,11 @@
 // What the panel asks of the server.
 
-import { ask } from "../dialogs/questions";
+import { ask } from "../state/questions";
 import { done, leave, openExperiment, write, writeAs } from "../files/flows";
-import { same } from "../inspector/parameters/part";
+import { same } from "../model/part";
 import type { Answer, ListedProblem } from "../protocol";
-import { request, socket } from "../socket";
-import { useStudio } from "../store";
+import { request, socket } from "../server/socket";
+import { useStudio } from "../server/store";
 import type { Data } from "./draft";
 import { requestOf, useRunPlace } from "./runPlace";
 

@@ -2,11 +2,11 @@
 
 import { useMemo } from "react";
 
-import { axesOf, type Kinds, leavesOf } from "../inspector/parameters/leaf";
-import type { Names, Place } from "../inspector/place";
+import { axesOf, type Kinds, leavesOf } from "../model/leaf";
+import type { Names, Place } from "../state/place";
 import type { AxisView, DocumentView, ElementView, ParameterForm } from "../protocol";
-import { useStudio } from "../store";
-import { type Values, valueAt as inside } from "../values";
+import { useStudio } from "../server/store";
+import { type Values, valueAt as inside } from "../model/values";
 import { edit } from "./actions";
 import { type Data, type Group, partsOf, put, setAt } from "./draft";
 

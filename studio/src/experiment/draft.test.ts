@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 
-import { fakeForm, fakeKind } from "../graph/fakes";
+import { fakeForm, fakeKind } from "../architecture/fakes";
 import type { ParameterForm } from "../protocol";
 import { add, type Data, partsOf, put, remove, rename, setAt } from "./draft";
 

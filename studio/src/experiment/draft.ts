@@ -1,8 +1,8 @@
 // The plain data of an experiment, and its changes: each returns new data.
 
-import { fresh, same } from "../inspector/parameters/part";
+import { fresh, same } from "../model/part";
 import type { Kind, ParameterForm } from "../protocol";
-import type { Values } from "../values";
+import type { Values } from "../model/values";
 
 export type Data = Record<string, unknown>;
 export type Group = "conditions" | "actions" | "factors" | "measures";

@@ -2,8 +2,8 @@
 
 import { useEffect, useState } from "react";
 
-import { useStudio } from "../store";
-import { useDialogs } from "../dialogs/questions";
+import { useStudio } from "../server/store";
+import { useDialogs } from "../state/questions";
 import { takeDropped } from "./flows";
 import classes from "./files.module.css";
 

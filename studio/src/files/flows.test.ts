@@ -1,9 +1,9 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 
-import { fakeLayout } from "../graph/fakes";
+import { fakeLayout } from "../architecture/fakes";
 import { openTool } from "../state/tool";
 import type { DocumentView, ExperimentView, Folder, Kind, Welcome } from "../protocol";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { leave, open, save, saveAs, takeDropped, takeFile } from "./flows";
 import { fresh, notices, person, sent, server } from "./scripted";
 

@@ -1,14 +1,14 @@
 // Conversations with the person and the server that take several steps: opening, saving, reading a file of
 // the person's own.
 
-import { ask } from "../dialogs/questions";
+import { ask } from "../state/questions";
 import { openTool } from "../state/tool";
-import { saveFile } from "../plots/export/save";
+import { saveFile } from "../server/save";
 import type { Answer, ListedProblem, Save, SaveExperiment, ToServer } from "../protocol";
-import { request, socket } from "../socket";
+import { request, socket } from "../server/socket";
 import { settleTiles } from "../state/tiles";
-import { useStudio } from "../store";
-import { opening, sortOf } from "./paths";
+import { useStudio } from "../server/store";
+import { opening, sortOf } from "../model/paths";
 
 // The largest message that the server accepts, base64 included.
 const MOST_BYTES = 40 * 2 ** 20;

@@ -1,11 +1,11 @@
 // The values of another file, applied to the open document.
 
 import type { Answer } from "../protocol";
-import { request, socket } from "../socket";
-import { useStudio } from "../store";
-import { ask } from "../dialogs/questions";
+import { request, socket } from "../server/socket";
+import { useStudio } from "../server/store";
+import { ask } from "../state/questions";
 import { done, isTooLarge } from "./flows";
-import { lastPart } from "./paths";
+import { lastPart } from "../model/paths";
 
 // Asks for a file, applies its values and shows those that did not match. True if values were applied and
 // kept.

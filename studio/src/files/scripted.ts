@@ -2,9 +2,9 @@
 
 import { vi } from "vitest";
 import type { Answer, Folder, ToServer } from "../protocol";
-import { socket } from "../socket";
-import { useStudio } from "../store";
-import { type Asked, useDialogs } from "../dialogs/questions";
+import { socket } from "../server/socket";
+import { useStudio } from "../server/store";
+import { type Asked, useDialogs } from "../state/questions";
 
 // What was sent to the server since `fresh`.
 export const sent: ToServer[] = [];

@@ -6,13 +6,13 @@ import { useState } from "react";
 
 import type { ExampleView } from "../protocol";
 import { usePage } from "../state/page";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { startTour } from "../tour/tour";
-import { Logo } from "./Logo";
+import { Logo } from "../widgets/Logo";
 import { RecoveryCard } from "./RecoveryCard";
-import { SchemeToggle } from "../header/SchemeToggle";
+import { SchemeToggle } from "../widgets/SchemeToggle";
 import { leave, open, openEmpty } from "../files/flows";
-import { lastPart, parent } from "../files/paths";
+import { lastPart, parent } from "../model/paths";
 import classes from "./gallery.module.css";
 
 export function GalleryPage() {

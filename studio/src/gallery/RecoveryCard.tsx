@@ -3,11 +3,11 @@
 import { IconRestore } from "@tabler/icons-react";
 
 import { leave } from "../files/flows";
-import { belowRoot } from "../files/paths";
-import { whenText } from "../files/when";
+import { belowRoot } from "../model/paths";
+import { whenText } from "../model/when";
 import type { Recovery } from "../protocol";
-import { request } from "../socket";
-import { useStudio } from "../store";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
 import { PanelButton } from "../widgets/Buttons";
 
 export function RecoveryCard({ recovery, open = false }: { recovery: Recovery; open?: boolean }) {

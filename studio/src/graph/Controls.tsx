@@ -11,9 +11,9 @@ import {
   IconSquarePlus,
 } from "@tabler/icons-react";
 import { useReactFlow } from "@xyflow/react";
-import { openSearch } from "../build/commands";
-import { openPalette } from "../build/palette/palette";
-import { useOffline } from "../connection/NeedsServer";
+import { openSearch } from "../commands/commands";
+import { openPalette } from "../actions/palette";
+import { useOffline } from "../widgets/NeedsServer";
 import { IconButton, type IconButtonProps } from "../widgets/Buttons";
 
 type Props = {

@@ -3,7 +3,7 @@
 import { Button, Kbd } from "@mantine/core";
 import { IconPlus } from "@tabler/icons-react";
 
-import { openPalette } from "../build/palette/palette";
+import { openPalette } from "../actions/palette";
 
 export function EmptyHint() {
   return (

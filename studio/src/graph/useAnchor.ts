@@ -2,8 +2,8 @@
 
 import { useReactFlow } from "@xyflow/react";
 import { useLayoutEffect, useRef } from "react";
-import type { Rect } from "./layout/rects";
-import type { GraphScene } from "./scene";
+import type { Rect } from "../model/rects";
+import type { GraphScene } from "../architecture/scene";
 
 export function useAnchor(now: GraphScene): void {
   const { getViewport, setViewport } = useReactFlow();

@@ -2,10 +2,10 @@
 // another page moves them. A browser transition would leave the live pictures behind.
 
 import { type RefObject, useCallback, useLayoutEffect, useRef } from "react";
-import type { Structure } from "./contract";
-import { glide } from "./layout/glide";
-import type { SceneNode } from "./nodes";
-import type { GraphScene } from "./scene";
+import type { Structure } from "../architecture/contract";
+import { glide } from "./glide";
+import type { SceneNode } from "../architecture/nodes";
+import type { GraphScene } from "../architecture/scene";
 
 const MOVE_MS = 160;
 // In px; a box that was dragged is nearer to its place in whole pixels.

@@ -3,13 +3,13 @@
 
 import { applyNodeChanges, useStoreApi, type NodeChange } from "@xyflow/react";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { changeComment } from "../build/commenting";
-import { useStudio } from "../store";
-import type { Structure } from "./contract";
-import { place } from "./layout/arrange";
-import { differ, moved } from "./layout/moved";
-import { commentId, type GraphScene } from "./scene";
-import type { SceneNode } from "./nodes";
+import { changeComment } from "../actions/commenting";
+import { useStudio } from "../server/store";
+import type { Structure } from "../architecture/contract";
+import { place } from "../actions/arrange";
+import { differ, moved } from "../architecture/moved";
+import { commentId, type GraphScene } from "../architecture/scene";
+import type { SceneNode } from "../architecture/nodes";
 import { useGlide } from "./useGlide";
 
 // Steps by arrow keys that follow each other are one change.

@@ -5,13 +5,13 @@
 import { getViewportForBounds, type Viewport, useReactFlow } from "@xyflow/react";
 import { type RefObject, useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
 import type { Kind } from "../protocol";
-import { useStudio } from "../store";
-import { FIT, ZOOM } from "./layout/fit";
-import { firstFolded, useOpening, withFolded } from "./layout/folding";
-import { PANEL } from "./layout/layout";
-import type { Rect, Size } from "./layout/rects";
-import { scene, type GraphScene } from "./scene";
-import type { Structure } from "./contract";
+import { useStudio } from "../server/store";
+import { FIT, ZOOM } from "../architecture/fit";
+import { firstFolded, useOpening, withFolded } from "../architecture/folding";
+import { PANEL } from "../architecture/layout";
+import type { Rect, Size } from "../model/rects";
+import { scene, type GraphScene } from "../architecture/scene";
+import type { Structure } from "../architecture/contract";
 
 // A panel that differs by less keeps its layout.
 const DIFFERENT = 24;

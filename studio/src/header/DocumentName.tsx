@@ -2,7 +2,7 @@
 
 import { useEffect } from "react";
 
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import classes from "./header.module.css";
 
 export function DocumentName() {

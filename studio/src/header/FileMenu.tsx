@@ -16,8 +16,8 @@ import {
   IconX,
 } from "@tabler/icons-react";
 
-import { useStudio } from "../store";
-import { Logo } from "../gallery/Logo";
+import { useStudio } from "../server/store";
+import { Logo } from "../widgets/Logo";
 import { exportScript, leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";
 import { openTool } from "../state/tool";

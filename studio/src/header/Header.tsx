@@ -2,19 +2,19 @@
 
 import { IconHelp, IconSearch } from "@tabler/icons-react";
 
-import { openCommands } from "../build/commands";
-import { keysText } from "../keys";
-import { SHORTCUTS } from "../shortcuts";
+import { openCommands } from "../commands/commands";
+import { keysText } from "../model/keys";
+import { SHORTCUTS } from "../commands/shortcuts";
 import { IconButton } from "../widgets/Buttons";
 import { DocumentName } from "./DocumentName";
 import { FileMenu } from "./FileMenu";
-import { NeedsServer } from "../connection/NeedsServer";
+import { NeedsServer } from "../widgets/NeedsServer";
 import { ProblemsMenu } from "./ProblemsMenu";
 import { ReportButton } from "../report/ReportButton";
-import { SchemeToggle } from "./SchemeToggle";
-import { UndoButtons } from "./UndoButtons";
+import { SchemeToggle } from "../widgets/SchemeToggle";
+import { UndoButtons } from "../widgets/UndoButtons";
 import { Views } from "./Views";
-import { ask } from "../dialogs/questions";
+import { ask } from "../state/questions";
 import classes from "./header.module.css";
 
 export function Header() {

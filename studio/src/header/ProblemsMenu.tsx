@@ -3,11 +3,11 @@
 import { Button, Popover } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";
 
-import { RepairButtons } from "../build/RepairButtons";
+import { RepairButtons } from "../problems/RepairButtons";
 import type { ListedProblem } from "../protocol";
-import { useStudio } from "../store";
-import { countText, isWarning } from "../problems/severity";
-import { ProblemText } from "../problems/ProblemText";
+import { useStudio } from "../server/store";
+import { countText, isWarning } from "../model/severity";
+import { ProblemText } from "../widgets/ProblemText";
 import classes from "./header.module.css";
 
 const NONE: ListedProblem[] = [];

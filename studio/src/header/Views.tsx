@@ -2,7 +2,7 @@
 
 import { showView, usePage, type View } from "../state/page";
 import { rememberView } from "../state/person";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { Segments } from "../widgets/Segments";
 
 const VIEWS = { build: "Build", run: "Run", experiment: "Experiment", robot: "Robot" };

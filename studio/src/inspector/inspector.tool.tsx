@@ -1,12 +1,12 @@
 // The inspector of the selected element, of several together, of a selected connection, or of the document
 // without a selection.
 
-import "./inspector.css";
+import "../forms/inspector.css";
 
-import { usePicked } from "../build/picked";
-import { useFocus } from "../graph/focus";
+import { usePicked } from "../actions/picked";
+import { useFocus } from "../actions/focus";
 import type { DockTool } from "../state/tool";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { DocumentInspector } from "./document/DocumentInspector";
 import { ElementInspector } from "./element/ElementInspector";
 import { ManyInspector } from "./element/ManyInspector";

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 
-import { fakeDocument, fakeElement } from "../graph/fakes";
+import { fakeDocument, fakeElement } from "../architecture/fakes";
 import type { AxisView } from "../protocol";
 import { axesOver, newAxis } from "./elementAxes";
 

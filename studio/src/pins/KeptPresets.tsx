@@ -4,7 +4,7 @@ import { Button, Menu } from "@mantine/core";
 import { IconTrash } from "@tabler/icons-react";
 
 import { applyKeptPreset } from "../files/presets";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { DotsMenu } from "../widgets/DotsMenu";
 import { choiceText, type PresetGroup, presetGroups, removeGroup } from "./presetGroups";
 

@@ -4,12 +4,12 @@ import { Button, TextInput } from "@mantine/core";
 import { useState, type FormEvent } from "react";
 
 import { useLateFocus } from "../widgets/lateFocus";
-import { numberText, typedNumber } from "../widgets/number";
+import { numberText, typedNumber } from "../model/number";
 import { ProblemLine } from "../widgets/ProblemLine";
-import type { SliderRange } from "../inspector/numbers/sliderRange";
+import type { SliderRange } from "../model/sliderRange";
 import type { PinView } from "../protocol";
-import { changedPin } from "./pin";
-import { keepPins } from "./pinning";
+import { changedPin } from "../state/pin";
+import { keepPins } from "../actions/pinning";
 
 type PinEditingProps = { what: "range" | "label"; pin: PinView; range: SliderRange; onDone: () => void };
 

@@ -4,18 +4,18 @@ import { Tooltip, UnstyledButton } from "@mantine/core";
 import { IconGripVertical, IconLink } from "@tabler/icons-react";
 import { useState, type DragEvent, type KeyboardEvent } from "react";
 
-import { CostMark } from "../inspector/parameters/CostMark";
-import { NumberControl } from "../inspector/numbers/NumberControl";
+import { CostMark } from "../widgets/CostMark";
+import { NumberControl } from "../forms/NumberControl";
 import { Prose } from "../widgets/Prose";
-import { SwitchControl } from "../inspector/numbers/SwitchControl";
+import { SwitchControl } from "../forms/SwitchControl";
 import { Tex } from "../widgets/Tex";
 import type { LinkView, PinView } from "../protocol";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { PinEditing } from "./PinEditing";
 import { PinMenu } from "./PinMenu";
-import { changedPin, endsOf, withoutPin } from "./pin";
-import { keepPins } from "./pinning";
-import { usePin } from "./usePin";
+import { changedPin, endsOf, withoutPin } from "../state/pin";
+import { keepPins } from "../actions/pinning";
+import { usePin } from "../actions/usePin";
 
 type PinRowProps = {
   pin: PinView;

@@ -1,23 +1,23 @@
 // The tool of sliders: parameters of any element and document parameters, side by side, kept with the
 // document.
 
-import "../inspector/inspector.css";
+import "../forms/inspector.css";
 import "./pins.css";
 
 import { Button, Menu } from "@mantine/core";
 import { useState } from "react";
 
 import { AddButton } from "../widgets/AddButton";
-import { moved } from "../inspector/parameters/part";
+import { moved } from "../model/part";
 import type { DockTool } from "../state/tool";
-import { request } from "../socket";
-import { useStudio } from "../store";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
 import { MenuList } from "../widgets/MenuList";
 import { KeptPresets } from "./KeptPresets";
 import { PinRow } from "./PinRow";
-import { isAt, usePins, withPin } from "./pin";
-import { dropParameter } from "./pinDrag";
-import { keepPins } from "./pinning";
+import { isAt, usePins, withPin } from "../state/pin";
+import { dropParameter } from "../actions/pinDrag";
+import { keepPins } from "../actions/pinning";
 
 export const tool: DockTool = { title: "Sliders", tab: 2, firstIn: ["run", "robot"], component: Pins };
 

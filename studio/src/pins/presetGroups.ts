@@ -1,8 +1,8 @@
 // Presets that a document keeps in its layout: sets of values, by the menu or switch that they belong to.
 
 import type { KeptPresetView } from "../protocol";
-import { request } from "../socket";
-import { useStudio } from "../store";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
 
 export type PresetGroup = { group: string; presets: KeptPresetView[] };
 

@@ -8,11 +8,11 @@ import { type Ink, isSmall } from "../draw/ink";
 import { paintRaster } from "../draw/marks";
 import { drawPlot } from "../draw/plot";
 import { type At, nearestIndex, nearestPlace, nearestTime, readContent } from "../draw/cursorText";
-import { shade } from "./colors/colors";
-import { pageInk } from "./colors/look";
+import { shade } from "../model/colors";
+import { pageInk } from "../widgets/look";
 import { attachInjection } from "./injection/injection";
 import { type Coordinate, linkedCursor, valueOn } from "./linked";
-import type { Injection } from "./spot";
+import type { Injection } from "./injection/spot";
 
 type DrawingAsk = Readonly<{
   // What it shows, in words.

@@ -3,8 +3,8 @@
 import { useEffect, useRef } from "react";
 import type { Content } from "../draw/content";
 import { Drawing } from "./Drawing";
-import type { Injection } from "./spot";
-import { useLatest } from "./useLatest";
+import type { Injection } from "./injection/spot";
+import { useLatest } from "../widgets/useLatest";
 import "./plots.css";
 
 type PlaceProps = {

@@ -11,19 +11,19 @@ import {
   IconVectorSpline,
 } from "@tabler/icons-react";
 import { type MouseEvent, type ReactNode, useState } from "react";
-import { NeedsServer, useOffline } from "../connection/NeedsServer";
+import { NeedsServer, useOffline } from "../widgets/NeedsServer";
 import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
-import { request } from "../socket";
+import { request } from "../server/socket";
 import { useAfterFields } from "../widgets/afterFields";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { MenuList } from "../widgets/MenuList";
 import type { DrawingFormat } from "./export/exportDrawing";
 import type { Table } from "../draw/table";
-import { saveTable } from "./export/save";
+import { saveTable } from "../server/save";
 import { type PlotKind, portAxes } from "../model/ports";
 import { hasFigure, titleOf } from "./kinds/plots";
 import { PlotParameters } from "./controls/PlotParameters";
-import type { PlotParams, PlotSettings } from "./settings";
+import type { PlotParams, PlotSettings } from "../model/settings";
 import type { Streaming } from "./useStreams";
 import "./plots.css";
 

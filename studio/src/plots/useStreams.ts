@@ -3,10 +3,10 @@
 
 import { useContext, useEffect, useState } from "react";
 import type { Announced, ListedProblem } from "../protocol";
-import { OtherRecord } from "../replay/OtherRecord";
-import { socket } from "../socket";
-import type { Live, Wish } from "../streams";
-import { useLatest } from "./useLatest";
+import { OtherRecord } from "../state/OtherRecord";
+import { socket } from "../server/socket";
+import type { Live, Wish } from "../server/streams";
+import { useLatest } from "../widgets/useLatest";
 
 export type Streaming = {
   // What each stream holds; null as long as it is not known.

@@ -5,9 +5,9 @@ import { Button, CloseButton, Group } from "@mantine/core";
 import { IconAlertTriangle, IconCircleCheck } from "@tabler/icons-react";
 import { useEffect } from "react";
 
-import { type Notice, useStudio } from "../store";
-import { ProblemTexts } from "./ProblemText";
-import classes from "./problems.module.css";
+import { type Notice, useStudio } from "../server/store";
+import { ProblemTexts } from "../widgets/ProblemText";
+import classes from "../widgets/problems.module.css";
 
 const INFO_MS = 6000;
 

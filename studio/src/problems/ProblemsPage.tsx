@@ -5,11 +5,11 @@ import { IconArrowLeft, IconFileAlert, IconRefresh } from "@tabler/icons-react";
 import { useState } from "react";
 
 import type { FileProblems, ListedProblem } from "../protocol";
-import { useStudio } from "../store";
-import { ProblemText } from "./ProblemText";
+import { useStudio } from "../server/store";
+import { ProblemText } from "../widgets/ProblemText";
 import { leave } from "../files/flows";
-import { belowRoot, isWhole } from "../files/paths";
-import classes from "./problems.module.css";
+import { belowRoot, isWhole } from "../model/paths";
+import classes from "../widgets/problems.module.css";
 
 export function ProblemsPage({ fileProblems: { file, problems } }: { fileProblems: FileProblems }) {
   const root = useStudio((state) => state.welcome?.root ?? "");

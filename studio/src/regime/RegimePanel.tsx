@@ -6,9 +6,9 @@ import { Button, NativeSelect, VisuallyHidden } from "@mantine/core";
 import { IconPlayerStop, IconStopwatch } from "@tabler/icons-react";
 import { useState } from "react";
 
-import { ProblemText } from "../problems/ProblemText";
-import { request } from "../socket";
-import { useStudio } from "../store";
+import { ProblemText } from "../widgets/ProblemText";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
 import { CurvePicture } from "./CurvePicture";
 import { TuneSection } from "./TuneSection";
 

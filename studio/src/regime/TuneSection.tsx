@@ -4,12 +4,12 @@ import { Button, Checkbox, Group, NativeSelect } from "@mantine/core";
 import { IconCheck, IconPlayerStop, IconTarget } from "@tabler/icons-react";
 import { useState } from "react";
 
-import { ProblemText } from "../problems/ProblemText";
+import { ProblemText } from "../widgets/ProblemText";
 import type { ElementView, Tuning } from "../protocol";
-import { request } from "../socket";
-import { useStudio } from "../store";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
 import { NumberField } from "../widgets/NumberField";
-import { FIRST_GOALS, type ToleratedValue, requirements, tunable } from "./goals";
+import { FIRST_GOALS, type ToleratedValue, requirements, tunable } from "../model/goals";
 
 export function TuneSection({ field }: { field: ElementView }) {
   const tuning = useStudio((state) => state.tuning);

@@ -1,6 +1,6 @@
 // The tool of regimes, which is loaded when it is first shown.
 
-import { later } from "../connection/Later";
+import { later } from "../widgets/Later";
 import type { DockTool } from "../state/tool";
 
 export const tool: DockTool = {

@@ -3,13 +3,13 @@
 import { Button, CloseButton, Progress } from "@mantine/core";
 import { IconArrowsDiff } from "@tabler/icons-react";
 
-import { lastPart } from "../files/paths";
-import { ProblemText } from "../problems/ProblemText";
+import { lastPart } from "../model/paths";
+import { ProblemText } from "../widgets/ProblemText";
 import type { Comparison, DifferenceView } from "../protocol";
-import { request } from "../socket";
-import { useStudio } from "../store";
-import { timeText } from "../transport/format";
-import { chooseCopy, seek, stop } from "./replay";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
+import { timeText } from "../model/format";
+import { chooseCopy, seek, stop } from "../actions/replay";
 import classes from "./Comparison.module.css";
 
 export function ComparisonBar() {

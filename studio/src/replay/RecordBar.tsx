@@ -5,7 +5,7 @@ import { IconArrowsDiff, IconMovie, IconPlayerPlay } from "@tabler/icons-react";
 
 import { compare, leave } from "../files/flows";
 import type { RecordView } from "../protocol";
-import { chooseCopy, useReplay } from "./replay";
+import { chooseCopy, useReplay } from "../actions/replay";
 import classes from "./RecordBar.module.css";
 
 const ACTIONS = [

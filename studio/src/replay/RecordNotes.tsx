@@ -2,7 +2,7 @@
 
 import { IconAlertTriangle } from "@tabler/icons-react";
 
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import classes from "./RecordNotes.module.css";
 
 const NONE: string[] = [];

@@ -5,8 +5,8 @@ import { IconArrowFork } from "@tabler/icons-react";
 import { useState } from "react";
 
 import type { RecordView } from "../protocol";
-import { useStudio } from "../store";
-import { runFrom } from "./replay";
+import { useStudio } from "../server/store";
+import { runFrom } from "../actions/replay";
 import classes from "./Timeline.module.css";
 
 const LABEL =

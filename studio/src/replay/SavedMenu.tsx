@@ -15,12 +15,12 @@ import { type FormEvent, type ReactNode, useState } from "react";
 
 import { applyPreset } from "../files/presets";
 import { KeptPresets } from "../pins/KeptPresets";
-import { whenText } from "../files/when";
-import { request } from "../socket";
-import { useStudio } from "../store";
-import { timeText } from "../transport/format";
+import { whenText } from "../model/when";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
+import { timeText } from "../model/format";
 import { ButtonPopover } from "../widgets/ButtonPopover";
-import { stop } from "./replay";
+import { stop } from "../actions/replay";
 import classes from "./SavedMenu.module.css";
 
 export function SavedMenu() {

@@ -2,9 +2,9 @@
 
 import type { ReactNode } from "react";
 
-import { lastPart } from "../files/paths";
-import { useStudio } from "../store";
-import { OtherRecord } from "./OtherRecord";
+import { lastPart } from "../model/paths";
+import { useStudio } from "../server/store";
+import { OtherRecord } from "../state/OtherRecord";
 import classes from "./Comparison.module.css";
 
 export function SideBySide({ children }: { children: ReactNode }) {

@@ -11,11 +11,11 @@ import {
 } from "@tabler/icons-react";
 import { type KeyboardEvent, useEffect, useRef } from "react";
 
-import { type Studio, useStudio } from "../store";
-import { countText, speedText, timeText } from "../transport/format";
-import { useThrottled } from "../transport/throttled";
+import { type Studio, useStudio } from "../server/store";
+import { countText, speedText, timeText } from "../model/format";
+import { useThrottled } from "../state/throttled";
 import { TipButton } from "../widgets/TipButton";
-import { REPLAY_SPEEDS, thinnedShare } from "./playback";
+import { REPLAY_SPEEDS, thinnedShare } from "../state/playback";
 import {
   replay,
   seek,
@@ -27,7 +27,7 @@ import {
   showPresent,
   stop,
   useReplay,
-} from "./replay";
+} from "../actions/replay";
 import { SavedMenu } from "./SavedMenu";
 import { RunFromButton } from "./RunFromButton";
 import classes from "./Timeline.module.css";

@@ -4,7 +4,7 @@ import { Button } from "@mantine/core";
 import { IconFileImport } from "@tabler/icons-react";
 
 import { openTool } from "../state/tool";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { countOf, lossesText } from "./reportItems";
 
 export function ReportButton() {

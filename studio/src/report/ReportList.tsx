@@ -3,9 +3,9 @@
 
 import { memo } from "react";
 
-import { usePicked } from "../build/picked";
-import { type CanvasGoal, showGoal } from "../panels/showGoal";
-import { useStudio } from "../store";
+import { usePicked } from "../actions/picked";
+import { type CanvasGoal, showGoal } from "../actions/showGoal";
+import { useStudio } from "../server/store";
 import { choosing, useOptions } from "../widgets/useOptions";
 import type { ReportItem, ReportLine } from "./reportItems";
 

@@ -1,8 +1,8 @@
 // The import report as the panel shows it: lines by the element that they belong to, under its present name.
 
-import { keyOf } from "../graph/layout/tree";
-import type { CanvasGoal } from "../panels/showGoal";
-import { hasWords } from "../values";
+import { keyOf } from "../architecture/tree";
+import type { CanvasGoal } from "../actions/showGoal";
+import { hasWords } from "../model/values";
 import type { ImportReportView, ReportLineView } from "../protocol";
 
 export type ReportFilter = "losses" | "approximated" | "dropped" | "all";

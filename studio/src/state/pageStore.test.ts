@@ -1,9 +1,9 @@
 import { expect, it } from "vitest";
 
-import { fakeDocument, fakeElement } from "../graph/fakes";
-import { useStudio } from "../store";
+import { fakeDocument, fakeElement } from "../architecture/fakes";
+import { useStudio } from "../server/store";
 import { useRecordChoice } from "../transport/recordChoice";
-import { useNext } from "../transport/run";
+import { useNext } from "../actions/run";
 import { pageStore } from "./pageStore";
 
 const document = fakeDocument([fakeElement("u")]);

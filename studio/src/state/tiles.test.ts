@@ -1,8 +1,8 @@
 import { beforeEach, expect, test, vi } from "vitest";
 
-import type { PlotParams } from "../plots/settings";
+import type { PlotParams } from "../model/settings";
 import type { DocumentView } from "../protocol";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import {
   addTile,
   beginTiles,
@@ -29,7 +29,7 @@ let answer = (): void => {};
 // The plots of the document; null: none of its own.
 let own: PlotLists | null = null;
 
-vi.mock("../socket", () => ({
+vi.mock("../server/socket", () => ({
   request: (message: Posted) => {
     sent.push(message);
     own = message.layout?.tiles ?? own;

@@ -2,10 +2,10 @@
 // document; a view without a list of its own shows that of Build.
 
 import { create } from "zustand";
-import type { PlotParams } from "../plots/settings";
-import { same } from "../inspector/parameters/part";
-import { request } from "../socket";
-import { useStudio } from "../store";
+import type { PlotParams } from "../model/settings";
+import { same } from "../model/part";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
 import { type View, VIEWS } from "./page";
 
 export type PlotTile = Readonly<PlotParams & { key: number }>;

@@ -2,8 +2,8 @@
 // content many times a second.
 
 import { useRef } from "react";
-import { same } from "../inspector/parameters/part";
-import { type Studio, useStudio } from "../store";
+import { same } from "../model/part";
+import { type Studio, useStudio } from "../server/store";
 
 export function useSame<T>(select: (state: Studio) => T): T {
   const last = useRef<{ value: T } | null>(null);

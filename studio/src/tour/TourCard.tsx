@@ -4,7 +4,7 @@ import { Button, CloseButton } from "@mantine/core";
 import { IconCircleCheck } from "@tabler/icons-react";
 import { useEffect } from "react";
 
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { STEPS } from "./steps";
 import { endTour, follow, goTo, useTour } from "./tour";
 import { useOutline } from "./useOutline";

@@ -1,7 +1,7 @@
 import { beforeEach, expect, test } from "vitest";
 
 import type { DocumentView, RunClock } from "../protocol";
-import { type Studio, useStudio } from "../store";
+import { type Studio, useStudio } from "../server/store";
 import { central, STEPS } from "./steps";
 import { endTour, follow, goTo, useTour } from "./tour";
 

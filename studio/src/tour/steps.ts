@@ -2,7 +2,7 @@
 // done.
 
 import type { ElementView } from "../protocol";
-import type { Studio } from "../store";
+import type { Studio } from "../server/store";
 
 export type TourStep = {
   title: string;

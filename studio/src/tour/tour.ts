@@ -3,7 +3,7 @@
 import { create } from "zustand";
 
 import { leave } from "../files/flows";
-import { type Studio, useStudio } from "../store";
+import { type Studio, useStudio } from "../server/store";
 import { STEPS } from "./steps";
 
 type Tour = {

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from "react";
 
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { STEPS } from "./steps";
 
 const AROUND = 4;

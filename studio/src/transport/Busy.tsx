@@ -2,9 +2,9 @@
 
 import { Loader } from "@mantine/core";
 
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import classes from "./Busy.module.css";
-import { compilingText } from "./format";
+import { compilingText } from "../model/format";
 
 export function Busy() {
   const busy = useStudio((state) => state.clock?.busy ?? "");

@@ -3,11 +3,11 @@
 import { Button, Code, Popover } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";
 
-import { lastPart } from "../files/paths";
-import { ProblemText } from "../problems/ProblemText";
-import { request } from "../socket";
-import { useStudio } from "../store";
-import { reset } from "./run";
+import { lastPart } from "../model/paths";
+import { ProblemText } from "../widgets/ProblemText";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
+import { reset } from "../actions/run";
 import classes from "./FailureBar.module.css";
 
 const NONE: [] = [];

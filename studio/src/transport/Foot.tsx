@@ -1,6 +1,6 @@
 // The foot of the page: the run, and the moments that can be shown.
 
-import { NeedsServer } from "../connection/NeedsServer";
+import { NeedsServer } from "../widgets/NeedsServer";
 import { Timeline } from "../replay/Timeline";
 import { StopButton } from "../world/LinkState";
 import classes from "./Foot.module.css";

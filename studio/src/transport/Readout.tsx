@@ -2,11 +2,11 @@
 
 import { Tooltip } from "@mantine/core";
 
-import { useOffline } from "../connection/NeedsServer";
-import { type Studio, useStudio } from "../store";
-import { compilingText, countText, factorText, timeText, unitText } from "./format";
+import { useOffline } from "../widgets/NeedsServer";
+import { type Studio, useStudio } from "../server/store";
+import { compilingText, countText, factorText, timeText, unitText } from "../model/format";
 import { lateText, meterLines } from "./meter";
-import { useThrottled } from "./throttled";
+import { useThrottled } from "../state/throttled";
 import classes from "./Readout.module.css";
 
 const clockOf = (state: Studio) => state.clock;

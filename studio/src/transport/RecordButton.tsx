@@ -4,12 +4,12 @@ import { IconPlayerRecordFilled, IconPlayerStopFilled } from "@tabler/icons-reac
 import { useEffect, useRef } from "react";
 
 import { leave } from "../files/flows";
-import { plottedPorts } from "../panels/openPlot";
-import { request } from "../socket";
-import { useStudio } from "../store";
+import { plottedPorts } from "../actions/openPlot";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
 import { TipButton } from "../widgets/TipButton";
 import { RecordMenu } from "./RecordMenu";
-import { unitText } from "./format";
+import { unitText } from "../model/format";
 import { useRecordChoice } from "./recordChoice";
 import classes from "./Transport.module.css";
 

@@ -5,12 +5,12 @@ import { ActionIcon, Button, Checkbox, ScrollArea, Stack, Text, TextInput } from
 import { IconChevronDown } from "@tabler/icons-react";
 import { useState } from "react";
 
-import { plottedPorts } from "../panels/openPlot";
+import { plottedPorts } from "../actions/openPlot";
 import type { RecordedPort } from "../protocol";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { ButtonPopover } from "../widgets/ButtonPopover";
 import { NumberField } from "../widgets/NumberField";
-import { countText, unitText } from "./format";
+import { countText, unitText } from "../model/format";
 import { findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
 
 // More ports than MANY have a search; at most MOST rows are listed.

@@ -3,13 +3,13 @@
 import { ActionIcon, Button, Group, Stack } from "@mantine/core";
 import { IconAdjustmentsHorizontal, IconDice5 } from "@tabler/icons-react";
 
-import { socket } from "../socket";
-import { useStudio } from "../store";
+import { socket } from "../server/socket";
+import { useStudio } from "../server/store";
 import { ButtonPopover } from "../widgets/ButtonPopover";
 import { NumberField } from "../widgets/NumberField";
 import { TipButton } from "../widgets/TipButton";
-import { unitText } from "./format";
-import { MOST_SEED, reset, rollSeed, useNext } from "./run";
+import { unitText } from "../model/format";
+import { MOST_SEED, reset, rollSeed, useNext } from "../actions/run";
 
 const MOST_STEPS = 1_000_000;
 

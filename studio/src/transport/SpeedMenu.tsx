@@ -4,10 +4,10 @@ import { Button, Slider, Text } from "@mantine/core";
 import { IconGauge } from "@tabler/icons-react";
 import { type ComponentProps, useEffect, useState } from "react";
 
-import { request } from "../socket";
-import { useStudio } from "../store";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
 import { ButtonPopover } from "../widgets/ButtonPopover";
-import { speedText } from "./format";
+import { speedText } from "../model/format";
 import { SPEEDS, stopOf } from "./speeds";
 
 const LAST = SPEEDS.length - 1;

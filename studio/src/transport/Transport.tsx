@@ -8,7 +8,7 @@ import {
 } from "@tabler/icons-react";
 
 import { RecordBar } from "../replay/RecordBar";
-import { useStudio } from "../store";
+import { useStudio } from "../server/store";
 import { TipButton } from "../widgets/TipButton";
 import { Busy } from "./Busy";
 import { Readout } from "./Readout";
@@ -16,8 +16,8 @@ import { RecordButton } from "./RecordButton";
 import { RunMenu } from "./RunMenu";
 import { SpeedMenu } from "./SpeedMenu";
 import { WorldButton } from "./WorldButton";
-import { countText } from "./format";
-import { play, reset, step, useNext } from "./run";
+import { countText } from "../model/format";
+import { play, reset, step, useNext } from "../actions/run";
 import classes from "./Transport.module.css";
 
 export function Transport() {

@@ -3,8 +3,8 @@
 import { Button, Tooltip } from "@mantine/core";
 import { IconWorld } from "@tabler/icons-react";
 
-import { ask } from "../dialogs/questions";
-import { useStudio } from "../store";
+import { ask } from "../state/questions";
+import { useStudio } from "../server/store";
 import classes from "./Transport.module.css";
 
 export function WorldButton() {

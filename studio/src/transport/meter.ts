@@ -1,7 +1,7 @@
 // How well the run keeps to real time, in words.
 
 import type { RunClock } from "../protocol";
-import { countText, unitText } from "./format";
+import { countText, unitText } from "../model/format";
 
 export type Kept = Pick<
   RunClock,

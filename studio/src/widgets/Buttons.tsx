@@ -5,7 +5,7 @@ import type { MenuItemProps } from "@mantine/core";
 import type { IconPlus } from "@tabler/icons-react";
 import type { ComponentPropsWithRef, ReactNode } from "react";
 
-import { keysText } from "../keys";
+import { keysText } from "../model/keys";
 
 type Icon = typeof IconPlus;
 type Of<P> = P & Omit<ComponentPropsWithRef<"button">, keyof P>;

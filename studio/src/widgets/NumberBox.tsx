@@ -5,7 +5,7 @@ import { TextInput } from "@mantine/core";
 import { type KeyboardEvent, useEffect, useRef, useState } from "react";
 
 import type { ListedProblem } from "../protocol";
-import { arrowStep, type Limits, numberText, typedNumber, wrongWith } from "./number";
+import { arrowStep, type Limits, numberText, typedNumber, wrongWith } from "../model/number";
 
 export type NumberBoxProps = Limits & {
   label: string;

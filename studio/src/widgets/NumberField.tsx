@@ -3,7 +3,7 @@
 import { useState } from "react";
 
 import type { ListedProblem } from "../protocol";
-import type { Reply } from "../socket";
+import type { Reply } from "../server/socket";
 import { NumberBox, type NumberBoxProps } from "./NumberBox";
 import { ProblemLine } from "./ProblemLine";
 

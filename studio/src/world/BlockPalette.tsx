@@ -5,8 +5,8 @@ import { type KeyboardEvent, type PointerEvent, type ReactNode, useRef, useState
 import { createPortal } from "react-dom";
 
 import type { SceneView } from "../protocol";
-import { request } from "../socket";
-import { live } from "./live";
+import { request } from "../server/socket";
+import { live } from "../server/live";
 import { blockName, blockSide, colourOf, cssColour, inFront, SWATCHES, type Swatch } from "./blocks";
 import type { Ground } from "./ground";
 import { freeName, type PlanPoint } from "./planFrame";

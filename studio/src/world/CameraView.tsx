@@ -8,9 +8,9 @@ import { paintPicture } from "../draw/paint";
 import { planeIn } from "../plots/kinds/parts";
 import { useStreams } from "../plots/useStreams";
 import type { ElementView } from "../protocol";
-import { request } from "../socket";
-import { useStudio } from "../store";
-import type { Wish } from "../streams";
+import { request } from "../server/socket";
+import { useStudio } from "../server/store";
+import type { Wish } from "../server/streams";
 
 const CAMERA = "camera";
 const MOST = 256;

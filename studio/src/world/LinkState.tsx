@@ -8,11 +8,11 @@ import { Button, Popover } from "@mantine/core";
 import { useEffect, useSyncExternalStore } from "react";
 
 import { linkText } from "./linkText";
-import { live } from "./live";
+import { live } from "../server/live";
 import { motorText } from "./motorText";
 import { NarrowMotors } from "./NarrowMotors";
 import type { Answer } from "../protocol";
-import { request, socket } from "../socket";
+import { request, socket } from "../server/socket";
 
 export function LinkState() {
   const link = useSyncExternalStore(live.listen, live.link);

@@ -3,7 +3,7 @@
 import { useState } from "react";
 
 import type { MotorLimits } from "../protocol";
-import type { Reply } from "../socket";
+import type { Reply } from "../server/socket";
 import { NumberField } from "../widgets/NumberField";
 
 type NarrowMotorsProps = {

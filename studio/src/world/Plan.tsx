@@ -3,11 +3,11 @@
 import { useComputedColorScheme } from "@mantine/core";
 import { type KeyboardEvent, type PointerEvent, useEffect, useRef } from "react";
 
-import { pageInk } from "../plots/colors/look";
+import { pageInk } from "../widgets/look";
 import type { SceneView } from "../protocol";
 import { draw } from "./draw";
 import type { Ground } from "./ground";
-import { live } from "./live";
+import { live } from "../server/live";
 import { onWorld } from "./onWorld";
 import { frameOf, inside, objects, type PlanFrame, type PlanPoint, toWorld, under } from "./planFrame";
 import type { Hands } from "./useHands";

@@ -6,16 +6,16 @@ import "./world.css";
 import { NativeSelect, SegmentedControl } from "@mantine/core";
 import { useEffect, useRef, useState, useSyncExternalStore } from "react";
 
-import { socket } from "../socket";
-import { useStudio } from "../store";
+import { socket } from "../server/socket";
+import { useStudio } from "../server/store";
 import { BlockPalette } from "./BlockPalette";
 import { AddCamera, CameraView, useCamera } from "./CameraView";
 import type { Ground } from "./ground";
 import { LinkState } from "./LinkState";
-import { live } from "./live";
+import { live } from "../server/live";
 import { Plan } from "./Plan";
 import { objects, placeText } from "./planFrame";
-import { SolidScene } from "./solid/SolidScene";
+import { SolidScene } from "./SolidScene";
 import { useHands } from "./useHands";
 import { WorldPicture } from "./WorldPicture";
 

@@ -4,7 +4,7 @@ import { useEffect, useRef } from "react";
 
 import { paintBytes } from "../draw/paint";
 import type { PictureView } from "../protocol";
-import { live } from "./live";
+import { live } from "../server/live";
 import { onWorld } from "./onWorld";
 
 export function WorldPicture({ picture }: { picture: PictureView }) {

@@ -3,7 +3,7 @@
 import type { BodyView, BoxView, MarkView } from "../protocol";
 import { drawAxes } from "../draw/axes";
 import { type Ink, strokeLines } from "../draw/ink";
-import type { Seen } from "./live";
+import type { Seen } from "../server/live";
 import { type PlanFrame, type PlanPoint, sidesOf, toPixels } from "./planFrame";
 
 const FLOOR = "#f5f5f0";

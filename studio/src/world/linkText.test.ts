@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 
 import { linkText } from "./linkText";
-import { LiveWorld } from "./live";
+import { LiveWorld } from "../server/live";
 
 it("the link shows age, losses and the round trip", () => {
   const link = {

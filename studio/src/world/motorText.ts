@@ -1,7 +1,7 @@
 // What a motor of a robot allows, in words.
 
 import type { MotorLimits } from "../protocol";
-import { numberText } from "../widgets/number";
+import { numberText } from "../model/number";
 
 export function motorText({ motor, lower, upper, slew, unit }: MotorLimits): string {
   const range = lower == null || upper == null ? "any value" : `${numberText(lower)} to ${numberText(upper)}`;

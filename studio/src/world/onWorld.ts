@@ -1,7 +1,7 @@
 // Draws when something moved in the world, at most once for each picture of the browser.
 
 import { onPictures } from "../plots/scenes/useWebGL";
-import { live } from "./live";
+import { live } from "../server/live";
 
 // Returns a function that ends it.
 export function onWorld(place: Element, draw: () => void): () => void {

@@ -4,10 +4,10 @@
 import { type KeyboardEvent, useState } from "react";
 
 import type { SceneView } from "../protocol";
-import { Held } from "../held";
-import { request, socket } from "../socket";
+import { Held } from "../server/held";
+import { request, socket } from "../server/socket";
 import { blockSide } from "./blocks";
-import { live } from "./live";
+import { live } from "../server/live";
 import { freeName, objects, type PlanPoint, within } from "./planFrame";
 
 // A step of an arrow key, as a share of the longer side.

@@ -2,20 +2,20 @@
 
 import { Handle, Position, type NodeProps } from "@xyflow/react";
 import { memo, useEffect, useMemo, useRef } from "react";
-import { Sketch } from "../../build/palette/Sketch";
-import { useFitMarks } from "../../build/wiring/useFitMarks";
-import { askFits, useWiring } from "../../build/wiring/wiring";
-import { useStudio } from "../../store";
-import { BOX, dimensionsText, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
+import { Sketch } from "../../widgets/Sketch";
+import { useFitMarks } from "../../actions/useFitMarks";
+import { askFits, useWiring } from "../../actions/wiring";
+import { useStudio } from "../../server/store";
+import { BOX, dimensionsText, LIVE, liveHeight, portHeight, shownPort } from "../../architecture/boxes";
 import { BoxPins } from "./BoxPins";
-import { useHover } from "../hover";
+import { useHover } from "../../state/hover";
 import { LiveBox } from "./LiveBox";
-import { unhover, useFocus } from "../focus";
-import { Mark } from "./Mark";
+import { unhover, useFocus } from "../../actions/focus";
+import { Mark } from "../../problems/Mark";
 import { nameParts } from "./nameParts";
 import { Parts } from "./ContractedParts";
-import type { BoxNode } from "../nodes";
-import { useProblem, useWarning } from "../problem";
+import type { BoxNode } from "../../architecture/nodes";
+import { useProblem, useWarning } from "../../state/problem";
 import { useDetail } from "./useDetail";
 
 export const Box = memo(function Box({ data, height = BOX.title, isConnectable }: NodeProps<BoxNode>) {

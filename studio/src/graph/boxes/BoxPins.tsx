@@ -1,13 +1,13 @@
 // The pinned sliders in a box: symbol, track, number.
 
-import { isEditable } from "../../build/editable";
-import { NumberControl } from "../../inspector/numbers/NumberControl";
-import { words } from "../../inspector/parameters/part";
+import { isEditable } from "../../state/editable";
+import { NumberControl } from "../../forms/NumberControl";
+import { words } from "../../model/part";
 import type { PinView } from "../../protocol";
-import { usePin } from "../../pins/usePin";
-import { useStudio } from "../../store";
+import { usePin } from "../../actions/usePin";
+import { useStudio } from "../../server/store";
 import { Tex } from "../../widgets/Tex";
-import { useHover } from "../hover";
+import { useHover } from "../../state/hover";
 
 export function BoxPins({ pins }: { pins: PinView[] }) {
   const editable = useStudio(isEditable);

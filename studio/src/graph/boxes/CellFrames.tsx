@@ -1,7 +1,7 @@
 // The frames around the cells of a grid, behind all boxes and wires.
 
 import { ViewportPortal } from "@xyflow/react";
-import type { CellFrame } from "../contracted";
+import type { CellFrame } from "../../architecture/contracted";
 
 export function CellFrames({ frames }: { frames: CellFrame[] }) {
   return (

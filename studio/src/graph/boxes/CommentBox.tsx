@@ -5,8 +5,8 @@ import { IconPencil, IconTrash } from "@tabler/icons-react";
 import { NodeResizeControl, type NodeProps } from "@xyflow/react";
 import { memo, useState } from "react";
 
-import { changeComment, removeComment, useNewComment } from "../../build/commenting";
-import type { CommentNode } from "../nodes";
+import { changeComment, removeComment, useNewComment } from "../../actions/commenting";
+import type { CommentNode } from "../../architecture/nodes";
 
 const LEAST = { width: 96, height: 40 };
 

@@ -1,10 +1,10 @@
 // The elements that a box of a contracted architecture shows inside: a dot for each stimulus that it
 // receives, a ring for each coupling with itself.
 
-import { useStudio } from "../../store";
-import { useHover } from "../hover";
-import { pressing } from "./pressing";
-import { useProblem } from "../problem";
+import { useStudio } from "../../server/store";
+import { useHover } from "../../state/hover";
+import { pressing } from "../../actions/pressing";
+import { useProblem } from "../../state/problem";
 
 type Props = { dots: string[]; badges: string[] };
 

@@ -3,11 +3,11 @@
 import { Popover } from "@mantine/core";
 import { useEffect } from "react";
 import { Tex } from "../../widgets/Tex";
-import { useStudio } from "../../store";
-import { facts } from "./facts";
-import { useHover } from "../hover";
-import { MarkIcon } from "./Mark";
-import { useProblem, useWarning } from "../problem";
+import { useStudio } from "../../server/store";
+import { facts } from "../../model/facts";
+import { useHover } from "../../state/hover";
+import { MarkIcon } from "../../problems/Mark";
+import { useProblem, useWarning } from "../../state/problem";
 
 export function ElementCard() {
   const target = useHover((state) => state.target);

@@ -4,9 +4,9 @@ import { ActionIcon } from "@mantine/core";
 import { IconChevronDown } from "@tabler/icons-react";
 import type { NodeProps } from "@xyflow/react";
 import { memo } from "react";
-import { usePicked } from "../../build/picked";
-import { fold } from "../layout/arrange";
-import type { FrameNode } from "../nodes";
+import { usePicked } from "../../actions/picked";
+import { fold } from "../../actions/arrange";
+import type { FrameNode } from "../../architecture/nodes";
 
 export const GroupFrame = memo(function GroupFrame({ data: { key, name } }: NodeProps<FrameNode>) {
   const picked = usePicked((state) => state.groups.includes(key));

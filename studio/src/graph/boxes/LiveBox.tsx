@@ -4,11 +4,11 @@
 import { canvasSettings } from "../../draw/canvases";
 import { useComputedColorScheme } from "@mantine/core";
 import { useContext, useEffect, useRef } from "react";
-import { isRecord } from "../../replay/replay";
-import { socket } from "../../socket";
-import type { Live } from "../../streams";
-import { useStudio } from "../../store";
-import { mostSamples } from "./boxes";
+import { isRecord } from "../../actions/replay";
+import { socket } from "../../server/socket";
+import type { Live } from "../../server/streams";
+import { useStudio } from "../../server/store";
+import { mostSamples } from "../../architecture/boxes";
 import { clear, drawLive, drawWords, type Canvas } from "./drawLive";
 import { PainterContext } from "./PainterContext";
 

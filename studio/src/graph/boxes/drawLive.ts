@@ -2,11 +2,11 @@
 
 import type { Shade } from "../../draw/ink";
 import { type ColorTable, paintCurve, paintHeat, paintPicture } from "../../draw/paint";
-import { activationScale, amounts, FIELD_COLORS, portColor, shade } from "../../plots/colors/colors";
-import type { Live } from "../../streams";
-import { follow, open, type Span } from "../wires/span";
-import { LIVE } from "./boxes";
-import { short } from "./facts";
+import { activationScale, amounts, FIELD_COLORS, portColor, shade } from "../../model/colors";
+import type { Live } from "../../server/streams";
+import { follow, open, type Span } from "../../model/span";
+import { LIVE } from "../../architecture/boxes";
+import { short } from "../../model/facts";
 
 export type Canvas = {
   element: HTMLCanvasElement;

@@ -3,8 +3,8 @@
 
 import { useReactFlow, useStoreApi } from "@xyflow/react";
 import { type RefObject, useCallback, useEffect, useLayoutEffect, useRef } from "react";
-import type { MovedView } from "../movedView";
-import type { SceneNode } from "../nodes";
+import type { MovedView } from "./movedView";
+import type { SceneNode } from "../../architecture/nodes";
 import { lookAt, useInView, useLook } from "./zoom";
 
 const REST_MS = 160;

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { BOX, LIVE } from "./boxes";
+import { BOX, LIVE } from "../../architecture/boxes";
 import { FULL, LINES, lookAt, NUMBERS, TITLE } from "./zoom";
 
 test("the level of detail follows the zoom", () => {

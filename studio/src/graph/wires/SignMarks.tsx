@@ -3,7 +3,7 @@
 // dot lies behind it.
 
 import type { ReactNode } from "react";
-import type { Sign } from "./sign";
+import type { Sign } from "../../architecture/sign";
 
 const IDS: Record<Sign, string> = {
   "+": "graph-excitation",

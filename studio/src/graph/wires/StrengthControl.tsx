@@ -1,13 +1,13 @@
 // A strength on a connection: dragged, typed after a click, or changed by keys.
 
 import { type KeyboardEvent, useEffect, useRef, useState } from "react";
-import { isEditable } from "../../build/editable";
-import { useStudio } from "../../store";
-import { typedNumber, wrongWith } from "../../widgets/number";
+import { isEditable } from "../../state/editable";
+import { useStudio } from "../../server/store";
+import { typedNumber, wrongWith } from "../../model/number";
 import { usePull } from "../../widgets/usePull";
-import type { Setting } from "../../inspector/parameters/setting";
-import { short } from "../boxes/facts";
-import { dragged, pressed, stepped } from "./strength";
+import type { Setting } from "../../actions/setting";
+import { short } from "../../model/facts";
+import { dragged, pressed, stepped } from "../../actions/strength";
 
 type StrengthControlProps = { label: string; setting: Setting<number>; onClick?: () => void };
 

@@ -2,12 +2,12 @@
 // Of the size that it has at a zoom of 1.
 
 import { useStore } from "@xyflow/react";
-import { whyFixed } from "../../build/editable";
-import { including } from "../../inspector/numbers/sliderRange";
-import { ValueSlider } from "../../inspector/numbers/ValueSlider";
-import { useStudio } from "../../store";
-import type { Chain } from "./chains";
-import { RANGE, useStrength, wireText } from "./strength";
+import { whyFixed } from "../../state/editable";
+import { including } from "../../model/sliderRange";
+import { ValueSlider } from "../../forms/ValueSlider";
+import { useStudio } from "../../server/store";
+import type { Chain } from "../../architecture/chains";
+import { RANGE, useStrength, wireText } from "../../actions/strength";
 
 // `count`: the connections that are drawn as one.
 export function WireCard({ chain, count }: { chain: Chain | undefined; count: number }) {

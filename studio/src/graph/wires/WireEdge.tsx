@@ -2,19 +2,19 @@
 
 import { BaseEdge, EdgeLabelRenderer, type EdgeProps } from "@xyflow/react";
 import { type CSSProperties, memo } from "react";
-import { pickWire, usePicked } from "../../build/picked";
-import { useStudio } from "../../store";
-import { overWire, useFocus } from "../focus";
-import { useProblem } from "../problem";
-import { Pill } from "../boxes/Pill";
+import { pickWire, usePicked } from "../../actions/picked";
+import { useStudio } from "../../server/store";
+import { overWire, useFocus } from "../../actions/focus";
+import { useProblem } from "../../state/problem";
+import { Pill } from "./Pill";
 import { markOf } from "./SignMarks";
-import type { Point } from "../layout/rects";
-import type { Wire } from "../nodes";
-import type { Chain } from "./chains";
+import type { Point } from "../../model/rects";
+import type { Wire } from "../../architecture/nodes";
+import type { Chain } from "../../architecture/chains";
 import { StrengthControl } from "./StrengthControl";
-import { hasOwn, strengthOf, useStrength, widthOf, wireText } from "./strength";
+import { hasOwn, strengthOf, useStrength, widthOf, wireText } from "../../actions/strength";
 import { WireCard } from "./WireCard";
-import { type Course, direct } from "./wirePath";
+import { type Course, direct } from "../../architecture/wirePath";
 
 export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   const { id, source, target, sourceX, sourceY, targetX, targetY, data } = props;

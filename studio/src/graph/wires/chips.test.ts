@@ -3,12 +3,12 @@ import { join } from "node:path";
 
 import { expect, test } from "vitest";
 
-import { fakeCosivina, fakeExample, fakeKind, kindsOf } from "../fakes";
-import { PANEL } from "../layout/layout";
-import { meet, type Rect } from "../layout/rects";
-import { rectsOf } from "../nodes";
-import { scene } from "../scene";
-import { roomOf, withCourses } from "./courses";
+import { fakeCosivina, fakeExample, fakeKind, kindsOf } from "../../architecture/fakes";
+import { PANEL } from "../../architecture/layout";
+import { meet, type Rect } from "../../model/rects";
+import { rectsOf } from "../../architecture/nodes";
+import { scene } from "../../architecture/scene";
+import { roomOf, withCourses } from "../../architecture/courses";
 import type { DocumentView } from "../../protocol";
 
 const KINDS = kindsOf(

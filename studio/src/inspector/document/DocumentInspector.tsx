@@ -4,20 +4,20 @@ import { Textarea } from "@mantine/core";
 import { useState } from "react";
 
 import type { Describe, ListedProblem } from "../../protocol";
-import { refusalOf, socket } from "../../socket";
-import { useStudio } from "../../store";
+import { refusalOf, socket } from "../../server/socket";
+import { useStudio } from "../../server/store";
 import { AddButton } from "../../widgets/AddButton";
-import { addAxis, NewAxis } from "../axes/NewAxis";
-import { AxisLines } from "../forms/AxesForm";
-import { ChoiceBox } from "../forms/ChoiceBox";
-import { TextBox } from "../forms/TextBox";
+import { addAxis, NewAxis } from "../../forms/NewAxis";
+import { AxisLines } from "../../forms/AxesForm";
+import { ChoiceBox } from "../../widgets/ChoiceBox";
+import { TextBox } from "../../widgets/TextBox";
 import { DocumentParameters } from "./DocumentParameters";
 import { NumberField } from "../../widgets/NumberField";
-import { numberText } from "../../widgets/number";
-import { ProblemBanner } from "../element/ProblemBanner";
+import { numberText } from "../../model/number";
+import { ProblemBanner } from "../../problems/ProblemBanner";
 import { ProblemLine } from "../../widgets/ProblemLine";
-import { timeText } from "../numbers/unit";
-import { PlainRow } from "../PlainRow";
+import { timeText } from "../../model/unit";
+import { PlainRow } from "../../forms/PlainRow";
 
 const TIME_UNITS = ["us", "ms", "s", "min", "abstract"];
 

@@ -5,15 +5,15 @@ import { IconLink, IconLinkOff, IconTrash } from "@tabler/icons-react";
 import { useState } from "react";
 
 import type { DocumentParameterView, LinkView } from "../../protocol";
-import { request } from "../../socket";
-import { useStudio } from "../../store";
+import { request } from "../../server/socket";
+import { useStudio } from "../../server/store";
 import { AddButton } from "../../widgets/AddButton";
 import { DotsMenu } from "../../widgets/DotsMenu";
-import { DocumentParameterAdding } from "./DocumentParameterAdding";
-import { useDocumentParameterLook } from "../parameters/controlLook";
-import { PinItem } from "../parameters/PinItem";
-import { NumberControl } from "../numbers/NumberControl";
-import { useSetting } from "../parameters/setting";
+import { DocumentParameterAdding } from "../../forms/DocumentParameterAdding";
+import { useDocumentParameterLook } from "../../state/controlLook";
+import { PinItem } from "../../forms/PinItem";
+import { NumberControl } from "../../forms/NumberControl";
+import { useSetting } from "../../actions/setting";
 
 export function DocumentParameters({ parameters }: { parameters: DocumentParameterView[] }) {
   const [adding, setAdding] = useState(false);

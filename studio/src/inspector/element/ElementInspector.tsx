@@ -3,13 +3,13 @@
 import { UnstyledButton } from "@mantine/core";
 
 import type { ElementView, Kind } from "../../protocol";
-import { useStudio } from "../../store";
+import { useStudio } from "../../server/store";
 import { Tex } from "../../widgets/Tex";
-import { Fields } from "../forms/PartFields";
-import { useAxes } from "../place";
-import { ElementPlace } from "./ElementPlace";
+import { Fields } from "../../forms/PartFields";
+import { useAxes } from "../../state/place";
+import { ElementPlace } from "../../forms/ElementPlace";
 import { PortTable } from "./PortTable";
-import { ProblemBanner } from "./ProblemBanner";
+import { ProblemBanner } from "../../problems/ProblemBanner";
 import { sectionsOf, titleOf } from "./sections";
 
 export function ElementInspector({ id }: { id: string }) {

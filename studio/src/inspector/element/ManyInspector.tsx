@@ -3,12 +3,12 @@
 import { useMemo } from "react";
 import { useShallow } from "zustand/react/shallow";
 
-import { socket } from "../../socket";
-import { useStudio } from "../../store";
-import { common } from "./common";
-import { FORMS } from "../forms/forms";
-import { axesOf } from "../parameters/leaf";
-import { type Place, PlaceContext, useAxes } from "../place";
+import { socket } from "../../server/socket";
+import { useStudio } from "../../server/store";
+import { common } from "../../forms/common";
+import { FORMS } from "../../forms/forms";
+import { axesOf } from "../../model/leaf";
+import { type Place, PlaceContext, useAxes } from "../../state/place";
 
 export function ManyInspector({ ids }: { ids: string[] }) {
   const elements = useStudio(useShallow((state) => ids.flatMap((id) => state.elements.get(id) ?? [])));

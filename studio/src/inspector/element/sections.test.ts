@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { fakeForm } from "../../graph/fakes";
+import { fakeForm } from "../../architecture/fakes";
 import { sectionsOf } from "./sections";
 
 test("parameters are listed by section, in the order of their declaration, without empty sections", () => {

@@ -2,16 +2,16 @@
 
 import { Button, UnstyledButton } from "@mantine/core";
 
-import { isEditable } from "../../build/editable";
-import { openPalette } from "../../build/palette/palette";
-import { middleOf } from "../../build/wiring/wires";
-import { labelOf } from "../../graph/boxes/label";
-import type { Chain } from "../../graph/wires/chains";
-import { RANGE, useStrength, wireText } from "../../graph/wires/strength";
-import { useStudio } from "../../store";
-import { PlainRow } from "../PlainRow";
-import { NumberControl } from "../numbers/NumberControl";
-import type { Setting } from "../parameters/setting";
+import { isEditable } from "../../state/editable";
+import { openPalette } from "../../actions/palette";
+import { middleOf } from "../../actions/wires";
+import { labelOf } from "../../architecture/label";
+import type { Chain } from "../../architecture/chains";
+import { RANGE, useStrength, wireText } from "../../actions/strength";
+import { useStudio } from "../../server/store";
+import { PlainRow } from "../../forms/PlainRow";
+import { NumberControl } from "../../forms/NumberControl";
+import type { Setting } from "../../actions/setting";
 
 const READS: Record<string, string> = {
   current: "this step",

@@ -3,12 +3,12 @@
 import { ActionIcon, Popover, Tooltip } from "@mantine/core";
 import { IconPencil } from "@tabler/icons-react";
 
-import { AxisFields } from "../../inspector/axes/AxisFields";
-import { ElementPlace } from "../../inspector/element/ElementPlace";
-import { Fields } from "../../inspector/forms/PartFields";
-import "../../inspector/inspector.css";
+import { AxisFields } from "../../forms/AxisFields";
+import { ElementPlace } from "../../forms/ElementPlace";
+import { Fields } from "../../forms/PartFields";
+import "../../forms/inspector.css";
 import type { AxisView, ElementView, Kind, ParameterForm } from "../../protocol";
-import { useStudio } from "../../store";
+import { useStudio } from "../../server/store";
 import type { PlotKind } from "../../model/ports";
 
 // The room of the parts that a kind of plot shows.

@@ -4,14 +4,14 @@ import { Checkbox, NativeSelect, SegmentedControl, Switch, Text } from "@mantine
 import type { ReactNode } from "react";
 import type { Range } from "../../draw/scale";
 import type { Announced, AxisView } from "../../protocol";
-import { useStudio } from "../../store";
+import { useStudio } from "../../server/store";
 import { NumberField } from "../../widgets/NumberField";
-import { SCALES, type ScaleName } from "../colors/colors";
+import { SCALES, type ScaleName } from "../../model/colors";
 import type { ControlName, Shown } from "../kinds/kind";
 import { axesOf } from "../kinds/parts";
-import { allAxes, exchanged } from "../section";
-import { type PlotSettings, WINDOWS } from "../settings";
-import { traceOf } from "../traces";
+import { allAxes, exchanged } from "../../model/section";
+import { type PlotSettings, WINDOWS } from "../../model/settings";
+import { traceOf } from "../../model/traces";
 import { TraceAdding, TraceControl } from "./TraceControl";
 
 type SetSettings = (settings: Partial<PlotSettings>) => void;

@@ -1,11 +1,11 @@
 // The axes that a plot does not draw: a slider for the position on each, or the maximum over it.
 
 import { Slider, UnstyledButton } from "@mantine/core";
-import { useOffline } from "../../connection/NeedsServer";
+import { useOffline } from "../../widgets/NeedsServer";
 import type { AxisView } from "../../protocol";
 import { stepOf } from "../../draw/axis";
 import { reading } from "../../draw/text";
-import { ends, middle, moved, sampleAt } from "../section";
+import { ends, middle, moved, sampleAt } from "../../model/section";
 
 type Strip = {
   rest: AxisView[];

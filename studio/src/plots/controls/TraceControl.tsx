@@ -3,12 +3,12 @@
 import { Button, SegmentedControl, Select, Text } from "@mantine/core";
 import { useState } from "react";
 import type { AxisView, ElementView } from "../../protocol";
-import { useStudio } from "../../store";
+import { useStudio } from "../../server/store";
 import { axisLabel } from "../../draw/axis";
 import { NumberField } from "../../widgets/NumberField";
 import { mainPort, portAxes, portsOf } from "../../model/ports";
-import type { TraceSetting } from "../settings";
-import { traceOf } from "../traces";
+import type { TraceSetting } from "../../model/settings";
+import { traceOf } from "../../model/traces";
 
 const SELECT = { allowDeselect: false, comboboxProps: { withinPortal: false } } as const;
 

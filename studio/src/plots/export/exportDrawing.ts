@@ -6,9 +6,9 @@ import { font, isSmall, type Paint, paperInk } from "../../draw/ink";
 import { paintRaster } from "../../draw/marks";
 import { drawPlot } from "../../draw/plot";
 import { SvgContext } from "../../draw/svg";
-import { drawSceneFrame, type SceneFrame } from "../scenes/sceneFrame";
-import type { Viewpoint } from "../scenes/sceneView";
-import { saveFile } from "./save";
+import { drawSceneFrame, type SceneFrame } from "./sceneFrame";
+import type { Viewpoint } from "../../model/sceneView";
+import { saveFile } from "../../server/save";
 
 export type DrawingFormat = "png" | "svg";
 

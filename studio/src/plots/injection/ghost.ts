@@ -1,7 +1,7 @@
 // The outline of the injected input: the Gaussian above one axis, its one- and two-sigma lines over two axes,
 // a frame for a homogeneous input.
 
-import type { Injection } from "../spot";
+import type { Injection } from "./spot";
 
 // Both black and white are needed on a map of all colours.
 const ON_MAP = [

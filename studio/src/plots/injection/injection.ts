@@ -1,13 +1,13 @@
 // Injection into a field with the right button of the mouse, a finger or the key i. An outline shows the
 // Gaussian.
 
-import { Held } from "../../held";
+import { Held } from "../../server/held";
 import type { PushInput, Release } from "../../protocol";
-import { socket } from "../../socket";
-import { useStudio } from "../../store";
-import { portColor, shade } from "../colors/colors";
+import { socket } from "../../server/socket";
+import { useStudio } from "../../server/store";
+import { portColor, shade } from "../../model/colors";
 import { paintGhost, type ValuePlane } from "./ghost";
-import { type Injection, spot } from "../spot";
+import { type Injection, spot } from "./spot";
 
 // A drawing into which a hand injects; `pointed` is the position under the pointer.
 type Pushed = ValuePlane & Readonly<{ host: HTMLElement; pointed: () => [number, number] }>;

@@ -1,9 +1,9 @@
 // Values over time: of nodes, and of arrays their maximum, mean, or value at a place. Several in one plot.
 
 import type { CurveLine } from "../../draw/content";
-import type { TraceSetting } from "../settings";
-import { timeWindows } from "../timeWindows";
-import { traceLabel, traceOf } from "../traces";
+import type { TraceSetting } from "../../model/settings";
+import { timeWindows } from "../../model/timeWindows";
+import { traceLabel, traceOf } from "../../model/traces";
 import type { PlotDeclaration, Shown } from "./kind";
 import {
   aboveThreshold,

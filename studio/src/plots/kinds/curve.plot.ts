@@ -3,8 +3,8 @@
 import { points } from "../../draw/axis";
 import { type Range, union } from "../../draw/scale";
 import { isPicture, portsAlike } from "../../model/ports";
-import { inOrder } from "../colors/colors";
-import { curveLevel, firstCurves, LEVELS } from "../shownPorts";
+import { inOrder } from "../../model/colors";
+import { curveLevel, firstCurves, LEVELS } from "../../model/shownPorts";
 import type { LegendEntry, PlotDeclaration, Shown } from "./kind";
 import { aboveThreshold, axesOf, extentOf, LEVEL, levelMarks, levelsAt, line, portPaint } from "./parts";
 

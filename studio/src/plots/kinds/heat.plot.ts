@@ -2,7 +2,7 @@
 // them.
 
 import { isPicture } from "../../model/ports";
-import { scaleOf } from "../colors/mapColors";
+import { scaleOf } from "../../model/mapColors";
 import type { PlotDeclaration } from "./kind";
 import { axesOf, levelsAt, over, planeContent } from "./parts";
 

@@ -3,7 +3,7 @@
 
 import { points } from "../../draw/axis";
 import { extent } from "../../draw/scale";
-import { chosenScale } from "../colors/mapColors";
+import { chosenScale } from "../../model/mapColors";
 import type { PlotDeclaration } from "./kind";
 import { line, planeContent, portPaint } from "./parts";
 

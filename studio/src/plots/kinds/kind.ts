@@ -3,9 +3,9 @@
 import type { Content } from "../../draw/content";
 import type { Paint } from "../../draw/ink";
 import type { AxisView, DocumentView, ElementView, Kind } from "../../protocol";
-import type { Live, Wish } from "../../streams";
-import type { Memory } from "../memory";
-import type { PlotSettings } from "../settings";
+import type { Live, Wish } from "../../server/streams";
+import type { Memory } from "./memory";
+import type { PlotSettings } from "../../model/settings";
 
 // What an element has to plot besides its port: an interaction kernel, weights that do not learn, and other
 // elements that have the port over the same axes.

@@ -4,12 +4,12 @@ import { describe, expect, it } from "vitest";
 import type { At } from "../../draw/cursorText";
 import { readContent } from "../../draw/cursorText";
 import { csv, tableOf } from "../../draw/table";
-import { History } from "../../history";
+import { History } from "../../server/history";
 import type { AxisView, DocumentView, ElementView, Kind } from "../../protocol";
-import { Rows } from "../../rows";
-import type { Live } from "../../streams";
-import { Memory } from "../memory";
-import { type PlotSettings, readSettings } from "../settings";
+import { Rows } from "../../server/rows";
+import type { Live } from "../../server/streams";
+import { Memory } from "./memory";
+import { type PlotSettings, readSettings } from "../../model/settings";
 import type { FlatPlot, Shown } from "./kind";
 import { PLOTS } from "./plots";
 

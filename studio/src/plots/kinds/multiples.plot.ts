@@ -5,9 +5,9 @@ import type { Content, MapColors } from "../../draw/content";
 import { extent } from "../../draw/scale";
 import { elementsAlike, isPicture } from "../../model/ports";
 import type { ElementView } from "../../protocol";
-import type { Live } from "../../streams";
-import { scaleOf } from "../colors/mapColors";
-import type { Memory } from "../memory";
+import type { Live } from "../../server/streams";
+import { scaleOf } from "../../model/mapColors";
+import type { Memory } from "./memory";
 import type { PlotDeclaration, ControlName, Shown } from "./kind";
 import {
   aboveThreshold,

@@ -2,8 +2,8 @@
 // element) describes the interface of a module.
 
 import type { Announced, ListedProblem, PlotView } from "../../protocol";
-import type { Frame } from "../../frames";
-import { curveColor } from "../colors/colors";
+import type { Frame } from "../../server/frames";
+import { curveColor } from "../../model/colors";
 import { points } from "../../draw/axis";
 import type { Ink } from "../../draw/ink";
 

@@ -7,10 +7,10 @@ import { extent, type Range, union } from "../../draw/scale";
 import { firstAt } from "../../draw/series";
 import { portAxes, runsDown } from "../../model/ports";
 import type { AxisView, DocumentView } from "../../protocol";
-import type { Live } from "../../streams";
-import { curveColor, FIELD_COLORS, portColor } from "../colors/colors";
-import { type Level, levelsOf, thresholdOf } from "../levels";
-import { timeRange } from "../traces";
+import type { Live } from "../../server/streams";
+import { curveColor, FIELD_COLORS, portColor } from "../../model/colors";
+import { type Level, levelsOf, thresholdOf } from "../../model/levels";
+import { timeRange } from "../../model/traces";
 import type { Shown } from "./kind";
 
 const paint = (color: (shade: Shade) => string): Paint => ({ light: color("light"), dark: color("dark") });

@@ -3,8 +3,8 @@
 
 import { extent } from "../../draw/scale";
 import { isPicture } from "../../model/ports";
-import type { TraceSetting } from "../settings";
-import { traceLabel, traceOf } from "../traces";
+import type { TraceSetting } from "../../model/settings";
+import { traceLabel, traceOf } from "../../model/traces";
 import type { PlotDeclaration, Shown } from "./kind";
 import { axesOf, curvePaint, LEVEL, pathOf } from "./parts";
 import { trajectory } from "./trajectory";

@@ -3,7 +3,7 @@
 
 import { edges } from "../../draw/axis";
 import { isPicture } from "../../model/ports";
-import { scaleOf } from "../colors/mapColors";
+import { scaleOf } from "../../model/mapColors";
 import type { PlotDeclaration } from "./kind";
 import { axesOf, endsOf, levelsAt, momentMarks, over, spanOf, timeSide } from "./parts";
 

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { History } from "../../history";
+import { History } from "../../server/history";
 import { trajectory } from "./trajectory";
 
 function history(times: number[], values: number[]): History {

@@ -1,6 +1,6 @@
 // A trajectory in a plane: two time courses against each other, or one with its rate of change.
 
-import type { History } from "../../history";
+import type { History } from "../../server/history";
 import { sideBySide } from "../../draw/series";
 
 export type Trajectory = { times: number[]; across: number[]; up: number[] };

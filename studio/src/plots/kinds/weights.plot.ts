@@ -2,7 +2,7 @@
 // at 0. Weights that learn are a port.
 
 import { weightsOf } from "../../model/ports";
-import { chosenScale } from "../colors/mapColors";
+import { chosenScale } from "../../model/mapColors";
 import type { PlotDeclaration, Shown } from "./kind";
 import { axesOf, over, planeContent } from "./parts";
 

@@ -4,11 +4,11 @@
 import { axisLabel, edges } from "../../draw/axis";
 import { readContent } from "../../draw/cursorText";
 import { tableOf } from "../../draw/table";
-import type { Live } from "../../streams";
+import type { Live } from "../../server/streams";
 import { planeIn } from "../kinds/parts";
 import type { PlotProps } from "../PlotFrame";
-import { allAxes } from "../section";
-import type { SceneFrame } from "./sceneFrame";
+import { allAxes } from "../../model/section";
+import type { SceneFrame } from "../export/sceneFrame";
 import { planeOf, ScenePlot, type ShownScene } from "./ScenePlot";
 import { surfaceSize } from "./sceneSize";
 

@@ -11,13 +11,13 @@ import { reading } from "../../draw/text";
 import { portAxes } from "../../model/ports";
 import type { AxisView } from "../../protocol";
 import { useSame } from "../../state/useSame";
-import type { Live, Wish } from "../../streams";
-import { shade } from "../colors/colors";
+import type { Live, Wish } from "../../server/streams";
+import { shade } from "../../model/colors";
 import type { PlotProps } from "../PlotFrame";
-import type { SceneFrame } from "./sceneFrame";
+import type { SceneFrame } from "../export/sceneFrame";
 import { planeOf, ScenePlot, type ShownScene } from "./ScenePlot";
 import { volumeSize } from "./sceneSize";
-import { cameraAt } from "./sceneView";
+import { cameraAt } from "../../model/sceneView";
 import type { ScenePosition } from "./useScene";
 
 const MOST = 128;

@@ -2,7 +2,7 @@
 
 import type { AxisView } from "../../protocol";
 import { commonScale } from "../../draw/axis";
-import type { Point3 } from "./sceneView";
+import type { Point3 } from "../../model/sceneView";
 
 const HEIGHT = 0.5;
 const VOLUME = 0.8;

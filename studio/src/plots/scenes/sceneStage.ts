@@ -18,8 +18,8 @@ import {
   Vector3,
 } from "three";
 import type { MapColors } from "../../draw/content";
-import { ANGLE, cameraAt, DISTANCE, magnification, type Point3, type Viewpoint } from "./sceneView";
-import { shade } from "../colors/colors";
+import { ANGLE, cameraAt, DISTANCE, magnification, type Point3, type Viewpoint } from "../../model/sceneView";
+import { shade } from "../../model/colors";
 import { WebGLStage } from "./webGLStage";
 
 // A plane through the box at right angles to an axis, from its lower end (0) to its upper end (1). The canvas

@@ -7,11 +7,11 @@ import { type RefObject, useEffect, useRef } from "react";
 import type { ListedProblem } from "../../protocol";
 import { type DrawingFormat, exportScene } from "../export/exportDrawing";
 import { type Coordinate, linkedCursor, valueOn } from "../linked";
-import { pageInk } from "../colors/look";
-import { drawSceneFrame, type SceneFrame } from "./sceneFrame";
-import { FIRST_VIEW, turned, type Viewpoint, zoomed } from "./sceneView";
+import { pageInk } from "../../widgets/look";
+import { drawSceneFrame, type SceneFrame } from "../export/sceneFrame";
+import { FIRST_VIEW, turned, type Viewpoint, zoomed } from "../../model/sceneView";
 import type { Hit, SceneStage } from "./sceneStage";
-import { useLatest } from "../useLatest";
+import { useLatest } from "../../widgets/useLatest";
 import { onPictures, useWebGL } from "./useWebGL";
 
 // Positions on the axes of the box; null where there is none.

@@ -2,7 +2,7 @@
 
 import { type RefObject, useEffect, useRef, useState } from "react";
 
-import { useLatest } from "../useLatest";
+import { useLatest } from "../../widgets/useLatest";
 
 // `load` resolves to a function that begins to draw, and returns one that ends it. `problem` is why nothing
 // can be drawn; empty: it can.
