@@ -24,7 +24,7 @@ test("a command that fails in the engine changes nothing, and the notice says wh
   await expect.poll(() => moment.innerText()).toMatch(/^0 ms/);
   const document = JSON.stringify(observer.document);
   await button(page, "Run from here").click();
-  await page.getByText("Run from here failed. The run is as it was at 10 ms.").waitFor();
+  await page.getByText("Run from here failed. The run is as it was at 0.010 s.").waitFor();
   await shot(page, "fault-notice");
   expect(observer.clock?.tick).toBe(10);
   expect(observer.running).toBe(false);
