@@ -6,7 +6,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { obstacles } from "./axe";
 import { PLOTS } from "../src/plots/kinds/plots";
 import { SHOWN, writeArranged, writeEveryPlot } from "./everyPlot";
-import { colours, downloaded, drawn, panel, reopen, settled, showView } from "./hands";
+import { button, colours, downloaded, drawn, panel, reopen, settled, showView } from "./hands";
 import { examplePackage } from "./installed";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -199,11 +199,42 @@ test("plots without a scene ask the server for no further part of the page", asy
   await page.close();
 });
 
+/** Every kind of plot, side by side. */
+function arrangeAll(name: string): Promise<void> {
+  const all = Object.entries(SHOWN).map(([kind, [element]]) => [element, kind] as const);
+  return arrange(name, [all.slice(0, 4), all.slice(4, 8), all.slice(8)]);
+}
+
+test("a run continues from a moment with every kind of plot open, and all follow", async () => {
+  const { page } = studio;
+  await arrangeAll("past.json");
+  const moment = page.getByRole("status", { name: "Moment shown" });
+  await button(page, "First frame").click();
+  await expect.poll(() => moment.innerText()).toMatch(/^0 ms/);
+  await observer.ask({ type: "speed", factor: 0.01 });
+  await button(page, "Run from here").click();
+  await observer.until(() => observer.running && observer.time < 300);
+  await button(page, "Pause").click();
+  await observer.until(() => !observer.running);
+  await observer.ask({ type: "step", n: 300 - observer.time });
+  await observer.until(() => observer.clock?.tick === 300);
+  expect(await page.getByRole("alert").count()).toBe(0);
+  for (const [kind, [element, header]] of Object.entries(SHOWN)) {
+    const name = `${PLOTS.get(kind)?.title ?? "Polar plot"} of ${element}`;
+    await plot(name).getByRole("button", { name: "Menu of this plot" }).click();
+    const item = page.getByRole("menuitem", { name: "Export CSV" });
+    const lines = readFileSync(await (await downloaded(page, () => item.click())).path(), "utf8").split("\n");
+    await page.getByRole("menu").waitFor({ state: "detached" });
+    expect(lines[0], name).toBe(header);
+    expect(lines.length, name).toBeGreaterThan(20);
+  }
+  await observer.ask({ type: "speed", factor: 1 });
+});
+
 test("every kind of plot is exported as PNG, SVG and CSV", async () => {
   const { page } = studio;
   expect(new Set([...PLOTS.keys(), "polar"])).toEqual(new Set(Object.keys(SHOWN)));
-  const all = Object.entries(SHOWN).map(([kind, [element]]) => [element, kind] as const);
-  await arrange("export.json", [all.slice(0, 4), all.slice(4, 8), all.slice(8)]);
+  await arrangeAll("export.json");
   for (const [kind, [element, header]] of Object.entries(SHOWN)) {
     const name = `${PLOTS.get(kind)?.title ?? "Polar plot"} of ${element}`;
     const files: Record<string, Buffer> = {};
