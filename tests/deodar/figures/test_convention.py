@@ -26,9 +26,7 @@ def theme(scheme: str) -> dict[str, str]:
 
 def plots(scheme: str) -> dict[str, str]:
     """Return the colours of the studio's boxes and plots by name."""
-    colors = re.search(
-        r"FIELD_COLORS = \{(.*?)\n\}", (PAGE / "plots" / "colors" / "colors.ts").read_text(), re.S
-    )
+    colors = re.search(r"FIELD_COLORS = \{(.*?)\n\}", (PAGE / "model" / "colors.ts").read_text(), re.S)
     assert colors is not None
     part = re.search(rf"{scheme}: \{{(.*?)\}}", colors[1], re.S)
     assert part is not None
@@ -82,7 +80,7 @@ def luminance(color: str) -> float:
 
 def anchors(name: str) -> list[str]:
     """Return the colours between which a scale of the studio is interpolated."""
-    text = (PAGE / "plots" / "colors" / "colors.ts").read_text()
+    text = (PAGE / "model" / "colors.ts").read_text()
     entries = re.search(rf"\n  {name}: \[(.*?)\]", text, re.S)
     assert entries is not None
     return re.findall(r"#[0-9a-f]{6}", entries[1])
@@ -130,7 +128,7 @@ def test_a_line_has_the_colour_of_its_port() -> None:
 
 def test_the_map_of_amounts_is_one_in_the_studio_and_in_figures() -> None:
     """One hue, from the colour of nothing to that of the port, and to that of interaction for all others."""
-    text = (PAGE / "plots" / "colors" / "colors.ts").read_text()
+    text = (PAGE / "model" / "colors.ts").read_text()
     sunk = re.search(r'SUNK = \{ light: "(#\w+)", dark: "(#\w+)" \}', text)
     assert sunk is not None and sunk.groups() == (theme("light")["sunk"], theme("dark")["sunk"])
     assert sunk[1] == _style.SUNK == to_hex(dd.figures.AMOUNTS(0.0))

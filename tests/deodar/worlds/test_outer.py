@@ -65,15 +65,6 @@ def test_the_preview_is_that_of_the_inner_world():
     assert world.preview() is not None
 
 
-def test_motors_are_narrowed_in_the_inner_world():
-    robot = dd.Robot("epuck")
-    world = Combined(Around(robot), {"eye": Picture.example()})
-    assert world.can_narrow and dict(world.rules) == dict(robot.rules)
-    world.narrow("left", (-1.0, 1.0))
-    world.narrow("right", slew=3.0)
-    assert world.rules["left"].limits == (-1.0, 1.0) and world.rules["right"].slew == 3.0
-
-
 def test_an_inner_world_that_cannot_be_narrowed_is_named():
     world = Combined(Around(Arena("blocks")), {"eye": Picture.example()})
     assert not world.can_narrow

@@ -15,6 +15,8 @@ from deodar.numerics.axes import Axis
 from deodar.recording.opened import again, named
 from deodar.session.session_at import session_at
 from deodar.worlds._motor_rule import MotorRule
+from deodar.worlds.combined import Combined
+from deodar.worlds.picture import Picture
 from deodar_robots.robot import robot_file, schema
 from deodar_robots.robot.robot import Robot
 from deodar_robots.zenoh.served_world import ServedWorld
@@ -264,3 +266,12 @@ def test_a_record_of_a_run_whose_motor_was_narrowed_is_continued_within_the_limi
     assert continued.read("pose").tobytes() == session.read("pose").tobytes()
     early = session_at(tmp_path / "run", 128.0)
     assert early.world.rules["left"].limits == (-5, 5)
+
+
+def test_motors_of_a_robot_in_a_combined_world_are_narrowed():
+    robot = dd.Robot("epuck")
+    world = Combined(robot, {"eye": Picture.example()})
+    assert world.can_narrow and dict(world.rules) == dict(robot.rules)
+    world.narrow("left", (-1.0, 1.0))
+    world.narrow("right", slew=3.0)
+    assert world.rules["left"].limits == (-1.0, 1.0) and world.rules["right"].slew == 3.0
