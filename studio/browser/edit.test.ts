@@ -130,7 +130,7 @@ test("a copy goes to another window as text, and foreign text is refused as a wh
   await second.close();
 });
 
-test("a function in pasted text is not imported, and the page says what to type", async () => {
+test("a function in pasted text is not imported; the page opens without it, or says how to trust it", async () => {
   const { page, folder } = studio;
   writeFileSync(join(folder, "hostile.py"), 'open("called", "w").close()\n');
   const called = { kind: "Function", id: "0000000a", axes: [], function: "hostile:call" };
@@ -138,13 +138,17 @@ test("a function in pasted text is not imported, and the page says what to type"
   await page.evaluate((content) => navigator.clipboard.writeText(content), text);
   await page.keyboard.press("Control+v");
   await observer.until(() => paths() === "a,b,f,u");
-  await page
-    .getByText(/--trust/)
-    .first()
-    .waitFor();
+  await page.getByText("The file names functions of its own, which can run any code.").waitFor();
+  await button(page, "How to trust it").click();
+  await page.getByText(/deodar studio .* --trust/).waitFor();
   await shot(page, "edit-hostile");
   expect(existsSync(join(folder, "called"))).toBe(false);
-  await page.keyboard.press("Control+z");
+  await page.keyboard.press("Escape");
+  await button(page, "Open without them").click();
+  await observer.until(() => paths() === "a,b,u");
+  await button(page, "Undo").click();
+  await observer.until(() => paths() === "a,b,f,u");
+  await button(page, "Undo").click();
   await observer.until(() => paths() === "a,b,u");
   await observer.runs();
 });

@@ -81,7 +81,7 @@ def luminance(color: str) -> float:
 def anchors(name: str) -> list[str]:
     """Return the colours between which a scale of the studio is interpolated."""
     text = (PAGE / "model" / "colors.ts").read_text()
-    entries = re.search(rf"\n  {name}: \[(.*?)\]", text, re.S)
+    entries = re.search(rf"\n  {name}:(.*?),\n", text, re.S)
     assert entries is not None
     return re.findall(r"#[0-9a-f]{6}", entries[1])
 
