@@ -20,6 +20,8 @@ const FRACTIONS = [0.5, 0.3, 0.7, 0.15, 0.85];
 const STEP = 6;
 // A label that finds no place on its wire may lie beside it, where it still touches it.
 const ASIDE = { up: [0, -6, 6, -10, 10], across: [-0.4, 0.4] };
+// How far from its ends a wire is taken by a hand.
+const END = 20;
 // How often a label makes way for others without a place.
 const MOST_MOVED = 5;
 
@@ -90,11 +92,14 @@ class Labels {
       [alone, "far"],
       [alone, "near"],
       [coarse, "near"],
+      [aside([...coarse, ...along(wire)], wire.room), "near"],
     ];
-    for (const [all, size] of tried) {
-      yield* spotsAt(all, wire.room, size, boxes);
+    // A hand takes a wire at its ends, which a label leaves free where it can.
+    for (const covered of [[...boxes, ...endsOf(wire)], boxes]) {
+      for (const [all, size] of tried) {
+        yield* spotsAt(all, wire.room, size, covered);
+      }
     }
-    yield* spotsAt(aside([...coarse, ...along(wire)], wire.room), wire.room, "near", boxes);
   }
 
   // The place that covers the fewest labels, of which those that moved often count more.
@@ -203,6 +208,9 @@ function extent(wire: LabelledWire): Rect {
     height: Math.max(...all.map((one) => one.y)) - y,
   };
 }
+
+const endsOf = ({ from, to }: LabelledWire): Rect[] =>
+  [from, to].map(({ x, y }) => around({ x, y, width: 0, height: 0 }, END));
 
 const around = ({ x, y, width, height }: Rect, by: number): Rect => ({
   x: x - by,
