@@ -24,8 +24,7 @@ from deodar.model.building import Around
 from deodar.model.document import Document, Entry
 from deodar_studio.catalogue import templates
 from deodar_studio.views import converted, view
-from deodar_studio.views.converted import Status
-from tests.deodar_studio.page import patched
+from tests.deodar_studio.page import applied
 
 MOST_ELEMENTS = 12
 """Number of elements from which the walk adds no more."""
@@ -278,14 +277,16 @@ def _walk(draw: Draw, outcome: Outcome, times: int) -> None:
         if outcome.steps % SCRIPTED == 0 and written(_scripted(doc)) != written(doc):
             outcome.fail("the script makes another document")
         after = converted.convert(doc, shown)
-        status = Status(1, False, 0, 0, "live")
-        found = converted.patch(
-            shown, after, status, lambda after=after, doc=doc: view.problems(after.problems, doc)
-        )
+        changes = converted.changes(shown, after)
         expected = whole(doc)
-        page = expected if found is None else patched(page, json.loads(msgspec.json.encode(found)))
+        # problems are sent whole
+        page = (
+            expected
+            if changes is None
+            else applied(page, json.loads(msgspec.json.encode(changes))) | {"problems": expected["problems"]}
+        )
         if page != expected:
-            outcome.fail("the patched document differs")
+            outcome.fail("the document after its difference differs")
         shown = after
 
 

@@ -134,7 +134,7 @@ def test_a_user_opens_a_file_creates_a_peak_removes_it_and_undoes_the_change(roo
         await p.do("step", n=90)
         await p.until(lambda: p.clock["tick"] == 590 and p.frames[1][0] == 590)
         assert p.frames[1][1].max() < 0, "the peak has decayed while its input is still there"
-        assert p.said["changed"]["value"] == -12 and p.said["changed"]["unsaved"]
+        assert p.document["elements"][0]["values"]["resting_level"] == -12 and p.document["unsaved"]
         await p.do("undo")
         await p.until(
             lambda: p.document["elements"][0]["values"]["resting_level"] == -5 and not p.document["unsaved"]
@@ -175,7 +175,9 @@ def test_a_dragged_slider_is_one_step_of_undo(root: Path) -> None:
         for gesture, values in ((1, (-4, -3, -2)), (2, (-1, 0))):
             for value in values:
                 await p.do("set", element=u, parameter="resting_level", value=value, gesture=gesture)
-        await p.until(lambda: p.said["changed"]["value"] == 0 and p.said["changed"]["undo"] == 2)
+        await p.until(
+            lambda: p.document["elements"][0]["values"]["resting_level"] == 0 and p.document["undo"] == 2
+        )
         await p.do("undo")
         await p.until(lambda: p.document["elements"][0]["values"]["resting_level"] == -2)
         await p.do("undo")
@@ -206,7 +208,7 @@ def test_a_warning_appears_and_disappears_while_a_slider_is_dragged(root: Path) 
                     and problem["severity"] == "warning"
                     and "always above" in problem["what"]
                 )
-        assert p.said["checked"]["version"] == p.said["changed"]["version"]
+        assert p.said["checked"]["version"] == p.said["edited"]["version"]
 
     with studio(root, root / "node.json") as address:
         play(address, scene)
@@ -413,7 +415,7 @@ def test_a_stalled_page_gets_no_more_frames_and_delays_no_other_page(root: Path)
             assert stalled.clocks == 1, "it has not said that it took the first one in"
             await stalled.send(type="drawn", frame=stalled.clock["frame"])
             await stalled.until(lambda: stalled.clocks == 2)
-            await stalled.until(lambda: stalled.said["changed"]["value"] == 119)
+            await stalled.until(lambda: stalled.document["elements"][0]["values"]["tau"] == 119)
 
     with studio(root, root / "selection.json") as address:
         asyncio.run(main(address))
@@ -660,8 +662,9 @@ def test_a_document_with_a_function_is_shown_and_never_run_without_trust(
 
     async def scene(p: Page) -> None:
         await p.until(lambda: p.clock["failure"])
-        assert "--trust" in p.clock["failure"][0]["fix"]
-        assert "--trust" in (await p.ask("play"))["problems"][0]["fix"]
+        (failure,) = p.clock["failure"]
+        assert failure["trust"] and failure["fix"].startswith("Open it without them, or state your trust")
+        assert (await p.ask("play"))["problems"][0]["trust"]
         assert not p.clock["running"]
 
     with studio(root, root / "stranger.json") as address:
