@@ -389,7 +389,7 @@ def test_two_pages_show_the_same_run_which_continues_after_both_are_closed(root:
             await a.runs()
             await b.runs()
             await a.do("set", element=a.element("u"), parameter="tau", value=33)
-            await b.until(lambda: b.said.get("changed", {}).get("value") == 33)
+            await b.until(lambda: b.document["elements"][0]["values"]["tau"] == 33)
             await b.do("play")
             await a.until(lambda: a.clock["running"] and a.clock["tick"] > 5)
         tick = a.clock["tick"]

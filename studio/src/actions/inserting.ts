@@ -1,12 +1,13 @@
 // A box without connections that is dropped on a connection is inserted into it.
 
 import { boxSize } from "../architecture/boxes";
-import { movesOf, positionsOf } from "./arrange";
+import { movesOf } from "./arrange";
 import type { Point, Size } from "../model/rects";
 import type { SceneNode } from "../architecture/nodes";
 import { request } from "../server/socket";
 import { useStudio } from "../server/store";
 import { isEditable } from "../state/editable";
+import { boxPins } from "../state/pin";
 import { usePicked } from "./picked";
 import { onWire, type RoomyPlacing } from "./room";
 import { getStage, pointerOf } from "./stage";
@@ -31,17 +32,18 @@ export function insertDropped(element: string, boxes: Map<string, Point>): Promi
   if (over === null || wire === null) {
     return null;
   }
-  const { elements, kinds } = useStudio.getState();
+  const { document, elements, kinds } = useStudio.getState();
+  const pins = boxPins(document?.layout, element).length;
   const [dropped, at] = [elements.get(element), boxes.get(element)];
   const room =
     dropped === undefined || at === undefined
       ? null
-      : roomFor(over, at, boxSize(dropped), kinds.get(dropped.kind)?.room, element);
-  const moves =
-    room === null
-      ? { positions: positionsOf(boxes) }
-      : movesOf({ boxes: room.moves.boxes.set(element, room.at), comments: room.moves.comments });
-  return request({ type: "insert", element, wire, ...moves }).then(
+      : roomFor(over, at, boxSize(dropped, pins), kinds.get(dropped.kind)?.room, element);
+  const moves = room?.moves ?? { boxes, comments: new Map() };
+  if (room !== null) {
+    moves.boxes.set(element, room.at);
+  }
+  return request({ type: "insert", element, wire, ...movesOf(moves) }).then(
     ({ problems = [] }) => problems.length === 0,
   );
 }

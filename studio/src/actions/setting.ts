@@ -8,6 +8,7 @@ import type { Answer, ParameterForm, ListedProblem } from "../protocol";
 import { socket } from "../server/socket";
 import { noteChange } from "../widgets/CostMark";
 import { usePlace } from "../state/place";
+import { useLatest } from "../widgets/useLatest";
 
 export type Setting<T = unknown> = {
   value: T;
@@ -38,11 +39,11 @@ export function useSetting<T>(
   const latest = useRef<{ value: T } | null>(null);
 
   const { send: placed } = usePlace();
-  const place = sendTo ?? placed;
+  const place = useLatest(sendTo ?? placed);
   const send = useCallback(
     async (value: T, gesture: number): Promise<Answer> => {
-      if (place !== undefined) {
-        const answer = await place(parameter, value, gesture);
+      if (place.current !== undefined) {
+        const answer = await place.current(parameter, value, gesture);
         setProblem(answer.problems?.[0] ?? null);
         return answer;
       }

@@ -187,6 +187,7 @@ function Canvas({ structure }: { structure: Structure }) {
       onNodeDragStop: (event, { id }, dragged) => {
         const nodes = flow.getNodes();
         if (event.altKey) {
+          usePicked.setState({ over: null, into: null });
           copyDragged(nodes);
           reset();
           return;

@@ -32,7 +32,7 @@ export function useNodes(scene: GraphScene, layout: Structure["layout"]) {
   useEffect(() => {
     latest.current = { nodes: shown, scene };
   }, [shown, scene]);
-  useEffect(() => () => window.clearTimeout(timer.current), []);
+  useEffect(() => () => window.clearTimeout(timer.current), [scene]);
 
   const settle = useCallback(() => {
     window.clearTimeout(timer.current);

@@ -95,3 +95,16 @@ test("keys during a drag belong to it, and the drag does not end by their pause"
   await answer();
   expect(sent[1]?.gesture).toBe(sent[0]?.gesture);
 });
+
+test("a message that fails does not keep the next one from being sent", async () => {
+  const sent: number[] = [];
+  const held = new Held<number>((value) => {
+    sent.push(value);
+    return value === 1 ? Promise.reject(new Error("lost")) : Promise.resolve();
+  });
+  process.once("unhandledRejection", () => {});
+  held.move(1);
+  await vi.advanceTimersByTimeAsync(0);
+  held.move(2);
+  expect(sent).toEqual([1, 2]);
+});

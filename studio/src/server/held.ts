@@ -56,12 +56,15 @@ export class Held<T> {
       return;
     }
     this.flying = true;
-    for (let now = this.next; now !== null; now = this.next) {
-      this.next = null;
-      await this.send(now.value, now.gesture);
+    try {
+      for (let now = this.next; now !== null; now = this.next) {
+        this.next = null;
+        await this.send(now.value, now.gesture);
+      }
+    } finally {
+      this.flying = false;
+      this.settle();
     }
-    this.flying = false;
-    this.settle();
   }
 
   private settle(): void {

@@ -9,16 +9,20 @@ import { useStudio } from "../../server/store";
 import { Tex } from "../../widgets/Tex";
 import { useHover } from "../../state/hover";
 
+const BOX_KEYS = new Set(["Delete", "Backspace", "Enter", "Escape"]);
+
 export function BoxPins({ pins }: { pins: PinView[] }) {
   const editable = useStudio(isEditable);
   return pins.length === 0 ? null : (
     <div
-      className="graph-pins nodrag nopan"
+      className="graph-pins nodrag nopan nokey"
       inert={!editable}
       onPointerEnter={() => useHover.getState().close()}
       // A hand on a slider does not select the box, nor open its plot.
       onClickCapture={(event) => event.stopPropagation()}
       onDoubleClickCapture={(event) => event.stopPropagation()}
+      // These keys would remove, select or leave the box.
+      onKeyDown={(event) => BOX_KEYS.has(event.key) && event.stopPropagation()}
     >
       {pins.map((pin) => (
         <BoxPin key={pin.parameter} pin={pin} />
