@@ -109,7 +109,7 @@ test("every element is shown on request, and the document keeps the choice", asy
   const { page } = studio;
   await button(page, "Show every element").click();
   await box(page, "boost wm_s").waitFor();
-  await observer.until(() => observer.document?.layout["every_element"] === true);
+  await observer.until(() => observer.document?.layout.every_element === true);
   await shot(page, "contracted-every");
   await page.reload();
   await box(page, "boost wm_s").waitFor();
@@ -118,20 +118,49 @@ test("every element is shown on request, and the document keeps the choice", asy
   await expect.poll(() => canvas().locator(".graph-box").count()).toBe(BOXES);
 });
 
-test("a dragged box keeps its place, and Tidy returns to the grid", async () => {
+test("dragged boxes keep their places, Tidy returns to the grid, and undo reverses it", async () => {
   const { page } = studio;
   await showEverything(page);
-  const node = box(page, "cos");
-  await node.waitFor();
-  const at = await node.boundingBox();
-  if (at === null) throw new Error("The box is not visible.");
-  await page.mouse.move(at.x + 12, at.y + 8);
-  await page.mouse.down();
-  await page.mouse.move(at.x + 24, at.y + 20, { steps: 6 });
-  await page.mouse.up();
-  await observer.until(() => observer.document?.layout["boxes"] !== undefined);
-  expect(await canvas().locator(".graph-box").count()).toBe(BOXES);
+  const dragged = ["cos", "wm_s"];
+  const ids = dragged.map((name) => observer.element(name).id);
+  const places = () => ids.map((id) => observer.document?.layout.boxes[id]);
+  // where the canvas draws them, in its own units
+  const drawn = () =>
+    Promise.all(
+      ids.map((id) =>
+        canvas()
+          .locator(`.react-flow__node[data-id="${id}"]`)
+          .evaluate((node) => {
+            const { e, f } = new DOMMatrix(getComputedStyle(node).transform);
+            return { x: Math.round(e), y: Math.round(f) };
+          }),
+      ),
+    );
+  const rounded = () => places().map((at) => at && { x: Math.round(at.x), y: Math.round(at.y) });
+  const grid = await drawn();
+  expect(places(), "places that a person chose").toEqual([undefined, undefined]);
+  for (const [i, name] of dragged.entries()) {
+    const at = await box(page, name).boundingBox();
+    if (at === null) throw new Error("The box is not visible.");
+    await page.mouse.move(at.x + 12, at.y + 8);
+    await page.mouse.down();
+    await page.mouse.move(at.x + 24, at.y + 20, { steps: 6 });
+    await page.mouse.up();
+    await observer.until(() => places()[i] !== undefined);
+  }
+  const chosen = rounded();
+  for (const [i, at] of chosen.entries()) expect(at, dragged[i]).not.toEqual(grid[i]);
+  await expect.poll(drawn).toEqual(chosen);
+  await shot(page, "contracted-dragged");
+  await page.reload();
+  await expect.poll(() => canvas().locator(".graph-box").count()).toBe(BOXES);
+  await expect.poll(drawn).toEqual(chosen);
   await button(page, "Tidy to grid").click();
-  await observer.until(() => observer.document?.layout["boxes"] === undefined);
+  await observer.until(() => places().every((at) => at === undefined));
+  await expect.poll(drawn).toEqual(grid);
   expect(await canvas().locator(".graph-box").count()).toBe(BOXES);
+  await shot(page, "contracted-tidy");
+  await page.keyboard.press("Control+z");
+  await observer.until(() => places().every((at) => at !== undefined));
+  await expect.poll(drawn).toEqual(chosen);
 });

@@ -3,7 +3,7 @@ import { readdirSync } from "node:fs";
 import { join } from "node:path";
 
 import type { Locator, Page } from "playwright-core";
-import { afterAll, beforeAll, expect, test } from "vitest";
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
 import { ident, many } from "./bench/documents";
 import { median } from "./bench/figures";
@@ -60,6 +60,9 @@ beforeAll(async () => {
   });
   observer = await studio.observe();
 });
+
+// The width decides how far the canvas is away.
+beforeEach(() => studio.page.setViewportSize({ width: WIDE, height: 800 }));
 
 afterAll(() => studio.stop());
 
@@ -133,15 +136,15 @@ test("the groups of planning are folded, names are readable, on a wide and a nar
   await expect.poll(() => wires(page)).toBe(SPA_WIRES);
   await shot(page, "legible-spa-wide");
   await reloaded(NARROW);
-  expect(observer.document?.layout["tiles"], "no person changed the plots").toBeUndefined();
+  expect(observer.document?.layout.tiles, "no person changed the plots").toBeNull();
   await readable(page, 20);
   await shot(page, "legible-spa-narrow");
   await reloaded(WIDE);
   await readable(page, 20);
   await button(page, "Unfold north").click();
   await box(page, "north.motivation").waitFor();
-  await observer.until(() => Array.isArray(observer.document?.layout["folded"]));
-  expect(observer.document?.layout["folded"], "the others stay folded").toEqual(["south", "west", "east"]);
+  await observer.until(() => observer.document?.layout.folded);
+  expect(observer.document?.layout.folded, "the others stay folded").toEqual(["south", "west", "east"]);
   await readable(page, 20);
   await shot(page, "legible-spa-open");
 });
@@ -162,6 +165,7 @@ test("five hundred elements without groups are dots until the canvas is zoomed i
   await open("many.json", box(page, "u0"));
   await expect.poll(() => page.locator(".graph-box").count()).toBe(ELEMENTS);
   await readable(page, 0);
+  expect(await names(page), "names of dots").toEqual([]);
   await expect.poll(() => wires(page)).toBe(observer.document?.connections.length);
   await shot(page, "legible-many");
   for (let i = 0; i < 4; i++) await button(page, "Zoom in").click();
