@@ -32,11 +32,11 @@ def document(layout: Any) -> Document:
     return edit.arrange(model.document, layout)
 
 
-def shown(layout: Any) -> Any:
+def view_of(layout: Any) -> Any:
     return json.loads(msgspec.json.encode(layouts.layout(document(layout))))
 
 
-EMPTY = shown({})
+EMPTY = view_of({})
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
@@ -66,7 +66,7 @@ def test_the_old_files_have_plots() -> None:
 )
 @pytest.mark.parametrize("key", ["boxes", "comments", "pins", "presets", "tiles", "plots", "view", "panels"])
 def test_what_is_invalid_is_omitted(key: str, odd: Any) -> None:
-    assert shown({key: odd}) == EMPTY
+    assert view_of({key: odd}) == EMPTY
 
 
 def test_of_an_entry_only_the_invalid_fields_are_omitted() -> None:
@@ -76,26 +76,26 @@ def test_of_an_entry_only_the_invalid_fields_are_omitted() -> None:
         {"element": 1, "parameter": "tau"},
         {"element": "", "parameter": "gain", "lower": float("nan"), "label": "pace", "switch": True},
     ]
-    assert shown({"pins": pins})["pins"] == [
+    assert view_of({"pins": pins})["pins"] == [
         {**PIN, "upper": 3},
         {"element": "", "parameter": "gain", "label": "pace", "switch": True},
     ]
     boxes = {"u": {"x": 1, "y": 2.5, "z": 3}, "v": {"x": float("inf"), "y": 0}, "w": {"x": True, "y": 0}}
-    assert shown({"boxes": boxes})["boxes"] == {"u": {"x": 1, "y": 2.5}}
+    assert view_of({"boxes": boxes})["boxes"] == {"u": {"x": 1, "y": 2.5}}
     comments = {"c": {"text": "why", "x": 1, "y": 2, "width": "wide"}, "d": {"x": 1, "y": 2}}
-    assert shown({"comments": comments})["comments"] == {
+    assert view_of({"comments": comments})["comments"] == {
         "c": {"text": "why", "x": 1, "y": 2, "width": 200, "height": 72}
     }
     tiles = {"build": [{"element": "u", "kind": 3}, {"kind": "heat"}], "run": 3, "other": [TILE]}
-    assert shown({"tiles": tiles})["tiles"] == {
+    assert view_of({"tiles": tiles})["tiles"] == {
         "build": [{"element": "u", "port": "", "kind": None, "settings": {}}]
     }
 
 
 def test_tiles_come_before_the_panels_of_version_0_1() -> None:
     panels = {"grid": {}, "panels": {"a": {"contentComponent": "plot", "params": TILE}, "graph": {}}}
-    assert shown({"panels": panels})["tiles"] == {"build": [TILE]}
-    assert shown({"panels": panels, "tiles": {"run": []}})["tiles"] == {"run": []}
+    assert view_of({"panels": panels})["tiles"] == {"build": [TILE]}
+    assert view_of({"panels": panels, "tiles": {"run": []}})["tiles"] == {"run": []}
     assert layouts.changed({"panels": panels}, {"tiles": {"run": []}}) == {
         "tiles": {"run": []},
         "panels": None,
@@ -113,7 +113,7 @@ LATER = {
 
 
 def test_what_later_versions_store_stays_when_the_same_list_changes() -> None:
-    page = shown(LATER)
+    page = view_of(LATER)
     change = {
         "pins": [*page["pins"][:1], {"element": "", "parameter": "gain"}],
         "presets": page["presets"],
@@ -137,6 +137,40 @@ def test_the_last_entry_that_a_page_knows_goes_without_the_others() -> None:
     assert layouts.changed(LATER, {"pins": []})["pins"] == [{"group": "all"}]
     assert layouts.changed({"pins": [PIN]}, {"pins": []}) == {"pins": None}
     assert layouts.changed(LATER, {"boxes": None, "pins": 3}) == {"boxes": None, "pins": [{"group": "all"}]}
+
+
+def test_a_preset_without_a_group_is_removed_and_one_without_values_stays() -> None:
+    near, far = {"name": "near", "values": {"u": {"tau": 3}}}, {"name": "far", "group": "g", "values": {}}
+    hidden = [{"name": "odd", "values": 3}, {"name": "strange", "group": 3, "values": {}}]
+    stored = {"presets": [near, far, *hidden]}
+    page = view_of(stored)["presets"]
+    assert page == [{"name": "near", "group": ""}, {"name": "far", "group": "g"}]
+    assert layouts.changed(stored, {"presets": page}) == {"presets": [{**near, "group": ""}, far, *hidden]}
+    assert layouts.changed(stored, {"presets": page[1:]}) == {"presets": [far, *hidden]}
+    assert layouts.changed(stored, {"presets": page[:1]}) == {"presets": [{**near, "group": ""}, *hidden]}
+    assert layouts.changed({"presets": [near]}, {"presets": []}) == {"presets": None}
+
+
+def test_a_preset_that_a_page_stores_again_has_the_new_values() -> None:
+    stored = {"presets": [{"name": "near", "group": "", "values": {"u": {"tau": 3}}, "colour": "red"}]}
+    newer = {"name": "near", "group": "", "values": {"u": {"tau": 5}}}
+    assert layouts.changed(stored, {"presets": [newer]})["presets"] == [{**newer, "colour": "red"}]
+
+
+def test_an_invalid_field_of_a_pin_stays_until_a_page_sends_it() -> None:
+    stored: Any = {"pins": [{**PIN, "lower": {"x": 1}, "upper": 3}, {**PIN, "element": "v"}]}
+    pins = view_of(stored)["pins"]
+    assert pins[0] == {**PIN, "upper": 3}
+    assert layouts.changed(stored, {"pins": pins})["pins"] == stored["pins"]
+    # the upper end that a page takes away was valid
+    assert layouts.changed(stored, {"pins": [PIN, pins[1]]})["pins"][0] == {**PIN, "lower": {"x": 1}}
+    assert layouts.changed(stored, {"pins": [{**PIN, "lower": 0}]})["pins"] == [{**PIN, "lower": 0}]
+
+
+def test_of_equal_pins_the_first_is_shown_in_its_place() -> None:
+    second = {**PIN, "element": "v"}
+    stored = {"pins": [{**PIN, "upper": 3}, second, {**PIN, "lower": 1}, second]}
+    assert view_of(stored)["pins"] == [{**PIN, "upper": 3}, second]
 
 
 def test_a_box_that_moves_keeps_what_later_versions_store() -> None:

@@ -40,23 +40,25 @@ def kept_presets(doc: Document) -> list[KeptPreset]:
     """
     listed = doc.layout.get(PRESETS)
     presets: dict[str, KeptPreset] = {}
-    for entry in cast("list[Any]", listed) if isinstance(listed, list) else []:
-        preset = cast("dict[str, Any]", entry) if isinstance(entry, dict) else {}
-        name, group, values = preset.get("name"), preset.get("group", ""), preset.get("values")
-        if (
-            not isinstance(name, str)
-            or not name
-            or not isinstance(group, str)
-            or not isinstance(values, dict)
-        ):
-            continue
-        plain = {
-            ident: cast("dict[str, Json]", inner)
-            for ident, inner in cast("dict[str, Any]", values).items()
-            if isinstance(inner, dict)
-        }
-        presets.setdefault(name, KeptPreset(name, group, plain))
+    for entry in listed if isinstance(listed, list) else []:
+        preset = preset_of(entry)
+        if preset is not None:
+            presets.setdefault(preset.name, preset)
     return list(presets.values())
+
+
+def preset_of(entry: Json) -> KeptPreset | None:
+    """Return the preset of an entry of the layout; None if the entry is invalid."""
+    preset = cast("dict[str, Any]", entry) if isinstance(entry, dict) else {}
+    name, group, values = preset.get("name"), preset.get("group", ""), preset.get("values")
+    if not isinstance(name, str) or not name or not isinstance(group, str) or not isinstance(values, dict):
+        return None
+    plain = {
+        ident: cast("dict[str, Json]", inner)
+        for ident, inner in cast("dict[str, Any]", values).items()
+        if isinstance(inner, dict)
+    }
+    return KeptPreset(name, group, plain)
 
 
 def with_presets(doc: Document, presets: Sequence[KeptPreset]) -> Document:

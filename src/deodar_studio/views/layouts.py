@@ -6,6 +6,7 @@ or unknown; it stays in the document when they change something else.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar, cast, get_args
@@ -14,7 +15,7 @@ import msgspec
 
 from deodar.codec import Json
 from deodar.model.document import Document
-from deodar.model.kept_presets import kept_presets
+from deodar.model.kept_presets import kept_presets, preset_of
 from deodar_studio.messages.message import Data
 from deodar_studio.messages.to_page import (
     BoxPlace,
@@ -33,23 +34,21 @@ VIEWS: tuple[ViewName, ...] = get_args(ViewName)
 COMMENT = {"width": 200.0, "height": 72.0}
 TILE: Mapping[str, Any] = {"kind": None, "port": "", "settings": {}}
 
-PLACES: Mapping[str, tuple[type[Data], Callable[[Any], object]]] = {
-    "pins": (PinView, lambda pin: (pin.element, pin.parameter)),
-    "presets": (KeptPresetView, lambda preset: preset.name),
-}
-"""The struct of the entries of lists, and the key of an entry."""
+PRESET = {"group": ""}
 
 
 def layout(doc: Document) -> LayoutView:
     """Return the valid part of the layout of a document."""
     stored = doc.layout
     folded, view = stored.get("folded"), stored.get("view")
-    pins = _entries(PinView, stored.get("pins"))
+    pins: dict[object, PinView] = {}
+    for pin in _entries(PinView, stored.get("pins")):
+        pins.setdefault(_pin(pin), pin)
     return LayoutView(
         boxes=_by_key(BoxPlace, stored.get("boxes")),
         folded=[entry for entry in folded if isinstance(entry, str)] if isinstance(folded, list) else None,
         comments=_by_key(CommentView, stored.get("comments"), COMMENT),
-        pins=list({(pin.element, pin.parameter): pin for pin in reversed(pins)}.values())[::-1],
+        pins=list(pins.values()),
         presets=[KeptPresetView(name=preset.name, group=preset.group) for preset in kept_presets(doc)],
         tiles=_tiles(stored),
         plots=_entries(PlottedPort, stored.get("plots")),
@@ -80,9 +79,14 @@ def changed(stored: Mapping[str, Json], change: Mapping[str, Any]) -> dict[str, 
 
 
 def _completed(key: str, stored: Json, new: Any) -> Any:
-    if key in PLACES:
-        kind, place = PLACES[key]
-        return _list(kind, place, stored, new) or None
+    if key == "pins":
+        return _list(PinView, _pin, stored, new) or None
+    if key == "presets":
+        listed = stored if isinstance(stored, list) else []
+        # more than the fields that a page gets decides whether it gets a preset
+        valid = [entry for entry in listed if preset_of(entry) is not None]
+        invalid = [entry for entry in listed if preset_of(entry) is None]
+        return [*_list(KeptPresetView, _name, valid, new, PRESET), *invalid] or None
     if key == "tiles" and isinstance(new, dict):
         before = _table(stored)
         others = {view: tiles for view, tiles in before.items() if view not in VIEWS}
@@ -101,7 +105,10 @@ def _list(
     new: Any,
     defaults: Mapping[str, Any] | None = None,
 ) -> list[Any]:
-    """Return the entries of a page, each with the unknown keys of the stored one, and the invalid ones."""
+    """Return the entries of a page, and the invalid ones of the document.
+
+    Each has the unknown keys of the stored entry, and its invalid fields that the page does not send.
+    """
     unknown: dict[object, list[dict[str, Any]]] = {}
     invalid: list[Any] = []
     for entry in stored if isinstance(stored, list) else []:
@@ -109,14 +116,23 @@ def _list(
         if valid is None:
             invalid.append(entry)
         else:
-            rest = {k: v for k, v in _table(entry).items() if k not in kind.__struct_fields__}
+            fields = _valid_fields(kind, entry)
+            rest = {k: v for k, v in _table(entry).items() if k not in fields}
             unknown.setdefault(place(valid), []).append(rest)
     entries: list[Any] = []
     for entry in cast("list[Any]", new) if isinstance(new, list) else []:
         valid = _entry(kind, entry, defaults)
         known = [] if valid is None else unknown.get(place(valid), [])
-        entries.append({**entry, **known.pop(0)} if known else entry)
+        entries.append({**entry, **known.pop(0), **entry} if known else entry)
     return [*entries, *invalid]
+
+
+def _pin(pin: PinView) -> object:
+    return pin.element, pin.parameter
+
+
+def _name(preset: KeptPresetView) -> object:
+    return preset.name
 
 
 def _plot(tile: TileView) -> object:
@@ -135,18 +151,27 @@ def _entries(kind: type[D], stored: Any, defaults: Mapping[str, Any] | None = No
 
 def _entry(kind: type[D], stored: Any, defaults: Mapping[str, Any] | None = None) -> D | None:
     """Return an entry of a layout, whose invalid fields have their defaults; None: a field has none."""
-    values = dict(defaults or {})
-    for field in msgspec.structs.fields(kind):
+    try:
+        return kind(**{**(defaults or {}), **_valid_fields(kind, stored)})
+    except TypeError:
+        return None
+
+
+def _valid_fields(kind: type[Data], stored: Any) -> dict[str, Any]:
+    values: dict[str, Any] = {}
+    for field in _fields(kind):
         try:
             value = msgspec.convert(_table(stored)[field.name], field.type)
         except (KeyError, OverflowError, msgspec.ValidationError):
             continue
         if not isinstance(value, float) or math.isfinite(value):
             values[field.name] = value
-    try:
-        return kind(**values)
-    except TypeError:
-        return None
+    return values
+
+
+@functools.cache  # msgspec evaluates annotations at each call; a document may have a thousand boxes
+def _fields(kind: type[Data]) -> tuple[msgspec.structs.FieldInfo, ...]:
+    return msgspec.structs.fields(kind)
 
 
 def _table(stored: Any) -> dict[str, Any]:
