@@ -18,6 +18,7 @@ from deodar.model import edit, find, new_elements
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.document_graph import graph
 from deodar.model.paths import PathNames, display
+from deodar.model.stated_ports import without_stated_ports
 from deodar.numerics.axes import Axes
 
 BoxPosition = tuple[float, float]
@@ -129,7 +130,7 @@ def remove(
     doc = edit.remove(doc, gone)
     for g in listed:
         doc = edit.remove_group(doc, g)
-    return placed(doc, dict.fromkeys(gone))
+    return placed(without_stated_ports(doc, gone), dict.fromkeys(gone))
 
 
 def rename(doc: Document, ident: str, name: str) -> Document:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import dataclasses as dc
 
 from deodar import codec
-from deodar.codec import Json
 from deodar.couplings.arithmetic import Gain
 from deodar.element import Element
 from deodar.errors import ModelError
@@ -18,15 +17,16 @@ from deodar.model.building import EndPorts, connection
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.paths import display
 from deodar.model.sketch import is_coupling
+from deodar.model.stated_ports import (
+    layout_without_ports,
+    stated_ports,
+    with_stated_ports,
+    without_stated_ports,
+)
 from deodar.numerics.kernels._base import Kernel
 from deodar.parameters import parameters
 
 FACTOR = Gain.scaled_by
-
-STATED = "stated_ports"
-"""Key of the layout for the port that a connection states without its `Gain`, where another port is usual:
-`{id of the Gain: port}`.
-"""
 
 
 def set_strength(
@@ -43,7 +43,7 @@ def set_strength(
 
     Where the target needs numbers between 0 and 1 (`bounded_inputs`), the `Gain` reads the `bounded_port` of
     the source, as the target does without it. If the connection states that port itself, the layout has it
-    (`STATED`), and the connection states it again at strength 1.
+    (`stated_ports`), and the connection states it again at strength 1.
 
     Args:
         doc: the document.
@@ -71,7 +71,7 @@ def set_strength(
     if plain is None:
         return _bounded(doc, ident), ident
     doc = edit.remove(edit.replace_connections(doc, _halves(doc, ident), [plain]), [ident])
-    return _stating(doc, {i: port for i, port in _stated(doc).items() if i != ident}), None
+    return without_stated_ports(doc, [ident]), None
 
 
 def gain_on_wire(doc: Document, ident: str) -> Entry | None:
@@ -138,26 +138,10 @@ def _with_gain(doc: Document, wire: Connection, strength: float) -> tuple[Docume
         Connection(wire.source, wire.source_port, gain.id, "input", wire.reads),
         Connection(gain.id, "output", wire.target, wire.target_port),
     ]
+    doc = without_stated_ports(doc, [gain.id])  # of an earlier Gain, which had the same id
     if wire.source_port != _stated_by(doc, wire)[0]:
-        doc = _stating(doc, {**_stated(doc), gain.id: wire.source_port})
+        doc = with_stated_ports(doc, {**stated_ports(doc), gain.id: wire.source_port})
     return edit.replace_connections(doc, [wire], halves), gain.id
-
-
-def _stated(doc: Document) -> dict[str, Json]:
-    ports = doc.layout.get(STATED)
-    return dict(ports) if isinstance(ports, dict) else {}
-
-
-def _stating(doc: Document, ports: dict[str, Json]) -> Document:
-    """Return a document whose layout has other ports that connections state without their `Gain`."""
-    if ports == _stated(doc):
-        return doc
-    layout = _without_ports(doc)
-    return edit.arrange(doc, {**layout, STATED: ports} if ports else layout)
-
-
-def _without_ports(doc: Document) -> dict[str, Json]:
-    return {key: part for key, part in doc.layout.items() if key != STATED}
 
 
 def _stated_by(doc: Document, wire: Connection) -> list[str]:
@@ -196,9 +180,9 @@ def _plain(doc: Document, ident: str) -> Connection | None:
     unnamed = edit.is_unnamed(gain.names[-1], gain.element) and gain.group == source.group
     alone = gain.every == 1 and not out.reads and (gain.id, FACTOR) not in doc.links()
     used = any(gain.id == i for use in doc.uses for _, i in use.elements)
-    if not unnamed or not alone or used or gain.id in codec.line(_without_ports(doc)):
+    if not unnamed or not alone or used or gain.id in codec.line(layout_without_ports(doc)):
         return None
-    stated = _stated(doc).get(gain.id)
+    stated = stated_ports(doc).get(gain.id)
     # a plain connection states the port that has values beyond the range too
     ports = sorted(
         _stated_by(doc, dc.replace(into, target=out.target, target_port=out.target_port)),

@@ -10,11 +10,12 @@ import pytest
 import deodar as dd
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, UnknownName
-from deodar.model import document_files, edit, uses
+from deodar.model import building, document_files, edit, uses
 from deodar.model.building import EndPorts, placed
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.model.strength import STATED, set_strength, strength_path
+from deodar.model.stated_ports import STATED
+from deodar.model.strength import set_strength, strength_path
 
 X = dd.Axis("x", 0, 100, samples=101)
 
@@ -246,6 +247,35 @@ def test_another_content_of_the_layout_under_that_key_is_passed_over() -> None:
     doc, gain = set_strength(model.document, plain(model, "u", "trace"), 2)
     back, none = set_strength(_stated_odd(doc, gain or ""), (model["u"].id, "", gain or "", ""), 1)
     assert none is None and back.connections == model.document.connections
+
+
+def test_the_stated_port_is_forgotten_with_its_gain() -> None:
+    model = remembered()
+    model.disconnect(model["u"], model["trace"])
+    model["u"]["bounded"] >> model["trace"]
+    u, trace = model["u"].id, model["trace"].id
+    doc, gain = set_strength(model.document, (u, "bounded", trace, ""), 2)
+    assert gain is not None and doc.layout == {STATED: {gain: "bounded"}}
+    assert not building.remove(doc, [u, trace, gain]).layout
+    two = edit.arrange(doc, {STATED: {gain: "bounded", "other": "bounded"}})
+    assert building.remove(two, [gain]).layout == {STATED: {"other": "bounded"}}
+
+
+@pytest.mark.parametrize("removed", [building.remove, edit.remove])
+def test_a_plain_connection_in_the_place_of_one_that_states_a_port_is_plain_at_strength_1(
+    removed: Callable[[Document, list[str]], Document],
+) -> None:
+    model = remembered()
+    usual = model.document
+    model.disconnect(model["u"], model["trace"])
+    model["u"]["bounded"] >> model["trace"]
+    u, trace = model["u"].id, model["trace"].id
+    doc, gain = set_strength(model.document, (u, "bounded", trace, ""), 2)
+    doc = building.connect(removed(doc, [gain or ""]), (u, "", trace, ""))
+    doc, second = set_strength(doc, (u, "", trace, ""), 2)
+    assert second == gain, "ids are hashes of paths"
+    back, none = set_strength(doc, (u, "", second or "", ""), 1)
+    assert none is None and back.connections == usual.connections and not back.layout
 
 
 def coupled(coupling: Element) -> Model:
