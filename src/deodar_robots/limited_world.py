@@ -13,6 +13,7 @@ from deodar.worlds._motor_rule import MotorRule
 class LimitedWorld(World):
     """Base class of worlds that apply `rules` to each command before it is sent."""
 
+    _robot_rules: Mapping[str, MotorRule] = {}
     _rules: dict[str, MotorRule]
     _narrowed: Mapping[str, MotorRule] = {}
 
@@ -29,7 +30,7 @@ class LimitedWorld(World):
         narrowed = {
             m: declared.get(m, MotorRule()).within(r.limits, r.slew, m) for m, r in self._narrowed.items()
         }
-        self._rules = {**declared, **narrowed}
+        self._robot_rules, self._rules = declared, {**declared, **narrowed}
         return self._rules
 
     @property

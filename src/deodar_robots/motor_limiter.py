@@ -42,17 +42,24 @@ class MotorLimiter:
             self._before.pop(motor, None)
 
     def keep(self) -> dict[str, np.ndarray]:
-        """Return the last command of each motor with a rate of change; not a number where there was none.
+        """Return the last command of each motor; not a number where there was none.
 
-        The form is the same in every period, so that a file and a message can carry it.
+        The form is the same in every period and whatever motors are narrowed to, so that a file and a message
+        can carry it. A motor without a shape has none before its first command, and is there if it has a rate
+        of change.
         """
-        found: dict[str, np.ndarray] = {}
-        for motor, rule in self._rules.items():
-            if rule.slew is not None:
-                none = np.full((self._copies, *(self._motors[motor].shape or ())), np.nan)
-                found[motor] = np.asarray(self._before.get(motor, none), float)
-        return found
+        commands: dict[str, np.ndarray] = {}
+        for motor, signal in self._motors.items():
+            if signal.shape is not None or self._rules.get(motor, MotorRule()).slew is not None:
+                none = np.full((self._copies, *(signal.shape or ())), np.nan)
+                commands[motor] = np.asarray(self._before.get(motor, none), float)
+        return commands
 
     def put(self, kept: Mapping[str, np.ndarray]) -> None:
-        """Restore what `keep` returned."""
+        """Restore what `keep` returned, of all motors or of some; the others were at rest."""
         self._before = {motor: np.asarray(v) for motor, v in kept.items() if not np.isnan(v).any()}
+
+
+def slowed(commands: Mapping[str, np.ndarray], rules: Mapping[str, MotorRule]) -> dict[str, np.ndarray]:
+    """Return what `MotorLimiter.keep` returned in older versions: motors with a rate of change alone."""
+    return {motor: v for motor, v in commands.items() if motor in rules and rules[motor].slew is not None}

@@ -32,7 +32,7 @@ def test_a_command_grows_by_its_rate_of_change_from_rest_to_its_limit():
 def test_what_is_kept_has_one_form_and_leads_to_the_same_commands():
     made, reference = limiter(3), np.full((3, 2), -9.0)
     start = made.keep()
-    assert {motor: value.shape for motor, value in start.items()} == {"slow": (3, 2)}
+    assert {motor: value.shape for motor, value in start.items()} == {"fast": (3,), "slow": (3, 2)}
     made.allowed("slow", reference, 20.0)
     middle = made.keep()
     assert middle["slow"].shape == (3, 2)

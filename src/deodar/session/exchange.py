@@ -242,6 +242,8 @@ class Exchange:
                 name = f"the world {type(self.world).__name__}"
                 with errors_of(self.world, "keep"):
                     structure = self.world.keep()
+                    if len(jax.tree.leaves(structure)) != len(state.leaves):
+                        structure = self.world.older_form(structure)
                 state = stored.filled(structure, state.leaves, name)
             with errors_of(self.world, "put"):
                 if world_state.objects is not None:

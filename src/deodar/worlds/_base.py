@@ -127,6 +127,12 @@ class World:
     def put(self, kept: Any) -> None:
         """Restore a state that `keep` returned."""
 
+    def older_form(self, state: Any) -> Any:
+        """Return a state that `keep` returned in the form that it had in older versions, whose files `put`
+        restores, too; by default the form is the same.
+        """
+        return state
+
     def scene(self) -> Scene | None:
         """Return the present view from above; None if the world has none."""
         return None

@@ -58,7 +58,8 @@ class MotorRule:
             period: time since then, ms.
         """
         if self.slew is not None:
-            last = self.at_rest(command) if before is None else before
+            # a restored command is of float64; the change is computed in the type of the command
+            last = self.at_rest(command) if before is None else before.astype(command.dtype, copy=False)
             most = self.slew * period / 1000
             command = np.clip(command, last - most, last + most).astype(command.dtype)
         return command if self.limits is None else np.clip(command, *self.limits)

@@ -109,6 +109,9 @@ class Combined(OuterWorld):
         states = {name: origin.keep() for name, origin in self.others.items()}
         return {"world": self.world.keep(), "sensors": states}
 
+    def older_form(self, state: Any) -> Any:
+        return {**state, "world": self.world.older_form(state["world"])}
+
     def put(self, kept: Any) -> None:
         self.world.put(kept["world"])
         for name, origin in self.others.items():

@@ -27,7 +27,7 @@ from deodar.worlds._settings import arguments
 from deodar.worlds._settings import settings as declared
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.limited_world import LimitedWorld
-from deodar_robots.motor_limiter import MotorLimiter
+from deodar_robots.motor_limiter import MotorLimiter, slowed
 from deodar_robots.robot import robot_file
 from deodar_robots.robot.robot_file import RobotFile, RobotMotor, RobotSensor
 
@@ -151,6 +151,10 @@ class Robot(LimitedWorld, OuterWorld):
 
     def keep(self) -> Any:
         return {"world": self.world.keep(), "commands": self._limiter.keep()}
+
+    def older_form(self, state: Any) -> Any:
+        commands = slowed(state["commands"], self._robot_rules)
+        return {"world": self.world.older_form(state["world"]), "commands": commands}
 
     def put(self, kept: Any) -> None:
         if kept is None:

@@ -137,6 +137,9 @@ def unbundle(raw: bytes) -> list[WireMessage]:
 RobotClock = Literal["step", "live"]
 CLOCKS: tuple[RobotClock, ...] = ("step", "live")
 VERSION = 1
+OLDER = b"older"
+"""Asks for the state of a robot in the form of older versions."""
+
 MOST_TEXT = 2**20
 """Longest text about a robot, in characters."""
 

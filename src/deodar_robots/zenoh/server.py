@@ -22,10 +22,11 @@ from deodar.parameters import real, show
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
-from deodar_robots.motor_limiter import MotorLimiter
+from deodar_robots.motor_limiter import MotorLimiter, slowed
 from deodar_robots.zenoh import link
 from deodar_robots.zenoh.about import (
     MOST_BYTES,
+    OLDER,
     About,
     BadMessage,
     RobotClock,
@@ -246,19 +247,25 @@ class WorldServer:
         return bundle(self._messages(requests, readings, time))
 
     def _keep(self, query: Any) -> bytes:
-        """Return the state of the world."""
+        """Return the state of the world; the query says whether in the form of older versions."""
+        older = bytes(query.payload or b"") == OLDER
+        return bundle([WireMessage(_numbers(leaf)) for leaf in jax.tree.leaves(self._state(older))])
+
+    def _state(self, older: bool) -> list[Any]:
         with errors_of(self.world, "keep"):
-            leaves = jax.tree.leaves([self.world.keep(), self._limiter.keep()])
-        return bundle([WireMessage(_numbers(leaf)) for leaf in leaves])
+            world, commands = self.world.keep(), self._limiter.keep()
+            if older:
+                return [self.world.older_form(world), slowed(commands, self.about.rules)]
+            return [world, commands]
 
     def _put(self, query: Any) -> str:
         """Restore a state that `_keep` returned."""
         if self.about.clock != "step":
             raise WorldError("the state of a live robot cannot be restored")
         leaves = [message.array for message in unbundle(bytes(query.payload or b""))]
-        with errors_of(self.world, "keep"):
-            structure = [self.world.keep(), self._limiter.keep()]
-        old, form = jax.tree.flatten(structure)
+        old, form = jax.tree.flatten(self._state(older=False))
+        if len(old) != len(leaves):
+            old, form = jax.tree.flatten(self._state(older=True))
         if len(old) != len(leaves) or not all(
             isinstance(b, str) or np.shape(b) == a.shape for a, b in zip(leaves, old, strict=True)
         ):

@@ -25,9 +25,10 @@ from deodar.worlds._link_state import LinkState
 from deodar.worlds._settings import number, parse_argument
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.limited_world import LimitedWorld
-from deodar_robots.motor_limiter import MotorLimiter
+from deodar_robots.motor_limiter import MotorLimiter, slowed
 from deodar_robots.zenoh import link
 from deodar_robots.zenoh.about import (
+    OLDER,
     About,
     Requests,
     WireMessage,
@@ -405,8 +406,15 @@ class Zenoh(LimitedWorld):
         if not self._begun or not self.about.repeatable:
             return None
         self._wait()
-        robot = [message.array for message in unbundle(self._ask("keep", b""))]
-        return {"robot": robot, "commands": self._limiter.keep()}
+        return {"robot": self._robot_state(b""), "commands": self._limiter.keep()}
+
+    def _robot_state(self, form: bytes) -> list[np.ndarray]:
+        return [message.array for message in unbundle(self._ask("keep", form))]
+
+    def older_form(self, state: Any) -> Any:
+        if state is None:
+            return None
+        return {"robot": self._robot_state(OLDER), "commands": slowed(state["commands"], self._robot_rules)}
 
     def put(self, kept: Any) -> None:
         if kept is None:

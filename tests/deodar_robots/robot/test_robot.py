@@ -268,6 +268,64 @@ def test_a_record_of_a_run_whose_motor_was_narrowed_is_continued_within_the_limi
     assert early.world.rules["left"].limits == (-5, 5)
 
 
+def driven(robot: Robot | Combined) -> dd.Session:
+    """Return a session that drives the motors of a robot, "left" backwards."""
+    model = dd.Model("driving", dt=64)
+    for motor, amplitude in {"left": -9.0, "right": 9.0}.items():
+        model.add(dd.Boost(f"go {motor}", amplitude=amplitude)) >> model.add(dd.Motor(motor, motor=motor))
+    model.add(dd.Sensor("pose", [Axis("of", 0, 2, 3)], sensor="pose"))
+    return dd.Session(model, world=robot)
+
+
+@pytest.mark.parametrize("combined", [False, True])
+def test_a_stored_state_is_restored_before_and_after_motors_are_narrowed(written, tmp_path, combined):
+    def opened() -> Robot | Combined:
+        robot = written(motors={"left": {"limits": [-10, 10]}, "right": {"slew": 20}})
+        return Combined(robot, {"eye": Picture.example()}) if combined else robot
+
+    session = driven(opened())
+    session.step(3)
+    dd.save_snapshot(session.snapshot(), tmp_path / "wide")
+    session.narrow_motor("left", slew=10.0)
+    session.step(3)
+    dd.save_snapshot(session.snapshot(), tmp_path / "narrow")
+    session.step(3)
+    after = session.read("pose").tobytes()
+    session.restore(dd.load_snapshot(tmp_path / "wide"))
+    session.step(6)
+    assert session.read("pose").tobytes() == after, "the slow motor continues from its command of that moment"
+    fresh = driven(opened())
+    fresh.restore(dd.load_snapshot(tmp_path / "narrow"))
+    fresh.narrow_motor("left", slew=10.0)
+    fresh.step(3)
+    assert fresh.read("pose").tobytes() == after
+
+
+@pytest.mark.parametrize("combined", [False, True])
+def test_a_state_is_restored_that_has_only_motors_with_a_rate_of_change(written, tmp_path, combined):
+    """Older versions stored such states."""
+
+    def opened() -> Robot | Combined:
+        robot = written(motors={"left": {"limits": [-10, 10]}, "right": {"slew": 20}})
+        return Combined(robot, {"eye": Picture.example()}) if combined else robot
+
+    session = driven(opened())
+    session.step(3)
+    snapshot = session.snapshot()
+    state = snapshot.world.world
+    robot = state["world"] if combined else state
+    robot["commands"] = {"right": robot["commands"]["right"]}
+    dd.save_snapshot(snapshot, tmp_path / "older")
+    session.step(3)
+    fresh = driven(opened())
+    fresh.restore(dd.load_snapshot(tmp_path / "older"))
+    fresh.step(3)
+    assert fresh.read("pose").tobytes() == session.read("pose").tobytes()
+    session.narrow_motor("right", slew=5.0)
+    session.restore(dd.load_snapshot(tmp_path / "older"))
+    assert session.time == 3 * 64
+
+
 def test_motors_of_a_robot_in_a_combined_world_are_narrowed():
     robot = dd.Robot("epuck")
     world = Combined(robot, {"eye": Picture.example()})

@@ -321,6 +321,30 @@ def test_the_state_of_any_world_is_restored_over_the_network(served, kind, tmp_p
     world.close()
 
 
+def test_a_stored_state_of_older_versions_is_restored_over_the_network(served, tmp_path):
+    """Robot and link stored the commands of the motors with a rate of change alone."""
+    file = tmp_path / "slow.json"
+    motors = {"left": {"slew": 300}, "right": {}}
+    file.write_text(codec.text({"robot": 1, "name": "slow", "kind": "arena", "motors": motors}))
+    model = dd.Model("driving", dt=16)
+    model.add(dd.Sensor("see", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
+    for side in motors:
+        model.add(dd.Boost(f"go {side}", amplitude=400.0)) >> model.add(dd.Motor(side, motor=side))
+    world = Zenoh(at=served(dd.Robot(file)).endpoint)
+    session = dd.Session(model, world=world)
+    shown(session)
+    snapshot = session.snapshot()
+    left, right, *of_robot, link_left, link_right = snapshot.world.world["robot"]
+    assert right == link_right == 400
+    snapshot.world.world.update(robot=[left, *of_robot, link_left])
+    del snapshot.world.world["commands"]["right"]
+    dd.save_snapshot(snapshot, tmp_path / "older")
+    after = [shown(session) for _ in range(5)]
+    session.restore(dd.load_snapshot(tmp_path / "older"))
+    assert [shown(session) for _ in range(5)] == after
+    world.close()
+
+
 def shown(session: dd.Session) -> list[float]:
     """Advance by a period, and return what the model sees."""
     session.run(session.world.period)
