@@ -417,6 +417,35 @@ def test_a_robot_is_narrowed_before_it_gets_a_command(file: Path) -> None:
         served.close()
 
 
+def test_the_robot_in_use_stays_where_another_one_refuses(file: Path) -> None:
+    first, second = (ServedWorld(Arena(LAYOUT), name, "live") for name in ("first", "second"))
+    world = dd.Zenoh(at=first.endpoint, patience=20.0)
+    taken = dd.Zenoh(at=second.endpoint, patience=20.0)
+    taken.reset(0)
+    place = {"kind": "Zenoh", "path": f"second, at={second.endpoint}, patience=20"}
+
+    async def story(p: Page) -> None:
+        await p.runs()
+        await p.do("play")
+        assert "is commanded by" in (await p.ask("use_world", **place))["problems"][0]["what"]
+        accepted = first.server.counts["accepted"]
+        await until(lambda: first.server.counts["accepted"] > accepted + 10)
+        await p.do("reset")
+        assert p.said["robot_link"]["robot"] == "first"
+        taken.close()
+        await p.do("use_world", **place)
+        await p.until(lambda: p.said["robot_link"]["robot"] == "second")
+
+    try:
+        with studio(file.parent, file, world=world) as address:
+            play(address, story)
+    finally:
+        world.close()
+        taken.close()
+        first.close()
+        second.close()
+
+
 def test_the_preview_of_a_world_that_is_not_narrowed_has_no_limits(file: Path) -> None:
     async def story(p: Page) -> None:
         await p.runs()

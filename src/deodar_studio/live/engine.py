@@ -106,6 +106,7 @@ class Engine:
         self._steps = 0
         self._uncompiled = False
         self._moved: World | None = None
+        self._last_world: World | None = None
         self._compiler = UnwaitedThreads(2, "deodar-compiler")  # one to compile, one to measure
         self._thread = threading.Thread(target=self._loop, name="deodar-engine", daemon=True)
         self.session: Session | None = None
@@ -160,10 +161,16 @@ class Engine:
 
     # ----------------------------------------------------------------- in the engine's thread, through `call`
 
-    def load(self, session: Session | None) -> None:
-        """Use another session. It is paused, unless `play` or `step` was called while there was none."""
+    def load(self, session: Session | None, leave: bool = False) -> None:
+        """Use another session. It is paused, unless `play` or `step` was called while there was none.
+
+        Args:
+            session: the other session; None: none until the next call.
+            leave: whether the robot of the session before is left; False if that session may return.
+        """
         self.stop_record()
         self._halt()
+        self._last_world = self._last_world if self.session is None else self.session.world
         waited = self.session is None and session is not None
         self.running, self._steps = self.running and waited, self._steps if waited else 0
         self.session, self.injection, self._target = session, None, None
@@ -174,6 +181,8 @@ class Engine:
         self.pace.speed = speed
         self.restart()
         self._make()
+        if leave and session is not None:
+            _leave(self._last_world, session.world)
 
     def record(self, path: Path, ports: Sequence[str], every: float | None = None) -> None:
         """Record ports into a new folder from now on."""
@@ -318,16 +327,20 @@ class Engine:
         )
 
     def see(self, world: World) -> None:
-        """Use another world. A robot that it replaces is left, and may be commanded by others again."""
+        """Use another world. A robot that it replaces is left, and may be commanded by others again.
+
+        After an error the world in use stays.
+        """
         self._halt()
         if self.session is not None:
             replaced = self.session.world
+            if _same_robot(replaced, world):  # it obeys one commander
+                _leave(replaced, world)
+            self.session.world = world
             if any(each is not None and each.can_narrow for each in (world, replaced)):
                 self.states.forget()  # they have the motors of another world, or other limits
-            if replaced is not None and replaced is not world and replaced.link() is not None:
-                with errors_of(replaced, "close"):
-                    replaced.close()
-            self.session.world = world
+            if not _same_robot(replaced, world):
+                _leave(replaced, world)
         self.failure, self._stale = ((), ()), True
 
     def narrow(self, motor: str, limits: tuple[float, float] | None, slew: float | None) -> None:
@@ -622,6 +635,19 @@ def _moves_robot(session: Session | None) -> bool:
     if session is None or world is None or not world.stage.wall_clock:
         return False
     return bool(used(session.document, world)[1])
+
+
+def _same_robot(replaced: World | None, world: World) -> bool:
+    """Return whether two worlds are links with one robot."""
+    before, after = None if replaced is None else replaced.link(), world.link()
+    return before is not None and after is not None and before.robot == after.robot
+
+
+def _leave(replaced: World | None, world: World | None) -> None:
+    """Leave the robot of a world that another one replaces."""
+    if replaced is not None and replaced is not world and replaced.link() is not None:
+        with errors_of(replaced, "close"):
+            replaced.close()
 
 
 def _found(readers: Sequence[PortReader], program: Any, places: Iterable[PortKey]) -> PortReader | None:

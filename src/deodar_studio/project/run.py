@@ -145,7 +145,7 @@ class DocumentRun:
         """Load the compiled session into the engine, with the edits that were made since."""
         if attempt != self._attempt:
             return
-        await self._call(lambda: self._engine.load(session))
+        await self._call(lambda: self._engine.load(session, leave=True))
         try:
             if self._require().document is not doc:
                 await self.adopt(self._require().document)
@@ -221,15 +221,15 @@ class DocumentRun:
         unfinished = bool(self._conversions.problems(doc))
         if not unfinished and not embodiment.missing(world, doc):
             used(doc, world)
+        self._embodiment.require(world, kind, name, doc)
+        if session is not None and not (unfinished and embodiment.problems(session.document, world)):
+            await self._call(lambda: self._engine.see(world))
         self._embodiment.choose(world, kind, name, doc)
         self._conversions.clear()  # its problems may be those with another world
         if session is None:
             self._queue.start_task(self._restart())
-        else:
-            if not (unfinished and embodiment.problems(session.document, world)):
-                await self._call(lambda: self._engine.see(world))
-            if unfinished:
-                await self.adopt(doc)
+        elif unfinished:
+            await self.adopt(doc)
 
     # --------------------------------------------------------------------------------------- moments of a run
 

@@ -212,14 +212,18 @@ class Embodiment:
         Raises:
             WorldError: the world lacks a sensor or motor of the document; the world in use stays.
         """
+        self.require(world, kind, name, doc)
+        self.chosen = world
+        self._name = _named(kind, masked(name))
+
+    def require(self, world: World, kind: str, name: str, doc: Document) -> None:
+        """Raise WorldError if a world lacks a sensor or motor of a document."""
         if lacking := missing(world, doc):
             raise WorldError(
                 f"the world {kind} has no {', '.join(map(repr, lacking))}",
                 where=masked(name),
                 fix="Choose a world with all sensors and motors of the model",
             )
-        self.chosen = world
-        self._name = _named(kind, masked(name))
 
 
 def _standing() -> dict[str, type[World]]:

@@ -8,7 +8,9 @@ from collections.abc import Callable, Iterator
 import pytest
 
 import deodar as dd
+from deodar.errors import WorldError
 from deodar.worlds._base import Signal, World
+from deodar.worlds._link_state import LinkState
 from deodar_studio.live.engine import Engine
 
 
@@ -105,3 +107,65 @@ def test_a_run_that_fails_halts_the_world(engine: Engine):
     do(engine, lambda: engine.adopt(model, model.document))
     until(lambda: bool(engine.failure[0]))
     until(lambda: len(world.halts) == 1)
+
+
+class Linked(Halting):
+    """A robot in another process, which may refuse to begin."""
+
+    def __init__(self, robot: str, events: list[str], refuses: bool = False) -> None:
+        super().__init__()
+        self.robot, self.events, self.refuses = robot, events, refuses
+
+    def reset(self, seed, trials=(0,), precision="float32") -> None:
+        if self.refuses:
+            raise WorldError("is commanded by another")
+        self.events.append(f"begin {self.robot}")
+        super().reset(seed, trials, precision)
+
+    def link(self) -> LinkState:
+        return LinkState(self.robot, 0, 0, 0, 0, 0)
+
+    def close(self) -> None:
+        self.events.append(f"close {self.robot}")
+
+
+def test_a_robot_that_refuses_leaves_the_robot_in_use(engine: Engine):
+    events: list[str] = []
+    world = Linked("first", events)
+    running(engine, world)
+    until(lambda: world.moved > 5)
+    with pytest.raises(WorldError, match="commanded by another"):
+        do(engine, lambda: engine.see(Linked("second", [], refuses=True)))
+    moved = world.moved
+    until(lambda: world.moved > moved + 5)
+    assert events == ["begin first"] and engine.session is not None and engine.session.world is world
+
+
+@pytest.mark.parametrize(
+    ("robot", "expected"),
+    [("second", ["begin second", "close first"]), ("first", ["close first", "begin first"])],
+)
+def test_a_robot_is_left_for_another_or_for_another_link_with_it(engine: Engine, robot, expected):
+    events: list[str] = []
+    running(engine, Linked("first", events))
+    do(engine, lambda: engine.see(Linked(robot, events)))
+    assert events == ["begin first", *expected]
+
+
+@pytest.mark.parametrize("ended", [False, True])
+def test_the_next_document_leaves_the_robot_unless_it_moves_it(engine: Engine, ended: bool):
+    events: list[str] = []
+    world = Linked("first", events)
+    model = running(engine, world)
+    for coming, expected in [(world, []), (Halting(), ["close first"]), (Halting(), ["close first"])]:
+        if ended:
+            do(engine, lambda: engine.load(None))
+        do(engine, lambda coming=coming: engine.load(dd.Session(model, world=coming), leave=True))
+        assert [event for event in events if event.startswith("close")] == expected
+
+
+def test_a_session_that_may_return_keeps_its_robot(engine: Engine):
+    events: list[str] = []
+    model = running(engine, Linked("first", events))
+    do(engine, lambda: engine.load(dd.Session(model, world=Halting())))
+    assert events == ["begin first"]
