@@ -109,10 +109,10 @@ def value_in_page(doc: Document, element: str, parameter: str) -> Any:
     """Return a value as a page has it after the difference that sets it."""
     before = json.loads(msgspec.json.encode(view.document(doc, "", False, 0, 0)))
     difference = json.loads(msgspec.json.encode(view.one_parameter(doc, element, parameter)))
-    (value,) = (e["values"] for e in applied(before, difference)["elements"] if e["id"] == element)
+    (leaf,) = (e["values"] for e in applied(before, difference)["elements"] if e["id"] == element)
     for step in parameter.split("."):
-        value = value[int(step)] if isinstance(value, list) else value[step]
-    return value
+        leaf = leaf[int(step)] if isinstance(leaf, list) else leaf[step]
+    return leaf
 
 
 @pytest.mark.parametrize(
