@@ -72,6 +72,8 @@ class MotorRule:
         Raises:
             WorldError: no command is left, or not the one at rest.
         """
+        if slew is not None and not slew > 0:
+            raise WorldError(f"the change a second is {slew:g}; expected a number above 0", where)
         (low, high), (least, most) = (pair or (-math.inf, math.inf) for pair in (self.limits, limits))
         if not max(low, least) < min(high, most):
             raise WorldError(

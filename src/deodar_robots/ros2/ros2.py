@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -199,6 +200,12 @@ class ROS2(LimitedWorld):
         command = self._motors[motor][2]
         if slew is not None:
             command.require_rest()
+        if limits is not None and not command.rests:
+            rule = self._rules[motor]  # its rest is never sent, and only has to lie within the limits
+            low, high = rule.limits or limits
+            low, high = max(low, limits[0]), min(high, limits[1])
+            if low < high:
+                self._rules[motor] = replace(rule, rest=min(max(rule.rest, low), high))
         super().narrow(motor, limits, slew)
         command.rule = self.rules[motor]
 

@@ -83,7 +83,8 @@ def test_two_narrowings_of_one_motor_both_hold():
     [
         ((4.0, 6.0), None, "left: no value lies within both -2 to 3 and 4 to 6"),
         ((1.0, 2.0), None, "left: rest is 0; expected a value within the limits 1 to 2"),
-        (None, 0.0, "left: .*slew"),
+        (None, 0.0, "left: the change a second is 0; expected a number above 0"),
+        ((-1.0, 1.0), -2.0, "left: the change a second is -2; expected a number above 0"),
         ((1.0, -1.0), None, "left: no value lies within both"),
     ],
 )

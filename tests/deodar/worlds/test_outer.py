@@ -37,7 +37,17 @@ def test_methods_about_the_inner_world_are_passed_on_with_all_arguments(name: st
 
 def test_every_method_of_worlds_is_passed_on_or_defined_by_the_outer_world():
     methods = {name for name, m in vars(World).items() if inspect.isfunction(m) and not name.startswith("_")}
-    exchange = {"reset", "sense", "sense_all", "act", "keep", "older_form", "put", "describe", "validate_axes"}
+    exchange = {
+        "reset",
+        "sense",
+        "sense_all",
+        "act",
+        "keep",
+        "older_form",
+        "put",
+        "describe",
+        "validate_axes",
+    }
     assert methods - exchange - {"require", "require_motor"} == {*INNER, "validate", "close"}
 
 

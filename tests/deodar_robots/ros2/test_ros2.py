@@ -229,6 +229,21 @@ def test_a_motor_without_a_rest_gets_no_rate_of_change(robot):
     assert world.rules["arm"].limits == (-1.0, 1.0)
 
 
+@pytest.mark.parametrize("declared", [{}, {"limits": [-2, 2]}])
+def test_a_motor_without_a_rest_is_narrowed_to_a_range_without_zero(robot, declared):
+    arm = {"topic": "/arm", "type": "trajectory_msgs/JointTrajectory", "joints": ["a"], **declared}
+    world = ROS2({}, {"arm": arm, **DRIVE}, robot.at)
+    world.narrow("arm", (0.5, 1.5))
+    world.narrow("arm", (-1.0, 1.0))
+    assert world.rules["arm"].limits == (0.5, 1.0)
+    before = world.rules["arm"]
+    with pytest.raises(WorldError, match="arm: no value lies within both"):
+        world.narrow("arm", (-3.0, -2.0))
+    with pytest.raises(WorldError, match="rest is 0; expected a value within"):
+        world.narrow("turn", (0.5, 1.5))
+    assert world.rules["arm"] == before and ROS2.again(world.describe()).rules == world.rules
+
+
 def test_a_command_that_is_not_finite_is_not_sent(robot):
     world = begun(robot, motors=DRIVE)
     with pytest.raises(WorldError, match="motor 'forward': a command for /cmd_vel"):
