@@ -135,6 +135,8 @@ test("a robot is narrowed in the dialog before it is connected", async () => {
   await enter("left, from", "-2");
   await enter("left, to", "2");
   await enter("right, to", "1");
+  await button(page, "Use this world").click();
+  await dialog.getByText(/has one end; a range has two/).waitFor();
   await enter("right, from", "-1");
   await shot(page, "robot-before");
   await button(page, "Use this world").click();

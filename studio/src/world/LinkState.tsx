@@ -65,7 +65,15 @@ export function StopButton() {
                 : "The robot states these limits; they cannot be narrowed here."}
             </p>
             {can_narrow ? (
-              <NarrowMotors motors={motors} set={(limits) => socket.ask({ type: "narrow_motor", limits })} />
+              <NarrowMotors
+                motors={motors}
+                set={
+                  (limits) =>
+                    (limits.lower == null) === (limits.upper == null)
+                      ? socket.ask({ type: "narrow_motor", limits })
+                      : undefined // the other end of the range follows
+                }
+              />
             ) : (
               motors.map((motor) => <p key={motor.motor}>{motorText(motor)}</p>)
             )}

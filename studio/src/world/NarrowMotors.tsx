@@ -11,15 +11,12 @@ type NarrowMotorsProps = {
   set: (limits: MotorLimits) => void | Promise<Reply>;
 };
 
-// What was typed is shown until the server has answered; where no server is asked, as long as the form is
+// What was typed is shown until the server has answered; where `set` does not ask it, as long as the form is
 // there.
 export function NarrowMotors({ motors, set }: NarrowMotorsProps) {
   const [drafts, setDrafts] = useState<Record<string, MotorLimits>>({});
   const change = async (limits: MotorLimits) => {
     setDrafts((before) => ({ ...before, [limits.motor]: limits }));
-    if ((limits.lower == null) !== (limits.upper == null)) {
-      return undefined; // one end of a range
-    }
     const reply = await set(limits);
     if (reply !== undefined) {
       setDrafts(({ [limits.motor]: _, ...others }) => others);
