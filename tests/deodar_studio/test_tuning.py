@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -94,12 +95,33 @@ def test_a_tuning_is_stopped_and_what_it_refuses_is_said(root: Path) -> None:
     ("requirement", "measured", "met", "expected"),
     [
         (dd.detects(3, 0.2), 3.4, False, "The detection threshold is 3.4; you asked for 3 ± 0.2."),
-        (dd.detects(3, 0.2), None, False, "The detection threshold is not 3 ± 0.2, as you asked."),
+        (
+            dd.detects(3, 0.2),
+            None,
+            False,
+            "The detection threshold is not within 3 ± 0.2, which you asked for.",
+        ),
         (dd.detects(3, 0.2), None, True, "The detection threshold is 3 ± 0.2, as you asked."),
         (dd.peak_width(10, 1), 9.96, True, "The width of the peak is 9.96; you asked for 10 ± 1."),
+        (dd.detects(3, 1e-3), 3.0024, False, "The detection threshold is 3.0024; you asked for 3 ± 0.001."),
+        (
+            dd.peak_width(10, 1),
+            nan,
+            False,
+            "The width of the peak could not be measured; you asked for 10 ± 1.",
+        ),
+        (dd.rests(), None, True, "As you asked, the field has no peak without input."),
+        (
+            dd.relaxes_within(500),
+            812.0,
+            False,
+            "You asked that a peak vanishes within 500 s after its input; that is not so.",
+        ),
         (dd.forgets(), None, False, "You asked that a peak vanishes after its input; that is not so."),
         (dd.multi_peak(), None, True, "As you asked, two equal inputs each have a peak."),
     ],
 )
-def test_a_requirement_is_reported_in_words(requirement, measured, met, expected) -> None:
-    assert sentence(requirement, measured, met) == expected
+def test_a_requirement_is_reported_in_words(
+    requirement: dd.Requirement, measured: float | None, met: bool, expected: str
+) -> None:
+    assert sentence(requirement, measured, met, "s") == expected

@@ -48,6 +48,8 @@ BEHAVIOURS = {
     "forgets": "a peak vanishes after its input",
     "selects": "two equal inputs end in one peak",
     "multi_peak": "two equal inputs each have a peak",
+    "rests": "the field has no peak without input",
+    "relaxes_within": "a peak vanishes within {time:g} {time_unit} after its input",
 }
 """What a field does, in words, by the name of the requirement."""
 
@@ -130,11 +132,12 @@ def tuned(
     found = tune(
         packed.model, asked.parameters, asked.requirements, on=Resources(progress=tell), **asked.options
     )
+    time_unit = packed.model.document.time_unit
     return {
         "requirements": [
             RequirementView(
                 text=text,
-                sentence=sentence(requirement, found.reached.get(text), margin >= 0),
+                sentence=sentence(requirement, found.reached.get(text), margin >= 0, time_unit),
                 margin=margin if math.isfinite(margin) else None,
                 value=found.reached.get(text),
                 exact=text in found.exact,
@@ -148,18 +151,22 @@ def tuned(
     }
 
 
-def sentence(requirement: Requirement, measured: float | None, met: bool) -> str:
+def sentence(requirement: Requirement, measured: float | None, met: bool, time_unit: str) -> str:
     """Return in words what a field does, and what was asked for."""
     quantity = requirement.exact(0.0)
     if quantity is not None:
-        name, stated = (
-            QUANTITIES[quantity.kind],
-            f"{quantity.target:g} \N{PLUS-MINUS SIGN} {quantity.within:g}",
-        )
-        if measured is not None:
-            return f"The {name} is {measured:.3g}; you asked for {stated}."
-        return (
-            f"The {name} is {stated}, as you asked." if met else f"The {name} is not {stated}, as you asked."
-        )
-    words = BEHAVIOURS.get(type(requirement).__name__, str(requirement))
+        name = QUANTITIES[quantity.kind]
+        stated = f"{quantity.target:g} \N{PLUS-MINUS SIGN} {quantity.within:g}"
+        if measured is None:
+            return (
+                f"The {name} is {stated}, as you asked."
+                if met
+                else f"The {name} is not within {stated}, which you asked for."
+            )
+        # as many digits as a tolerance may need: 3.0004 is not 3 ± 0.0001
+        value = f"is {measured:.6g}" if math.isfinite(measured) else "could not be measured"
+        return f"The {name} {value}; you asked for {stated}."
+    words = BEHAVIOURS.get(type(requirement).__name__, "{requirement}").format_map(
+        {**vars(requirement), "requirement": requirement, "time_unit": time_unit}
+    )
     return f"As you asked, {words}." if met else f"You asked that {words}; that is not so."
