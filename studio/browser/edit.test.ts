@@ -130,7 +130,7 @@ test("a copy goes to another window as text, and foreign text is refused as a wh
   await second.close();
 });
 
-test("a function in pasted text is not imported: the page opens without it, or states how to trust it", async () => {
+test("a pasted function is not imported: the page opens without it, or states how to trust it", async () => {
   const { page, folder } = studio;
   writeFileSync(join(folder, "hostile.py"), 'open("called", "w").close()\n');
   const called = { kind: "Function", id: "0000000a", axes: [], function: "hostile:call" };
