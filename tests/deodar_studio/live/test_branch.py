@@ -259,6 +259,7 @@ def test_a_branch_brings_back_no_motor_without_its_limits(
     branched.branch(28 * 16)
     world = branched.session.world
     assert world is not None and world.rules["left"].limits == (-1.0, 1.0)
+    bits(branched.session)  # moves the world up to this moment
     branched.do(world.halt)  # as the pause did after the steps
     assert bits(branched.session) == after
 
