@@ -214,6 +214,10 @@ def test_a_pasted_function_runs_only_where_the_studio_was_started_with_trust(
         (problem,) = p.clock["failure"]
         assert problem["trust"] and not problem["repair"] and "--" not in problem["what"] + problem["fix"]
         assert "pasted_module:f" in problem["what"]
+        # a reader that is compiled for another port is no edit that can run
+        await p.do("watch", stream=1, element=p.element("u"), port="output")
+        await p.until(lambda: 1 in p.frames)
+        assert p.clock["failure"]
         before = len(p.document["elements"])
         await p.do("open_without_functions")
         await p.until(lambda: len(p.document["elements"]) == before - 1)

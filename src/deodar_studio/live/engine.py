@@ -607,7 +607,6 @@ class Engine:
             self._target, self._uncompiled = None, True
             self.failure = (problems_of(error), ())
             return None
-        self._forgive()
         if session.program is program:
             self._reader, self._sample = at_shown, at_sampled
             self._take_first(session)
@@ -627,6 +626,7 @@ class Engine:
             self.reset()
         session.edit(document)
         self._target = None
+        self._forgive()
 
 
 def _moves_robot(session: Session | None) -> bool:
