@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 
-import { fakeLayout } from "../architecture/fakes";
+import { fakeKind, fakeLayout } from "../architecture/fakes";
 import { openTool } from "../state/tool";
 import type { DocumentView, ExperimentView, Folder, Kind, Welcome } from "../protocol";
 import { useStudio } from "../server/store";
@@ -26,21 +26,7 @@ const document: DocumentView = {
   undo: 1,
   redo: 0,
 };
-const picture: Kind = {
-  name: "Picture",
-  room: "worlds",
-  title: "Picture",
-  equation: [],
-  reference: "",
-  parameters: [],
-  ports: {},
-  levels: {},
-  maps: {},
-  example: null,
-  opens: [".png"],
-  names: [],
-  settings: [],
-};
+const picture = fakeKind("Picture", "worlds", { opens: [".png"] });
 const arena: Kind = { ...picture, name: "Arena", title: "Arena", opens: [".json"] };
 const worlds = new Map([arena, picture].map((kind) => [kind.name, kind]));
 

@@ -31,7 +31,7 @@ function Pins() {
   const [over, setOver] = useState<number | null>(null);
 
   if (!open) {
-    return <div className="pins inspector-empty">No document is open.</div>;
+    return <div className="pins dim">No document is open.</div>;
   }
   const drop = () => {
     if (dragged !== null && over !== null) {

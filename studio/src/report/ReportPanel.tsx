@@ -50,7 +50,7 @@ function Walk({ report }: { report: ImportReportView }) {
   const count = items.reduce((sum, { lines }) => sum + lines.length, 0);
   return (
     <div className="report">
-      <div className="report-head">
+      <div>
         <div className="across">
           <span className="grow wrapped">
             <b>{report.file}</b> ({report.tool}): {summaryText(report)}
